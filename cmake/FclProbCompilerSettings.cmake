@@ -1,0 +1,21 @@
+# Warnings and sanitizers of our own targets; nothing here reaches a consumer except the Eigen guard.
+add_library(fcl_prob_settings INTERFACE)
+target_compile_options(fcl_prob_settings INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion)
+# Results must not depend on which instruction set a kernel was compiled for.
+target_compile_options(fcl_prob_settings INTERFACE -ffp-contract=off)
+if(FCL_PROB_WERROR)
+  target_compile_options(fcl_prob_settings INTERFACE -Werror)
+endif()
+if(FCL_PROB_SANITIZE)
+  target_compile_options(fcl_prob_settings INTERFACE -fsanitize=${FCL_PROB_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(fcl_prob_settings INTERFACE -fsanitize=${FCL_PROB_SANITIZE})
+endif()
+
+# Eigen's alignment is part of libfcl's ABI: a wider one in our build crashes at run time.
+foreach(flags "${CMAKE_CXX_FLAGS}" "${CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}}")
+  if(flags MATCHES "-march=native|-mavx")
+    message(STATUS "fcl_prob: wide instruction sets asked for; keeping EIGEN_MAX_ALIGN_BYTES=16 "
+      "so that Eigen's layout matches the installed libfcl")
+  endif()
+endforeach()

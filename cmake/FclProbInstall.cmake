@@ -1,0 +1,25 @@
+# install() and find_package(fcl_prob).
+include(CMakePackageConfigHelpers)
+set(FCL_PROB_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fcl_prob)
+
+set(fcl_prob_installed fcl_prob)
+if(FCL_PROB_WITH_ASSIMP)
+  list(APPEND fcl_prob_installed fcl_prob_io)
+endif()
+install(TARGETS ${fcl_prob_installed} EXPORT fcl_prob-targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS fcl_prob_settings EXPORT fcl_prob-targets)
+if(FCL_PROB_BUILD_CLI)
+  install(TARGETS fcl_prob_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR})
+install(FILES package.xml DESTINATION share/fcl_prob)
+
+configure_package_config_file(cmake/fcl_prob-config.cmake.in
+  ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config.cmake INSTALL_DESTINATION ${FCL_PROB_CMAKE_DIR})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config-version.cmake DESTINATION ${FCL_PROB_CMAKE_DIR})

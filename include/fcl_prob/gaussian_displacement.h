@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The random displacement of object A relative to object B.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace fcl_prob {
+
+/// The displacement `ε ~ N(mean, covariance)` by which object A is moved, as a translation in the world
+/// frame, relative to object B. Metres. The covariance may have rank 0 to 3: along a direction of
+/// variance zero A does not move beyond the mean.
+///
+/// Immutable after construction, so it may be shared between threads.
+class GaussianDisplacement {
+ public:
+  /// No displacement at all: zero mean, zero covariance.
+  GaussianDisplacement();
+
+  /// \param mean        metres, world frame
+  /// \param covariance  square metres, world frame; symmetric to 1e-9 of its largest entry and positive
+  ///                    semidefinite to 1e-12 of it (what rounding leaves of a singular matrix)
+  /// \throws InvalidDistribution if either is not finite, or the covariance is not symmetric or has a
+  ///         negative eigenvalue; the message holds the offending value.
+  GaussianDisplacement(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
+
+  /// Zero mean, standard deviations (metres, each >= 0) along the columns of `axes`' rotation matrix.
+  /// Keeps the standard deviations exactly, also where squaring them would underflow the others.
+  static GaussianDisplacement fromStandardDeviations(
+      const Eigen::Vector3d& standard_deviations,
+      const Eigen::Quaterniond& axes = Eigen::Quaterniond::Identity(),
+      const Eigen::Vector3d& mean = Eigen::Vector3d::Zero());
+
+  /// The displacement of A relative to B when both move independently: mean_a - mean_b, Σ_a + Σ_b.
+  static GaussianDisplacement fromIndependent(const GaussianDisplacement& of_a,
+                                              const GaussianDisplacement& of_b);
+
+  const Eigen::Vector3d& mean() const { return mean_; }
+  const Eigen::Matrix3d& covariance() const { return covariance_; }
+
+  /// Standard deviations along axes(), metres, largest first; exactly 0 beyond the rank.
+  const Eigen::Vector3d& standardDeviations() const { return standard_deviations_; }
+
+  /// Principal axes as columns (a rotation: determinant +1), world frame, in the order of
+  /// standardDeviations().
+  const Eigen::Matrix3d& axes() const { return axes_; }
+
+  /// Number of directions in which A moves: 0 to 3. A standard deviation below 1e-9 of the largest that
+  /// came out of an eigen-decomposition counts as zero only if it is within rounding of it.
+  int rank() const { return rank_; }
+
+  /// All three standard deviations equal (to 1e-12) and not zero: whitening is a scaling.
+  bool isotropic() const;
+
+  /// The same displacement with another mean (metres, world frame).
+  GaussianDisplacement withMean(const Eigen::Vector3d& mean) const;
+
+  /// The displacement of B relative to A: the same distribution mirrored, so the mean changes sign.
+  GaussianDisplacement reversed() const;
+
+  /// The same displacement seen from a world rotated by `rotation`.
+  GaussianDisplacement rotated(const Eigen::Matrix3d& rotation) const;
+
+ private:
+  Eigen::Vector3d mean_;
+  Eigen::Matrix3d covariance_;
+  Eigen::Vector3d standard_deviations_;
+  Eigen::Matrix3d axes_;
+  int rank_;
+};
+
+}  // namespace fcl_prob

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Masses of the standard normal distribution that keep their relative accuracy far into the tails.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fcl_prob/bounds.h"
+
+namespace fcl_prob {
+
+/// Φ(-h): the mass of the half-space { m·y >= h }, |m| = 1. Relative accuracy a few ulp for every h for
+/// which the result is a normal double; h may be infinite.
+double normalTailMass(double h);
+
+/// log Φ(-h), accurate also where Φ(-h) underflows (h > 38) and where it is close to 1.
+double logNormalTailMass(double h);
+
+/// Mass of [lo, hi] under N(0, 1): 0 if hi <= lo; the ends may be infinite. Computed on the side of the
+/// tail, so that it keeps about 1e-15 relative accuracy down to 1e-300; for intervals far narrower than
+/// 1 it does not cancel either.
+double normalIntervalMass(double lo, double hi);
+
+/// ∫ y φ(y) dy over [lo, hi]: φ(lo) - φ(hi), without cancellation.
+double normalIntervalMoment(double lo, double hi);
+
+/// Mass of the box [lo, hi] under N(0, I): the product of three interval masses.
+double normalBoxMass(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi);
+
+/// Mass of the ball |y - centre| <= radius under N(0, I), with |centre| = distance: closed form of the
+/// noncentral chi-square distribution with three degrees of freedom. Relative accuracy 1e-12 or the
+/// returned bounds say otherwise.
+Bounds normalBallMass(double distance, double radius);
+
+/// Relative rounding error that no mass of an interval exceeds; a certified result is widened by a
+/// multiple of it (a box: three times).
+inline constexpr double kIntervalMassRelativeError = 16 * 2.220446049250313e-16;
+
+}  // namespace fcl_prob

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What is asked of a query.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fcl_prob/bounds.h"
+
+namespace fcl_prob {
+
+/// How the probability is computed.
+enum class ProbabilityMethod {
+  automatic,       ///< the best that the scene allows; ProbabilityResult::plan says which
+  interval,        ///< certified interval by a disjoint partition of the displacement space
+  estimate,        ///< the partition's unbiased estimate with its standard error; interval also given
+  exact,           ///< two convex shapes only: exact mass of their C-obstacle
+  convex_pcd,      ///< least upper bound of two convex shapes (or of the root volumes of meshes)
+  general_pcd,     ///< upper bound by the paper's Algorithm 2 over the bounding volume trees
+  general_pcd_min, ///< the same with min(parent, sum of the children) at every node
+  monte_carlo,     ///< displaced fcl::collide: a confidence interval, nothing certified
+  rare_event       ///< importance sampling around the nearest contact: a confidence interval
+};
+
+/// What counts as a collision.
+enum class ContactMeaning {
+  fcl,   ///< what fcl::collide answers: meshes are surfaces, primitives and Convex are solids
+  solid  ///< closed meshes are solids too: one inside the other collides
+};
+
+/// How far a running query has come; `interval` is valid at every moment (certified for the partition,
+/// a confidence interval for Monte Carlo).
+struct ProbabilityProgress {
+  Bounds interval;
+  double fraction = 0.0;  ///< of the work that the limits allow, 0 to 1
+  double seconds = 0.0;
+};
+
+struct ProbabilityRequest {
+  ProbabilityMethod method = ProbabilityMethod::automatic;
+  ContactMeaning contact = ContactMeaning::fcl;
+
+  /// The query stops when upper - lower <= max(absolute_tolerance, relative_tolerance * upper).
+  /// Both >= 0 and not both 0. For estimates the same holds for the standard error.
+  double relative_tolerance = 0.01;
+  double absolute_tolerance = 1e-6;
+
+  /// Stop as soon as it is certain on which side of this probability P lies.
+  std::optional<double> threshold;
+
+  /// Seconds; not set means no limit, so that results repeat.
+  std::optional<double> time_limit;
+
+  /// Limits of the partition: cells examined, bytes of its data structures.
+  std::size_t max_cells = 2'000'000;
+  std::size_t max_memory = std::size_t{1} << 30;
+
+  /// general_pcd: δ, pairs below 1 - δ are not refined. Sampling: coverage of the confidence interval.
+  double confidence = 0.99;
+
+  /// Sampling: number of samples at most, and the seed that fixes all of them.
+  std::size_t samples = 10'000;
+  std::uint64_t seed = 1;
+
+  /// Threads to use, >= 1. Results do not depend on it.
+  unsigned threads = 1;
+
+  /// Also compute the gradient of P with respect to the mean displacement.
+  bool gradient = false;
+
+  /// Called now and then from the calling thread; returning false cancels the query, whose result is
+  /// valid all the same (status `cancelled`).
+  std::function<bool(const ProbabilityProgress&)> on_progress;
+};
+
+/// The names used on the command line and in reports ("auto", "interval", "general-pcd", ...).
+std::string toString(ProbabilityMethod method);
+std::optional<ProbabilityMethod> methodFromString(const std::string& name);
+std::vector<std::string> methodNames();
+
+}  // namespace fcl_prob

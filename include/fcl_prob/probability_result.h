@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What a query answers.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fcl_prob/bounds.h"
+#include "fcl_prob/probability_request.h"
+
+namespace fcl_prob {
+
+/// On which side of the threshold P is, with certainty.
+enum class Decision { none, below, above, undecided };
+
+/// Why a query stopped.
+enum class ProbabilityStatus {
+  converged,       ///< the tolerance was reached
+  exact,           ///< everything is resolved: only the rounding margin is left
+  decided,         ///< the threshold was decided
+  bound_only,      ///< the method gives one upper bound and has no tolerance to reach
+  sampled,         ///< the number of samples asked for was drawn
+  time_limit,      ///< the interval is valid but wider than asked for
+  cell_limit,      ///< as above
+  memory_limit,    ///< as above
+  resolution_limit,///< as above: what is left cannot be divided further in double precision
+  cancelled        ///< as above, by on_progress
+};
+
+/// What the query did. Counters that a method does not use stay 0.
+struct ProbabilityStatistics {
+  std::size_t cells = 0;         ///< cells of the partition examined
+  std::size_t cells_open = 0;    ///< cells left unresolved
+  std::size_t pairs_tested = 0;  ///< node pairs tested against a cell, or bounded by general_pcd
+  std::size_t leaf_pairs = 0;    ///< pairs of convex pieces whose C-obstacle was built
+  std::size_t peak_front = 0;    ///< longest front of a cell
+  std::size_t peak_memory = 0;   ///< bytes of the partition's data structures
+  std::size_t samples = 0;
+  std::size_t hits = 0;
+  std::optional<double> raw_sum; ///< general_pcd: the sum before clipping at 1
+  std::vector<std::pair<std::string, double>> seconds;  ///< time by stage
+};
+
+struct ProbabilityResult {
+  ProbabilityMethod method = ProbabilityMethod::automatic;  ///< the one that answered
+
+  /// Certified: lower <= P <= upper on every input. Not set by sampling methods; `lower` is not set by
+  /// methods that only bound from above.
+  std::optional<double> lower;
+  std::optional<double> upper;
+
+  /// An estimate (not certified) and its standard error.
+  std::optional<double> estimate;
+  std::optional<double> standard_error;
+
+  /// Sampling: an interval that covers P with probability ProbabilityRequest::confidence.
+  std::optional<Bounds> confidence_interval;
+
+  /// ∂P/∂mean, 1/metres, world frame, with certified component-wise bounds where the method has them
+  /// and a standard error where it samples.
+  std::optional<Eigen::Vector3d> gradient;
+  std::optional<Eigen::Vector3d> gradient_lower;
+  std::optional<Eigen::Vector3d> gradient_upper;
+  std::optional<Eigen::Vector3d> gradient_standard_error;
+
+  Decision decision = Decision::none;
+  ProbabilityStatus status = ProbabilityStatus::converged;
+
+  /// What was used, what was left out, and why: one sentence each.
+  std::vector<std::string> plan;
+
+  ProbabilityStatistics statistics;
+
+  /// The single number to use: the estimate if there is one, else the middle of a two-sided interval,
+  /// else the upper bound.
+  double probability() const;
+};
+
+std::string toString(Decision decision);
+std::string toString(ProbabilityStatus status);
+
+}  // namespace fcl_prob
