@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// From a CollisionGeometry to the BVHModel<BV> that it is.
+#pragma once
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include <utility>
+
+#include "fcl_prob/exceptions.h"
+#include "geometry/geometry_kind.h"
+
+namespace fcl_prob::detail {
+
+/// Calls `function` with the concrete `const fcl::BVHModel<BV>&` and returns what it returns (the
+/// same type for every BV). \throws UnsupportedGeometry if `geometry` is not a mesh.
+template <typename Function>
+auto visitMesh(const fcl::CollisionGeometryd& geometry, Function&& function)
+    -> decltype(function(std::declval<const fcl::BVHModel<fcl::OBBRSSd>&>())) {
+  const auto as = [&geometry](auto* type) -> decltype(*type) {
+    return static_cast<decltype(*type)>(geometry);
+  };
+  switch (geometry.getNodeType()) {
+    case fcl::BV_AABB:
+      return function(as(static_cast<const fcl::BVHModel<fcl::AABBd>*>(nullptr)));
+    case fcl::BV_OBB:
+      return function(as(static_cast<const fcl::BVHModel<fcl::OBBd>*>(nullptr)));
+    case fcl::BV_RSS:
+      return function(as(static_cast<const fcl::BVHModel<fcl::RSSd>*>(nullptr)));
+    case fcl::BV_kIOS:
+      return function(as(static_cast<const fcl::BVHModel<fcl::kIOSd>*>(nullptr)));
+    case fcl::BV_OBBRSS:
+      return function(as(static_cast<const fcl::BVHModel<fcl::OBBRSSd>*>(nullptr)));
+    case fcl::BV_KDOP16:
+      return function(as(static_cast<const fcl::BVHModel<fcl::KDOPd<16>>*>(nullptr)));
+    case fcl::BV_KDOP18:
+      return function(as(static_cast<const fcl::BVHModel<fcl::KDOPd<18>>*>(nullptr)));
+    case fcl::BV_KDOP24:
+      return function(as(static_cast<const fcl::BVHModel<fcl::KDOPd<24>>*>(nullptr)));
+    default:
+      throw UnsupportedGeometry("not a mesh: " + nodeTypeName(geometry.getNodeType()));
+  }
+}
+
+/// The triangles of a mesh, whatever its bounding volumes: pointers into the model, which must
+/// outlive it.
+struct MeshView {
+  const fcl::Vector3d* vertices = nullptr;  ///< metres, frame of the geometry
+  int vertex_count = 0;
+  const fcl::Triangle* triangles = nullptr;  ///< null in a point cloud
+  int triangle_count = 0;
+  fcl::BVHBuildState build_state = fcl::BVH_BUILD_STATE_EMPTY;
+  int node_count = 0;  ///< of the bounding volume tree
+
+  const fcl::Vector3d& vertex(int triangle, int corner) const {
+    return vertices[triangles[triangle][corner]];
+  }
+};
+
+/// \throws UnsupportedGeometry if `geometry` is not a mesh.
+MeshView meshView(const fcl::CollisionGeometryd& geometry);
+
+}  // namespace fcl_prob::detail
