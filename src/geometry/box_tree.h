@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A bounding volume tree of axis-aligned boxes for rays along the axes.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace fcl_prob::detail {
+
+/// Axis-aligned boxes in a binary tree, split at the median; memory linear in their number.
+class BoxTree {
+ public:
+  using Box = Eigen::AlignedBox3d;
+
+  BoxTree() = default;
+  explicit BoxTree(const std::vector<Box>& boxes);
+
+  /// Calls `function(index)` for every box that is within `margin` of the ray from `origin` along
+  /// the positive `axis`; stops and returns false as soon as one call returns false.
+  template <typename Function>
+  bool visitRay(int axis, const Eigen::Vector3d& origin, double margin, Function&& function) const {
+    std::array<int, kStackSize> stack;
+    std::size_t size = 0;
+    if (!nodes_.empty()) stack[size++] = 0;
+    while (size > 0) {
+      const Node& node = nodes_[stack[--size]];
+      if (!meetsRay(node.box, axis, origin, margin)) continue;
+      if (node.item >= 0) {
+        if (!function(node.item)) return false;
+      } else {
+        stack[size++] = node.left;
+        stack[size++] = node.right;
+      }
+    }
+    return true;
+  }
+
+ private:
+  // Splitting at the median makes the depth at most the number of bits of an int.
+  static constexpr std::size_t kStackSize = 64;
+
+  struct Node {
+    Box box;
+    int item = -1;  // of a leaf
+    int left = -1;
+    int right = -1;
+  };
+
+  static bool meetsRay(const Box& box, int axis, const Eigen::Vector3d& origin, double margin) {
+    if (box.max()[axis] < origin[axis] - margin) return false;
+    for (int side : {(axis + 1) % 3, (axis + 2) % 3}) {
+      if (box.min()[side] > origin[side] + margin || box.max()[side] < origin[side] - margin) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  int build(const std::vector<Box>& boxes, std::vector<int>& order, int first, int last);
+
+  std::vector<Node> nodes_;
+};
+
+}  // namespace fcl_prob::detail

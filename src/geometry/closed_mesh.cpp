@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "geometry/closed_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "fcl_prob/exceptions.h"
+#include "geometry/directed_edges.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// A rotation with no special angles: edges that line up along the axes in a typical mesh do not
+/// line up with the rays here, which would make their signs uncertain.
+Eigen::Matrix3d genericRotation() {
+  return Eigen::Quaterniond(0.8142, 0.2931, 0.4127, -0.2839).normalized().toRotationMatrix();
+}
+
+/// For every vertex the first vertex with the same coordinates (-0 equals 0).
+std::vector<int> weld(const MeshView& mesh) {
+  std::vector<int> order(mesh.vertex_count);
+  std::iota(order.begin(), order.end(), 0);
+  const auto less = [&mesh](int a, int b) {
+    const auto& p = mesh.vertices[a];
+    const auto& q = mesh.vertices[b];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  };
+  std::stable_sort(order.begin(), order.end(), less);
+  std::vector<int> welded(mesh.vertex_count);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && mesh.vertices[order[i]] == mesh.vertices[order[i - 1]];
+    welded[order[i]] = same ? welded[order[i - 1]] : order[i];
+  }
+  return welded;
+}
+
+struct Surface {
+  std::vector<int> triangles;  // those with three different corners
+  EdgePairing pairing;
+};
+
+/// Triangles with two equal corners have no inside to bound and cancel out of the pairing.
+Surface surfaceOf(const MeshView& mesh) {
+  const std::vector<int> welded = weld(mesh);
+  Surface surface;
+  std::vector<DirectedEdge> edges;
+  for (int t = 0; t < mesh.triangle_count; ++t) {
+    int corners[3];
+    for (int k = 0; k < 3; ++k) corners[k] = welded[mesh.triangles[t][k]];
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+    surface.triangles.push_back(t);
+    for (int k = 0; k < 3; ++k) edges.push_back({corners[k], corners[(k + 1) % 3], t});
+  }
+  surface.pairing = pairEdges(std::move(edges));
+  if (surface.triangles.empty()) surface.pairing.fault = "every triangle is degenerate";
+  return surface;
+}
+
+int rootOf(std::vector<int>& parent, int i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// The first corner of one triangle of every part that hangs together by edges.
+std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh, const Surface& surface) {
+  std::vector<int> parent(mesh.triangle_count);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const EdgeMatch& match : surface.pairing.matches) {
+    const int a = rootOf(parent, match.forward.polygon);
+    const int b = rootOf(parent, match.backward.polygon);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (int t : surface.triangles) {
+    if (rootOf(parent, t) == t) points.push_back(mesh.vertex(t, 0));
+  }
+  return points;
+}
+
+/// Sign of `value` if it exceeds its error, else 0.
+int certainSign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
+
+}  // namespace
+
+std::optional<std::string> opennessOf(const MeshView& mesh) {
+  return surfaceOf(mesh).pairing.fault;
+}
+
+ClosedMesh::ClosedMesh(const MeshView& mesh, const std::string& name) {
+  const Surface surface = surfaceOf(mesh);
+  if (surface.pairing.fault) {
+    throw OpenMesh(name + " is not a closed mesh: " + *surface.pairing.fault);
+  }
+  part_points_ = onePointAPart(mesh, surface);
+
+  BoxTree::Box bounds;
+  for (int t : surface.triangles) {
+    for (int k = 0; k < 3; ++k) bounds.extend(mesh.vertex(t, k));
+  }
+  centre_ = bounds.center();
+  const Eigen::Matrix3d rotation = genericRotation();
+  std::vector<BoxTree::Box> boxes;
+  for (int t : surface.triangles) {
+    Triangle triangle;
+    BoxTree::Box box;
+    for (int k = 0; k < 3; ++k) {
+      triangle.corners[k] = rotation * (mesh.vertex(t, k) - centre_);
+      box.extend(triangle.corners[k]);
+      radius_ = std::max(radius_, triangle.corners[k].cwiseAbs().maxCoeff());
+    }
+    triangles_.push_back(triangle);
+    boxes.push_back(box);
+  }
+  tree_ = BoxTree(boxes);
+}
+
+// The ray of `point` along one axis of the rotated frame meets the triangles whose projections
+// contain it; the winding number is the sum of the signs of those ahead. Vertices and point are
+// known to `margin` only (subtraction and rotation round), so an answer counts only if no move by
+// `margin` can change any of the signs: then the winding number of the mesh as given is the same,
+// since moving from one to the other never carries the surface across the point's ray.
+std::optional<int> ClosedMesh::windingAlong(int axis, const Eigen::Vector3d& point,
+                                            double margin) const {
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  int winding = 0;
+  const bool certain = tree_.visitRay(axis, point, 4 * margin, [&](int item) {
+    Eigen::Vector3d d[3];
+    double reach = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      d[k] = triangles_[item].corners[k] - point;
+      reach = std::max(reach, d[k].cwiseAbs().maxCoeff());
+    }
+    int positive = 0;
+    int negative = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d& a = d[k];
+      const Eigen::Vector3d& b = d[(k + 1) % 3];
+      const int sign = certainSign(a[u] * b[v] - a[v] * b[u], 16 * margin * (reach + margin));
+      positive += sign > 0;
+      negative += sign < 0;
+    }
+    if (positive > 0 && negative > 0) return true;
+    if (positive < 3 && negative < 3) return false;
+    const double volume = d[0].dot(d[1].cross(d[2]));
+    const int ahead = certainSign(volume, 96 * margin * (reach + margin) * (reach + margin));
+    if (ahead == 0) return false;
+    const int facing = positive == 3 ? 1 : -1;
+    if (ahead == facing) winding += facing;
+    return true;
+  });
+  return certain ? std::optional<int>(winding) : std::nullopt;
+}
+
+Containment ClosedMesh::contains(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d relative = point - centre_;
+  const double reach = relative.cwiseAbs().maxCoeff();
+  if (!(reach <= 2 * radius_)) {
+    return std::isfinite(reach) ? Containment::outside : Containment::unknown;
+  }
+  const double largest =
+      std::max({radius_, centre_.cwiseAbs().maxCoeff(), point.cwiseAbs().maxCoeff()});
+  const double margin = 16 * std::numeric_limits<double>::epsilon() * largest;
+  const Eigen::Vector3d rotated = genericRotation() * relative;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const auto winding = windingAlong(axis, rotated, margin)) {
+      return *winding != 0 ? Containment::inside : Containment::outside;
+    }
+  }
+  return Containment::unknown;
+}
+
+}  // namespace fcl_prob::detail

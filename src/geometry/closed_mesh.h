@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A mesh whose surface encloses a solid.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/box_tree.h"
+#include "geometry/mesh_visitor.h"
+
+namespace fcl_prob::detail {
+
+/// Where a point is relative to a solid; `unknown` within rounding of its surface.
+enum class Containment { inside, outside, unknown };
+
+/// A triangle mesh in which, after welding vertices of equal coordinates, every edge is shared by
+/// exactly two triangles that walk it in opposite directions. It bounds the solid of all points
+/// with a winding number other than zero: shells that overlap are united, a shell of the opposite
+/// orientation inside another one is a cavity, and a mesh that is inside out as a whole is the same
+/// solid. Immutable; keeps copies of what it needs.
+class ClosedMesh {
+ public:
+  /// \throws OpenMesh naming an edge at which the surface is open, branches or changes its
+  /// orientation.
+  ClosedMesh(const MeshView& mesh, const std::string& name);
+
+  /// Whether the solid contains `point` (metres, frame of the mesh). Never wrong: signs of
+  /// determinants are used only where they exceed their rounding error, else the answer is
+  /// `unknown`.
+  Containment contains(const Eigen::Vector3d& point) const;
+
+  /// One vertex of every connected part of the surface (metres, frame of the mesh). Where the
+  /// surfaces of two solids do not meet, the solids overlap if and only if one of these points of
+  /// either is in the other.
+  const std::vector<Eigen::Vector3d>& partPoints() const { return part_points_; }
+
+ private:
+  struct Triangle {
+    Eigen::Vector3d corners[3];
+  };
+
+  std::optional<int> windingAlong(int axis, const Eigen::Vector3d& point, double margin) const;
+
+  Eigen::Vector3d centre_;
+  double radius_ = 0.0;              // largest coordinate of a vertex relative to centre_
+  std::vector<Triangle> triangles_;  // rotated, relative to centre_
+  BoxTree tree_;
+  std::vector<Eigen::Vector3d> part_points_;
+};
+
+/// What keeps the mesh from being closed, in words; nothing if it is closed.
+std::optional<std::string> opennessOf(const MeshView& mesh);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include <random>
+
+#include "catch.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/closed_mesh.h"
+#include "mesh_shapes.h"
+
+using namespace fcl_prob::detail;
+using namespace fcl_prob_test;
+
+namespace {
+
+using Model = fcl::BVHModel<fcl::OBBRSSd>;
+
+ClosedMesh closed(const TriangleMesh& mesh) {
+  return ClosedMesh(meshView(*makeModel<fcl::OBBRSSd>(mesh)), "mesh");
+}
+
+std::optional<std::string> openness(const TriangleMesh& mesh) {
+  return opennessOf(meshView(*makeModel<fcl::OBBRSSd>(mesh)));
+}
+
+Eigen::Isometry3d moved(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+}  // namespace
+
+TEST_CASE("closed meshes are recognised") {
+  CHECK_FALSE(openness(boxMesh({1, 2, 3})));
+  CHECK_FALSE(openness(sphereMesh(1, 8, 12)));
+  CHECK_FALSE(openness(torusMesh(1, 0.3, 12, 8)));
+  CHECK_FALSE(openness(reversed(boxMesh({1, 1, 1}))));
+}
+
+TEST_CASE("vertices of equal coordinates are one vertex") {
+  const TriangleMesh box = boxMesh({1, 2, 3});
+  TriangleMesh soup;
+  for (const auto& t : box.triangles) {
+    for (int k = 0; k < 3; ++k) soup.vertices.push_back(box.vertices[t[k]]);
+    const std::size_t n = soup.vertices.size();
+    soup.triangles.emplace_back(n - 3, n - 2, n - 1);
+  }
+  CHECK_FALSE(openness(soup));
+  CHECK(closed(soup).contains({0.4, 0.9, 1.4}) == Containment::inside);
+  soup.vertices[0][0] = std::nextafter(soup.vertices[0][0], 2.0);
+  CHECK(openness(soup));
+}
+
+TEST_CASE("open, branching and twisted meshes are refused by name of the edge") {
+  TriangleMesh hole = sphereMesh(1, 8, 12);
+  hole.triangles.pop_back();
+  REQUIRE(openness(hole));
+  CHECK_THAT(*openness(hole), Catch::Matchers::Contains("one face only"));
+  CHECK_THROWS_AS(closed(hole), fcl_prob::OpenMesh);
+
+  TriangleMesh fin = boxMesh({1, 1, 1});
+  fin.vertices.push_back({2, 2, 2});
+  fin.triangles.emplace_back(0, 1, fin.vertices.size() - 1);
+  CHECK_THAT(*openness(fin), Catch::Matchers::Contains("face"));
+
+  TriangleMesh twisted = boxMesh({1, 1, 1});
+  std::swap(twisted.triangles[3][0], twisted.triangles[3][1]);
+  CHECK_THAT(*openness(twisted), Catch::Matchers::Contains("same direction"));
+}
+
+TEST_CASE("a degenerate triangle neither closes nor opens a mesh") {
+  TriangleMesh box = boxMesh({1, 1, 1});
+  box.triangles.emplace_back(0, 0, 1);
+  CHECK_FALSE(openness(box));
+}
+
+TEST_CASE("containment in a box mesh agrees with the box") {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  const Eigen::Vector3d sides(1, 2, 1.5);
+  const ClosedMesh mesh = closed(boxMesh(sides));
+  int inside = 0;
+  const int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d p(coordinate(generator), coordinate(generator), coordinate(generator));
+    const bool expected = (p.cwiseAbs().array() <= 0.5 * sides.array()).all();
+    inside += expected;
+    REQUIRE(mesh.contains(p) == (expected ? Containment::inside : Containment::outside));
+  }
+  CHECK(inside > count / 20);
+  CHECK(inside < count / 2);
+}
+
+TEST_CASE("containment in a torus agrees with its faceted cross-sections") {
+  std::mt19937_64 generator(12);
+  std::uniform_real_distribution<double> coordinate(-1.4, 1.4);
+  const ClosedMesh mesh = closed(torusMesh(1, 0.3, 96, 64));
+  int inside = 0;
+  int outside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d p(coordinate(generator), coordinate(generator),
+                            0.3 * coordinate(generator));
+    const double tube = std::hypot(std::hypot(p[0], p[1]) - 1.0, p[2]);
+    if (std::abs(tube - 0.3) < 0.005) continue;  // between the facets and the round torus
+    const bool expected = tube < 0.3;
+    (expected ? inside : outside) += 1;
+    REQUIRE(mesh.contains(p) == (expected ? Containment::inside : Containment::outside));
+  }
+  CHECK(inside > 1000);
+  CHECK(outside > 1000);
+}
+
+TEST_CASE("points on the surface are never certain, points an ulp-scale away always right") {
+  const TriangleMesh box = boxMesh({1, 1, 1});
+  const ClosedMesh mesh = closed(box);
+  for (const auto& vertex : box.vertices) CHECK(mesh.contains(vertex) == Containment::unknown);
+  CHECK(mesh.contains({0.5, 0.1, 0.2}) == Containment::unknown);
+  CHECK(mesh.contains({0.5 + 1e-12, 0.1, 0.2}) == Containment::outside);
+  CHECK(mesh.contains({0.5 - 1e-12, 0.1, 0.2}) == Containment::inside);
+}
+
+TEST_CASE(
+    "far from the origin the uncertain layer grows with the coordinates and nothing is wrong") {
+  const Eigen::Vector3d offset(1e6, -2e6, 3e6);
+  const ClosedMesh mesh = closed(transformed(boxMesh({1, 1, 1}), moved(1e6, -2e6, 3e6)));
+  CHECK(mesh.contains(offset + Eigen::Vector3d(0.49, 0.3, 0.2)) == Containment::inside);
+  CHECK(mesh.contains(offset + Eigen::Vector3d(0.51, 0.3, 0.2)) == Containment::outside);
+  CHECK(mesh.contains({0, 0, 0}) == Containment::outside);
+}
+
+TEST_CASE("shells: cavities, overlapping shells, inside-out meshes, parts") {
+  const TriangleMesh outer = boxMesh({2, 2, 2});
+  const TriangleMesh inner = boxMesh({1, 1, 1});
+  const ClosedMesh hollow = closed(joined(outer, reversed(inner)));
+  CHECK(hollow.contains({0, 0, 0}) == Containment::outside);
+  CHECK(hollow.contains({0.75, 0, 0}) == Containment::inside);
+  CHECK(hollow.partPoints().size() == 2);
+
+  const ClosedMesh overlapping = closed(joined(outer, transformed(outer, moved(1, 0.5, 0.3))));
+  CHECK(overlapping.contains({0.5, 0.1, 0.2}) == Containment::inside);
+  CHECK(overlapping.contains({1.5, 0.1, 0.2}) == Containment::inside);
+  CHECK(overlapping.contains({2.5, 0.1, 0.2}) == Containment::outside);
+
+  const ClosedMesh inside_out = closed(reversed(outer));
+  CHECK(inside_out.contains({0.3, 0, 0}) == Containment::inside);
+  CHECK(inside_out.contains({1.3, 0, 0}) == Containment::outside);
+  CHECK(inside_out.partPoints().size() == 1);
+}
+
+TEST_CASE("points that are not finite are unknown") {
+  const ClosedMesh mesh = closed(boxMesh({1, 1, 1}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(mesh.contains({nan, 0, 0}) == Containment::unknown);
+}
