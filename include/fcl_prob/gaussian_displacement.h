@@ -8,6 +8,10 @@
 
 namespace fcl_prob {
 
+namespace detail {
+struct PrincipalAxes;
+}
+
 /// The displacement `ε ~ N(mean, covariance)` by which object A is moved, as a translation in the world
 /// frame, relative to object B. Metres. The covariance may have rank 0 to 3: along a direction of
 /// variance zero A does not move beyond the mean.
@@ -23,10 +27,17 @@ class GaussianDisplacement {
   ///                    semidefinite to 1e-12 of it (what rounding leaves of a singular matrix)
   /// \throws InvalidDistribution if either is not finite, or the covariance is not symmetric or has a
   ///         negative eigenvalue; the message holds the offending value.
+  ///
+  /// Standard deviations keep their relative accuracy also in a graded matrix such as
+  /// diag(1, 1e-16, 1e-30). In a rotated one the entries themselves carry rounding of about 1e-16 of the
+  /// largest, and a variance that is not above it counts as zero: use fromStandardDeviations() where it
+  /// is known better.
   GaussianDisplacement(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
 
-  /// Zero mean, standard deviations (metres, each >= 0) along the columns of `axes`' rotation matrix.
-  /// Keeps the standard deviations exactly, also where squaring them would underflow the others.
+  /// Standard deviations (metres) along the columns of `axes`' rotation matrix (normalised first).
+  /// Keeps the standard deviations exactly, also where their squares underflow.
+  /// \throws InvalidDistribution if a number is not finite, the quaternion is zero, or a standard
+  ///         deviation is neither 0 nor in [1e-300, 1e150].
   static GaussianDisplacement fromStandardDeviations(
       const Eigen::Vector3d& standard_deviations,
       const Eigen::Quaterniond& axes = Eigen::Quaterniond::Identity(),
@@ -46,23 +57,28 @@ class GaussianDisplacement {
   /// standardDeviations().
   const Eigen::Matrix3d& axes() const { return axes_; }
 
-  /// Number of directions in which A moves: 0 to 3. A standard deviation below 1e-9 of the largest that
-  /// came out of an eigen-decomposition counts as zero only if it is within rounding of it.
+  /// Number of directions in which A moves: 0 to 3. A small standard deviation that came out of an
+  /// eigen-decomposition counts as zero only if rounding of the entries could have left it of a zero.
   int rank() const { return rank_; }
 
   /// All three standard deviations equal (to 1e-12) and not zero: whitening is a scaling.
   bool isotropic() const;
 
   /// The same displacement with another mean (metres, world frame).
+  /// \throws InvalidDistribution if that is not finite.
   GaussianDisplacement withMean(const Eigen::Vector3d& mean) const;
 
   /// The displacement of B relative to A: the same distribution mirrored, so the mean changes sign.
   GaussianDisplacement reversed() const;
 
   /// The same displacement seen from a world rotated by `rotation`.
+  /// \throws InvalidPose if that is not a rotation to 1e-9.
   GaussianDisplacement rotated(const Eigen::Matrix3d& rotation) const;
 
  private:
+  GaussianDisplacement(const Eigen::Vector3d& mean, const detail::PrincipalAxes& axes,
+                       const Eigen::Matrix3d& covariance);
+
   Eigen::Vector3d mean_;
   Eigen::Matrix3d covariance_;
   Eigen::Vector3d standard_deviations_;

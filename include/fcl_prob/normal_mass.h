@@ -21,7 +21,8 @@ double logNormalTailMass(double h);
 /// 1 it does not cancel either.
 double normalIntervalMass(double lo, double hi);
 
-/// ∫ y φ(y) dy over [lo, hi]: φ(lo) - φ(hi), without cancellation.
+/// ∫ y φ(y) dy over [lo, hi]: φ(lo) - φ(hi), without cancellation; 0 if hi <= lo. Relative accuracy as
+/// that of normalIntervalMass() except for the rounding of lo + hi.
 double normalIntervalMoment(double lo, double hi);
 
 /// Mass of the box [lo, hi] under N(0, I): the product of three interval masses.
@@ -32,8 +33,9 @@ double normalBoxMass(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi);
 /// returned bounds say otherwise.
 Bounds normalBallMass(double distance, double radius);
 
-/// Relative rounding error that no mass of an interval exceeds; a certified result is widened by a
-/// multiple of it (a box: three times).
+/// Relative rounding error that no mass or moment of an interval exceeds while it is above 1e-300; a
+/// certified result is widened by a multiple of it (a box: three times). Below 1e-300 the absolute error
+/// is what matters: it is less than 1e-300.
 inline constexpr double kIntervalMassRelativeError = 16 * 2.220446049250313e-16;
 
 }  // namespace fcl_prob

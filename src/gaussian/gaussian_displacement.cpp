@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/gaussian_displacement.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
+#include "gaussian/principal_axes.h"
+
+namespace fcl_prob {
+namespace {
+
+using detail::numberText;
+
+constexpr double kSymmetryTolerance = 1e-9;
+constexpr double kDefinitenessTolerance = 1e-12;
+constexpr double kIsotropyTolerance = 1e-12;
+constexpr double kRotationTolerance = 1e-9;
+
+// Both 1/sigma and sigma² stay finite.
+constexpr double kLeastStandardDeviation = 1e-300;
+constexpr double kLargestStandardDeviation = 1e150;
+
+std::string entryName(const std::string& matrix, Eigen::Index row, Eigen::Index column) {
+  return matrix + "(" + std::to_string(row) + ", " + std::to_string(column) + ")";
+}
+
+const Eigen::Vector3d& requireFiniteMean(const Eigen::Vector3d& mean) {
+  if (!mean.allFinite()) {
+    throw InvalidDistribution("mean displacement is not finite: " + numberText(mean));
+  }
+  return mean;
+}
+
+const Eigen::Matrix3d& requireSymmetric(const Eigen::Matrix3d& covariance) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      if (!std::isfinite(covariance(row, column))) {
+        throw InvalidDistribution(entryName("covariance", row, column) +
+                                  " is not finite: " + numberText(covariance(row, column)));
+      }
+    }
+  }
+  const double tolerance = kSymmetryTolerance * covariance.cwiseAbs().maxCoeff();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row + 1; column < 3; ++column) {
+      const double upper = covariance(row, column);
+      const double lower = covariance(column, row);
+      // Halves, because the difference of two large entries may overflow.
+      if (std::abs(0.5 * upper - 0.5 * lower) > 0.5 * tolerance) {
+        throw InvalidDistribution("covariance is not symmetric: " + entryName("", row, column) +
+                                  " = " + numberText(upper) + ", " + entryName("", column, row) +
+                                  " = " + numberText(lower));
+      }
+    }
+  }
+  return covariance;
+}
+
+Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
+  return 0.5 * matrix + 0.5 * matrix.transpose();
+}
+
+detail::PrincipalAxes semidefiniteAxes(const Eigen::Matrix3d& covariance) {
+  const detail::PrincipalAxes axes = detail::principalAxesOfCovariance(covariance);
+  if (axes.least_eigenvalue < -kDefinitenessTolerance * covariance.cwiseAbs().maxCoeff()) {
+    throw InvalidDistribution("covariance has a negative eigenvalue: " +
+                              numberText(axes.least_eigenvalue));
+  }
+  return axes;
+}
+
+void requireStandardDeviations(const Eigen::Vector3d& standard_deviations) {
+  for (const double value : standard_deviations) {
+    const bool in_range = value >= kLeastStandardDeviation && value <= kLargestStandardDeviation;
+    if (value != 0 && !in_range) {
+      throw InvalidDistribution("standard deviation is neither 0 nor in [1e-300, 1e150]: " +
+                                numberText(value));
+    }
+  }
+}
+
+Eigen::Matrix3d rotationMatrix(const Eigen::Quaterniond& axes) {
+  if (!axes.coeffs().allFinite() || axes.coeffs().isZero(0)) {
+    throw InvalidDistribution(
+        "quaternion of the standard deviations' axes is not a rotation: w = " +
+        numberText(axes.w()) + ", xyz = " + numberText(axes.vec()));
+  }
+  return Eigen::Quaterniond(axes.coeffs().stableNormalized()).toRotationMatrix();
+}
+
+Eigen::Matrix3d covarianceOf(const detail::PrincipalAxes& axes) {
+  const Eigen::Matrix3d factor = axes.axes * axes.standard_deviations.asDiagonal();
+  return symmetricPart(factor * factor.transpose());
+}
+
+void requireRotation(const Eigen::Matrix3d& rotation) {
+  const double defect =
+      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(defect <= kRotationTolerance)) {
+    throw InvalidPose("matrix is not a rotation: R Rᵀ differs from the identity by " +
+                      numberText(defect));
+  }
+  if (rotation.determinant() < 0) {
+    throw InvalidPose("matrix is a reflection, not a rotation: determinant " +
+                      numberText(rotation.determinant()));
+  }
+}
+
+}  // namespace
+
+GaussianDisplacement::GaussianDisplacement()
+    : mean_(Eigen::Vector3d::Zero()),
+      covariance_(Eigen::Matrix3d::Zero()),
+      standard_deviations_(Eigen::Vector3d::Zero()),
+      axes_(Eigen::Matrix3d::Identity()),
+      rank_(0) {}
+
+GaussianDisplacement::GaussianDisplacement(const Eigen::Vector3d& mean,
+                                           const Eigen::Matrix3d& covariance)
+    : GaussianDisplacement(requireFiniteMean(mean),
+                           semidefiniteAxes(symmetricPart(requireSymmetric(covariance))),
+                           symmetricPart(covariance)) {}
+
+GaussianDisplacement::GaussianDisplacement(const Eigen::Vector3d& mean,
+                                           const detail::PrincipalAxes& axes,
+                                           const Eigen::Matrix3d& covariance)
+    : mean_(requireFiniteMean(mean)),
+      covariance_(covariance),
+      standard_deviations_(axes.standard_deviations),
+      axes_(axes.axes),
+      rank_(axes.rank) {}
+
+GaussianDisplacement GaussianDisplacement::fromStandardDeviations(
+    const Eigen::Vector3d& standard_deviations, const Eigen::Quaterniond& axes,
+    const Eigen::Vector3d& mean) {
+  requireStandardDeviations(standard_deviations);
+  const detail::PrincipalAxes ordered =
+      detail::orderedAxes(standard_deviations, rotationMatrix(axes));
+  return {mean, ordered, covarianceOf(ordered)};
+}
+
+GaussianDisplacement GaussianDisplacement::fromIndependent(const GaussianDisplacement& of_a,
+                                                           const GaussianDisplacement& of_b) {
+  Eigen::Matrix<double, 3, 6> factor;
+  factor << of_a.axes_ * of_a.standard_deviations_.asDiagonal(),
+      of_b.axes_ * of_b.standard_deviations_.asDiagonal();
+  const Eigen::Matrix3d covariance = of_a.covariance_ + of_b.covariance_;
+  if (!covariance.allFinite()) {
+    throw InvalidDistribution("sum of the covariances is not finite: largest entries " +
+                              numberText(of_a.covariance_.cwiseAbs().maxCoeff()) + " and " +
+                              numberText(of_b.covariance_.cwiseAbs().maxCoeff()));
+  }
+  return {of_a.mean_ - of_b.mean_, detail::principalAxesOfFactor(factor), covariance};
+}
+
+bool GaussianDisplacement::isotropic() const {
+  return rank_ == 3 &&
+         standard_deviations_[2] >= (1 - kIsotropyTolerance) * standard_deviations_[0];
+}
+
+GaussianDisplacement GaussianDisplacement::withMean(const Eigen::Vector3d& mean) const {
+  GaussianDisplacement result = *this;
+  result.mean_ = requireFiniteMean(mean);
+  return result;
+}
+
+GaussianDisplacement GaussianDisplacement::reversed() const { return withMean(-mean_); }
+
+GaussianDisplacement GaussianDisplacement::rotated(const Eigen::Matrix3d& rotation) const {
+  requireRotation(rotation);
+  GaussianDisplacement result = *this;
+  result.mean_ = requireFiniteMean(rotation * mean_);
+  result.axes_ = rotation * axes_;
+  result.covariance_ = symmetricPart(rotation * covariance_ * rotation.transpose());
+  return result;
+}
+
+}  // namespace fcl_prob

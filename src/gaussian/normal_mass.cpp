@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/normal_mass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gaussian/normal_density.h"
+
+namespace fcl_prob {
+namespace {
+
+using detail::gaussianExp;
+using detail::kInverseSqrtTwo;
+using detail::kInverseSqrtTwoPi;
+using detail::normalDensity;
+
+// 1/√2 - kInverseSqrtTwo
+constexpr double kInverseSqrtTwoLow = -4.8336466567264567e-17;
+
+constexpr double kLogSqrtTwoPi = 0.91893853320467274178;
+
+// a * b - product, exactly (Dekker 1971); |a|, |b| < 1e100.
+double productError(double a, double b, double product) {
+  constexpr double kSplitter = 134217729.0;  // 2^27 + 1
+  const double a_scaled = kSplitter * a;
+  const double b_scaled = kSplitter * b;
+  const double a_high = a_scaled - (a_scaled - a);
+  const double b_high = b_scaled - (b_scaled - b);
+  const double a_low = a - a_high;
+  const double b_low = b - b_high;
+  return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+}
+
+// Φ(-h) for h >= 0. The rounding of h/√2 would be amplified by h², so it is corrected for, with
+// -d log erfc(x)/dx between x + sqrt(x² + 4/π) and x + sqrt(x² + 2) (Abramowitz and Stegun 7.1.13).
+double upperTail(double h) {
+  if (!(h < 40)) return std::isnan(h) ? h : 0.0;
+  const double x = h * kInverseSqrtTwo;
+  const double rounding = productError(h, kInverseSqrtTwo, x) + h * kInverseSqrtTwoLow;
+  const double slope = x + std::sqrt(x * x + 4 / M_PI);
+  return 0.5 * std::erfc(x) * (1 - rounding * slope);
+}
+
+// Taylor coefficients of T(u, v) = ∫₀¹ cosh(√u s) exp(-v s²/2) ds: u^i v^j / ((2i)! j! (-2)^j
+// (2i+2j+1)).
+constexpr int kTaylorDegree = 8;
+using TaylorTable = std::array<std::array<double, kTaylorDegree>, kTaylorDegree>;
+
+constexpr TaylorTable taylorTable() {
+  TaylorTable table{};
+  double cosh_coefficient = 1;
+  for (int i = 0; i < kTaylorDegree; ++i) {
+    double exp_coefficient = 1;
+    for (int j = 0; i + j < kTaylorDegree; ++j) {
+      table[i][j] = cosh_coefficient * exp_coefficient / (2 * i + 2 * j + 1);
+      exp_coefficient /= -2.0 * (j + 1);
+    }
+    cosh_coefficient /= (2.0 * i + 1) * (2.0 * i + 2);
+  }
+  return table;
+}
+
+constexpr TaylorTable kTaylor = taylorTable();
+
+template <int kDegree>
+double taylor(double u, double v) {
+  double sum = 0;
+  for (int i = kDegree - 1; i >= 0; --i) {
+    double inner = 0;
+    for (int j = kDegree - 1 - i; j >= 0; --j) inner = inner * v + kTaylor[i][j];
+    sum = sum * u + inner;
+  }
+  return sum;
+}
+
+constexpr double kNarrowHalfWidth = 0.25;
+constexpr double kNarrowSteepness = 0.35;
+
+// ∫ φ over [middle - half, middle + half] where φ changes little: 2 half φ(middle) T(middle² half²,
+// half²). `middle_low` is what rounding took from the middle.
+double narrowMass(double middle, double middle_low, double half_width) {
+  const double v = half_width * half_width;
+  const double u = middle * middle * v;
+  const double shape = u + v < 1e-4 ? taylor<4>(u, v) : taylor<kTaylorDegree>(u, v);
+  return 2 * half_width * kInverseSqrtTwoPi * gaussianExp(middle, middle_low) * shape;
+}
+
+}  // namespace
+
+double normalTailMass(double h) {
+  return h < 0 ? 0.5 * std::erfc(h * kInverseSqrtTwo) : upperTail(h);
+}
+
+double logNormalTailMass(double h) {
+  if (h < 0) return std::log1p(-upperTail(-h));
+  if (h < 30) return std::log(upperTail(h));
+  // Asymptotic series of Mills' ratio; the next term is below 1e-19.
+  const double z = 1 / (h * h);
+  const double series = -z * (1 - z * (3 - z * (15 - z * (105 - z * 945))));
+  return -0.5 * h * h - std::log(h) - kLogSqrtTwoPi + std::log1p(series);
+}
+
+double normalIntervalMass(double lo, double hi) {
+  if (!(lo < hi)) return std::isnan(lo) || std::isnan(hi) ? lo + hi : 0.0;
+  const double half_width = 0.5 * (hi - lo);
+  const double sum = lo + hi;
+  const double middle = 0.5 * sum;
+  if (half_width <= kNarrowHalfWidth && std::abs(middle) * half_width <= kNarrowSteepness) {
+    const double hi_part = sum - lo;
+    const double rounding = (lo - (sum - hi_part)) + (hi - hi_part);
+    return narrowMass(middle, 0.5 * rounding, half_width);
+  }
+  const double near = middle < 0 ? -hi : lo;  // mirrored so that |near| <= far
+  const double far = middle < 0 ? -lo : hi;
+  if (far <= 1 || near < 0) {
+    return 0.5 * (std::erf(far * kInverseSqrtTwo) - std::erf(near * kInverseSqrtTwo));
+  }
+  return upperTail(near) - upperTail(far);
+}
+
+double normalIntervalMoment(double lo, double hi) {
+  if (!(lo < hi)) return std::isnan(lo) || std::isnan(hi) ? lo + hi : 0.0;
+  const double near = std::min(std::abs(lo), std::abs(hi));
+  if (!(near < 40)) return 0.0;
+  const bool is_upper = std::abs(lo) <= std::abs(hi);
+  const double exponent = 0.5 * (hi - lo) * std::abs(lo + hi);
+  const double moment = -normalDensity(near) * std::expm1(-exponent);
+  return is_upper ? moment : -moment;
+}
+
+double normalBoxMass(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
+  return normalIntervalMass(lo.x(), hi.x()) * normalIntervalMass(lo.y(), hi.y()) *
+         normalIntervalMass(lo.z(), hi.z());
+}
+
+}  // namespace fcl_prob
