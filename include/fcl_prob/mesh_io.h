@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Meshes from files. In the library fcl_prob::io, the only part that needs assimp.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "fcl_prob/triangle_mesh.h"
+
+namespace fcl_prob {
+
+struct MeshOptions {
+  /// Centre the bounding box at the origin and make its longest side 1 m, before `scale`.
+  bool normalize = false;
+  /// Factor on every coordinate, > 0: 0.001 for a file in millimetres.
+  double scale = 1.0;
+};
+
+/// What one import may use. Exceeding any of them is a FileError.
+struct ImportLimits {
+  std::size_t file_bytes = std::size_t{1} << 30;
+  /// Address space and processor time of the child process of loadMeshIsolated().
+  std::size_t memory_bytes = std::size_t{4} << 30;
+  unsigned seconds = 120;
+};
+
+/// Reads all triangles of a STL, OBJ, PLY, OFF, DAE, glTF or GLB file (known by its extension).
+///
+/// The transforms of the file's nodes are applied, among them a unit that the format itself
+/// declares (COLLADA's <unit>); otherwise the numbers are taken as metres, and the axes are the
+/// file's. Polygons are triangulated, points and lines ignored, bitwise equal vertices welded.
+/// assimp reads in single precision: a mesh that is lost by it (further from its origin than 1e4
+/// times its size) is refused.
+///
+/// Sizes, counts and indices are checked against the file itself before it is imported, and
+/// everything again afterwards: a truncated or malformed file is refused, not repaired. Even so
+/// assimp can crash on malformed files: use loadMeshIsolated() for files that are not trusted.
+/// Imports of one process take turns. \throws FileError (missing, unreadable, malformed),
+/// InvalidGeometry (no triangles, coordinates that
+///         are not finite, indices out of range), InvalidRequest (a scale that is not finite and >
+///         0); the message names the file and the fault.
+TriangleMesh loadMesh(const std::string& path, const MeshOptions& options = {},
+                      const ImportLimits& limits = {});
+
+/// The same in a forked child process (POSIX): a crash, an endless loop or a memory hog of the
+/// importer becomes a FileError.
+TriangleMesh loadMeshIsolated(const std::string& path, const MeshOptions& options = {},
+                              const ImportLimits& limits = {});
+
+}  // namespace fcl_prob

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Any import, in a child process.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "fcl_prob/mesh_io.h"
+
+namespace fcl_prob::detail {
+
+/// Runs `import` in a forked child within `limits` and returns the mesh that it returned.
+/// Exceptions of this library are passed on; a crash, a timeout or too much memory is a FileError
+/// that begins with `path`.
+TriangleMesh importIsolated(const std::string& path, const std::function<TriangleMesh()>& import,
+                            const ImportLimits& limits);
+
+}  // namespace fcl_prob::detail
