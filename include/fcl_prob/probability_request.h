@@ -78,6 +78,10 @@ struct ProbabilityRequest {
   std::function<bool(const ProbabilityProgress&)> on_progress;
 };
 
+/// Checks every field, whether or not the method uses it.
+/// \throws InvalidRequest naming the first field that is out of its range, and its value.
+void validateRequest(const ProbabilityRequest& request);
+
 /// The names used on the command line and in reports ("auto", "interval", "general-pcd", ...).
 std::string toString(ProbabilityMethod method);
 std::optional<ProbabilityMethod> methodFromString(const std::string& name);

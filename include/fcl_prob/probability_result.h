@@ -42,6 +42,7 @@ struct ProbabilityStatistics {
   std::size_t peak_memory = 0;   ///< bytes of the partition's data structures
   std::size_t samples = 0;
   std::size_t hits = 0;
+  std::optional<double> effective_samples;  ///< rare_event: (Σ w)² / Σ w² over the weighted hits
   std::optional<double> raw_sum; ///< general_pcd: the sum before clipping at 1
   std::vector<std::pair<std::string, double>> seconds;  ///< time by stage
 };
@@ -77,7 +78,7 @@ struct ProbabilityResult {
   ProbabilityStatistics statistics;
 
   /// The single number to use: the estimate if there is one, else the middle of a two-sided interval,
-  /// else the upper bound.
+  /// else the upper bound; NaN before any query has filled the result.
   double probability() const;
 };
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "montecarlo/confidence.h"
+
+#include <algorithm>
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <string>
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/monte_carlo.h"
+
+namespace fcl_prob {
+
+Bounds clopperPearsonInterval(std::size_t hits, std::size_t samples, double confidence) {
+  if (samples == 0 || hits > samples) {
+    throw InvalidRequest(std::to_string(hits) + " hits in " + std::to_string(samples) +
+                         " samples have no confidence interval");
+  }
+  if (!(confidence > 0.0 && confidence < 1.0)) {
+    throw InvalidRequest("confidence is " + std::to_string(confidence) + ", must be in (0, 1)");
+  }
+  const double tail = 0.5 * (1.0 - confidence);
+  const auto k = static_cast<double>(hits);
+  const auto n = static_cast<double>(samples);
+  using Beta = boost::math::beta_distribution<double>;
+  Bounds bounds{0.0, 1.0};
+  if (hits > 0) bounds.lower = quantile(Beta(k, n - k + 1.0), tail);
+  if (hits < samples) bounds.upper = quantile(complement(Beta(k + 1.0, n - k), tail));
+  return bounds;
+}
+
+namespace detail {
+namespace {
+
+constexpr std::size_t kFirstLook = 1024;
+
+/// Share of the error probability that the looks before the last one have among them.
+constexpr double kEarlyShare = 0.2;
+
+}  // namespace
+
+LookSchedule::LookSchedule(std::size_t samples, double confidence) : error_(1.0 - confidence) {
+  for (std::size_t look = kFirstLook; look < samples; look *= 2) looks_.push_back(look);
+  looks_.push_back(samples);
+}
+
+std::size_t LookSchedule::next(std::size_t done) const {
+  return *std::upper_bound(looks_.begin(), looks_.end() - 1, done);
+}
+
+double LookSchedule::confidenceAt(std::size_t samples) const {
+  if (samples >= looks_.back()) return finalConfidence();
+  return 1.0 - error_ * kEarlyShare / static_cast<double>(looks_.size() - 1);
+}
+
+double LookSchedule::finalConfidence() const {
+  return looks_.size() == 1 ? 1.0 - error_ : 1.0 - error_ * (1.0 - kEarlyShare);
+}
+
+Bounds gammaInterval(const WeightedHits& hits, double largest_weight, double confidence) {
+  const double tail = 0.5 * (1.0 - confidence);
+  const auto scaledQuantile = [](double mean, double variance, auto inverse) {
+    const double scale = variance / mean;
+    return scale * inverse(mean / scale);
+  };
+  Bounds bounds;
+  if (hits.hits > 0) {
+    bounds.lower = scaledQuantile(hits.sum, hits.sum_squares, [tail](double shape) {
+      return boost::math::gamma_p_inv(shape, tail);
+    });
+  }
+  bounds.upper =
+      scaledQuantile(hits.sum + largest_weight, hits.sum_squares + largest_weight * largest_weight,
+                     [tail](double shape) { return boost::math::gamma_q_inv(shape, tail); });
+  return bounds;
+}
+
+}  // namespace detail
+}  // namespace fcl_prob
