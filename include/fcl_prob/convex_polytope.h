@@ -8,12 +8,12 @@
 
 namespace fcl_prob {
 
-/// A convex polytope given by its vertices and its faces. A body without volume (a point, a segment, a
-/// flat polygon) has vertices but may have no faces.
+/// A convex polytope given by its vertices and its faces. A body without volume (a point, a
+/// segment, a flat polygon) has vertices but may have no faces.
 struct ConvexPolytope {
   struct Face {
-    Eigen::Vector3d normal;     ///< outward unit normal
-    double offset = 0.0;        ///< max over the vertices of normal·v: the plane is normal·y = offset
+    Eigen::Vector3d normal;  ///< outward unit normal
+    double offset = 0.0;  ///< max over the polytope of normal·y: the plane is normal·y = offset
     std::vector<int> vertices;  ///< indices into `vertices`, counter-clockwise seen from outside
   };
 
@@ -21,9 +21,13 @@ struct ConvexPolytope {
   std::vector<Face> faces;
 };
 
-/// Convex hull of a set of points (Qhull); coplanar facets are merged into one face. A point set without
-/// volume gives its extreme points and no faces.
-/// \throws InvalidGeometry if `points` is empty or has a non-finite coordinate.
+/// Convex hull of a set of points (Qhull, in coordinates in which the set is about as wide in every
+/// direction); facets that are coplanar within rounding are merged into one face. No point is
+/// beyond the plane of a face, except for the rounding of normal·p; the vertices of a merged face
+/// may lie below its plane by a few rounding errors of the largest coordinate (measured: up to
+/// 5e-14 of it). A point set without volume gives its extreme points and no faces. May be called
+/// from several threads at once. \throws InvalidGeometry if `points` is empty or has a non-finite
+/// coordinate.
 ConvexPolytope convexHull(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_prob
