@@ -17,4 +17,9 @@ MeshView meshView(const fcl::CollisionGeometryd& geometry) {
   });
 }
 
+TriangleMesh triangleMesh(const MeshView& view) {
+  return {{view.vertices, view.vertices + view.vertex_count},
+          {view.triangles, view.triangles + view.triangle_count}};
+}
+
 }  // namespace fcl_prob::detail

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/triangle_mesh.h"
 #include "geometry/geometry_kind.h"
 
 namespace fcl_prob::detail {
@@ -59,5 +60,8 @@ struct MeshView {
 
 /// \throws UnsupportedGeometry if `geometry` is not a mesh.
 MeshView meshView(const fcl::CollisionGeometryd& geometry);
+
+/// A copy of the triangles.
+TriangleMesh triangleMesh(const MeshView& view);
 
 }  // namespace fcl_prob::detail

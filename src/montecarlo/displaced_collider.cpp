@@ -2,12 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/displaced_collider.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/narrowphase/collision.h>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
+#include "fcl_prob/triangle_mesh.h"
 #include "geometry/convex_vertices.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
@@ -47,16 +47,8 @@ bool rebuiltInEveryCall(fcl::NODE_TYPE type) {
 }
 
 std::shared_ptr<const fcl::CollisionGeometryd> withOrientedTree(
-    const fcl::CollisionGeometryd& geometry, const std::string& name) {
-  const MeshView mesh = meshView(geometry);
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  const std::vector<Eigen::Vector3d> vertices(mesh.vertices, mesh.vertices + mesh.vertex_count);
-  const std::vector<fcl::Triangle> triangles(mesh.triangles, mesh.triangles + mesh.triangle_count);
-  const bool built = model->beginModel(mesh.triangle_count, mesh.vertex_count) == fcl::BVH_OK &&
-                     model->addSubModel(vertices, triangles) == fcl::BVH_OK &&
-                     model->endModel() == fcl::BVH_OK;
-  if (!built) throw InvalidGeometry(name + ": FCL could not build a tree over the mesh");
-  model->computeLocalAABB();
+    const fcl::CollisionGeometryd& geometry) {
+  const auto model = buildModel<fcl::OBBRSSd>(triangleMesh(meshView(geometry)));
   model->cost_density = geometry.cost_density;  // FCL collides only what is "occupied"
   model->threshold_occupied = geometry.threshold_occupied;
   model->threshold_free = geometry.threshold_free;
@@ -105,7 +97,7 @@ DisplacedCollider::DisplacedCollider(const fcl::CollisionGeometryd& a,
   for (Side* side : {&a_, &b_}) {
     if (with_octree || !rebuiltInEveryCall(side->geometry->getNodeType())) continue;
     const std::string name = nodeTypeName(side->geometry->getNodeType());
-    side->geometry = withOrientedTree(*side->geometry, name);
+    side->geometry = withOrientedTree(*side->geometry);
     plan_.push_back(name +
                     " rebuilt once as BVHModel<OBBRSS> over the same triangles, since "
                     "fcl::collide would copy and rebuild it at every sample");

@@ -3,21 +3,16 @@
 // Small triangle meshes for tests, and models of any bounding volume made of them.
 #pragma once
 
-#include <fcl/geometry/bvh/BVH_model.h>
-
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
-#include <vector>
+
+#include "fcl_prob/triangle_mesh.h"
 
 namespace fcl_prob_test {
 
-/// Vertices in metres; triangles counter-clockwise seen from outside.
-struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<fcl::Triangle> triangles;
-};
+/// Triangles of the shapes here are counter-clockwise seen from outside.
+using fcl_prob::TriangleMesh;
 
 /// An axis-aligned box centred at the origin: 8 vertices, 12 triangles.
 TriangleMesh boxMesh(const Eigen::Vector3d& sides);
@@ -43,14 +38,7 @@ TriangleMesh reversed(TriangleMesh mesh);
 /// A finished FCL model of the mesh.
 template <typename BV>
 std::shared_ptr<fcl::BVHModel<BV>> makeModel(const TriangleMesh& mesh) {
-  auto model = std::make_shared<fcl::BVHModel<BV>>();
-  const bool built = model->beginModel(static_cast<int>(mesh.triangles.size()),
-                                       static_cast<int>(mesh.vertices.size())) == fcl::BVH_OK &&
-                     model->addSubModel(mesh.vertices, mesh.triangles) == fcl::BVH_OK &&
-                     model->endModel() == fcl::BVH_OK;
-  if (!built) throw std::runtime_error("FCL could not build a model");
-  model->computeLocalAABB();
-  return model;
+  return fcl_prob::buildModel<BV>(mesh);
 }
 
 }  // namespace fcl_prob_test

@@ -44,19 +44,6 @@ TriangleMesh readObj(const std::string& path) {
   return mesh;
 }
 
-TriangleMesh normalized(TriangleMesh mesh) {
-  Eigen::Vector3d lower = mesh.vertices.front();
-  Eigen::Vector3d upper = lower;
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    lower = lower.cwiseMin(v);
-    upper = upper.cwiseMax(v);
-  }
-  const Eigen::Vector3d centre = 0.5 * (lower + upper);
-  const double longest_side = (upper - lower).maxCoeff();
-  for (Eigen::Vector3d& v : mesh.vertices) v = (v - centre) / longest_side;
-  return mesh;
-}
-
 double meshVolume(const TriangleMesh& mesh) {
   double volume = 0.0;
   for (const fcl::Triangle& t : mesh.triangles) {

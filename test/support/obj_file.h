@@ -13,10 +13,6 @@ namespace fcl_prob_test {
 /// that the benchmark models do not contain.
 TriangleMesh readObj(const std::string& path);
 
-/// The mesh moved and scaled so that its axis-aligned box is centred at the origin and its longest
-/// side is 1.
-TriangleMesh normalized(TriangleMesh mesh);
-
 /// Volume enclosed by a closed mesh (divergence theorem).
 double meshVolume(const TriangleMesh& mesh);
 
