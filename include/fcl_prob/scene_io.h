@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Two shapes, their poses, a displacement and a request, as a JSON file (docs/scene_format.md).
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/mesh_io.h"
+#include "fcl_prob/probability_request.h"
+
+namespace fcl_prob {
+
+/// A mesh that is still in its file.
+struct MeshFile {
+  std::string path;
+  MeshOptions options;
+};
+
+/// One of FCL's primitives: Box, Sphere, Ellipsoid, Capsule, Cone, Cylinder, Halfspace or Plane.
+using PrimitiveShape = std::shared_ptr<fcl::CollisionGeometryd>;
+
+struct SceneObject {
+  std::variant<MeshFile, PrimitiveShape> shape;
+  fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
+};
+
+struct Scene {
+  SceneObject a;
+  SceneObject b;
+  GaussianDisplacement displacement;  ///< of A relative to B, metres, world frame
+  ProbabilityRequest request;         ///< defaults where the file says nothing
+};
+
+/// Reads a scene file. Mesh paths are relative to the folder of the scene file; the meshes
+/// themselves are not read. \throws FileError naming the file and the key: not JSON, a key that is
+/// unknown, missing or given
+///         twice, a value of the wrong kind or out of its range.
+Scene loadScene(const std::string& path);
+
+}  // namespace fcl_prob

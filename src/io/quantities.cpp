@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "io/quantities.h"
+
+#include <cmath>
+
+#include "fcl_prob/exceptions.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+bool allFinite(const Numbers& numbers) {
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Eigen::Quaterniond quaternionFrom(const Numbers& numbers) {
+  if (numbers.size() != 4 || !allFinite(numbers)) {
+    throw InvalidPose("a quaternion needs 4 finite numbers w,x,y,z, not " +
+                      std::to_string(numbers.size()));
+  }
+  Eigen::Vector4d coefficients(numbers[1], numbers[2], numbers[3], numbers[0]);
+  const double largest = coefficients.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) throw InvalidPose("a quaternion of zeros is no rotation");
+  coefficients = (coefficients / largest).normalized();
+  return Eigen::Quaterniond(coefficients);
+}
+
+fcl::Transform3d poseFrom(const Numbers& numbers) {
+  if ((numbers.size() != 3 && numbers.size() != 7) || !allFinite(numbers)) {
+    throw InvalidPose("a pose needs 3 or 7 finite numbers x,y,z[,qw,qx,qy,qz], not " +
+                      std::to_string(numbers.size()));
+  }
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+  if (numbers.size() == 7) {
+    pose.linear() = quaternionFrom({numbers.begin() + 3, numbers.end()}).toRotationMatrix();
+  }
+  return pose;
+}
+
+Eigen::Vector3d vectorFrom(const Numbers& numbers, const std::string& name) {
+  if (numbers.size() != 3) {
+    throw InvalidRequest(name + " needs 3 numbers, not " + std::to_string(numbers.size()));
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Eigen::Matrix3d covarianceFrom(const Numbers& numbers) {
+  if (numbers.size() != 6) {
+    throw InvalidDistribution("a covariance needs 6 numbers xx,xy,xz,yy,yz,zz, not " +
+                              std::to_string(numbers.size()));
+  }
+  Eigen::Matrix3d covariance;
+  covariance << numbers[0], numbers[1], numbers[2],  //
+      numbers[1], numbers[3], numbers[4],            //
+      numbers[2], numbers[4], numbers[5];
+  return covariance;
+}
+
+std::optional<ContactMeaning> contactFromString(const std::string& name) {
+  if (name == "fcl") return ContactMeaning::fcl;
+  if (name == "solid") return ContactMeaning::solid;
+  return std::nullopt;
+}
+
+}  // namespace fcl_prob::detail

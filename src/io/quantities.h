@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Poses and covariances as the lists of numbers in which files and command lines give them.
+#pragma once
+
+#include <fcl/common/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fcl_prob/probability_request.h"
+
+namespace fcl_prob::detail {
+
+using Numbers = std::vector<double>;
+
+/// x, y, z or x, y, z, qw, qx, qy, qz in metres; the quaternion is normalised.
+/// \throws InvalidPose if there are not 3 or 7 finite numbers, or the quaternion is zero.
+fcl::Transform3d poseFrom(const Numbers& numbers);
+
+/// qw, qx, qy, qz, normalised. \throws InvalidPose
+Eigen::Quaterniond quaternionFrom(const Numbers& numbers);
+
+/// Three numbers. \throws InvalidRequest that begins with `name`.
+Eigen::Vector3d vectorFrom(const Numbers& numbers, const std::string& name);
+
+/// xx, xy, xz, yy, yz, zz. \throws InvalidDistribution if there are not six numbers.
+Eigen::Matrix3d covarianceFrom(const Numbers& numbers);
+
+/// "fcl" and "solid".
+std::optional<ContactMeaning> contactFromString(const std::string& name);
+
+}  // namespace fcl_prob::detail

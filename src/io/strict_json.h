@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// JSON of which every key must be known, once, and of the right kind.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fcl_prob::detail {
+
+/// Parses a whole file. \throws FileError if it is not JSON or an object has a key twice.
+nlohmann::json parseJsonFile(const std::string& path);
+
+/// One object of the document. Ask for what may be in it, then call finish().
+/// Every member throws FileError "file: key: fault".
+class StrictObject {
+ public:
+  /// \param where  "file.json: a" for the object at key a
+  StrictObject(const nlohmann::json& value, std::string where);
+
+  bool has(const std::string& key) const { return value_.contains(key); }
+
+  /// The object at `key`, which must be there.
+  StrictObject object(const std::string& key);
+
+  std::string text(const std::string& key);
+  bool boolean(const std::string& key);
+  double number(const std::string& key);
+  std::uint64_t count(const std::string& key);
+  std::vector<double> numbers(const std::string& key);
+
+  /// The key among `keys` that is there. Exactly one must be.
+  std::string oneOf(const std::vector<std::string>& keys) const;
+
+  /// \throws FileError if there is a key that nobody has asked for.
+  void finish() const;
+
+  [[noreturn]] void fail(const std::string& key, const std::string& fault) const;
+
+ private:
+  const nlohmann::json& take(const std::string& key);
+
+  const nlohmann::json& value_;
+  std::string where_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace fcl_prob::detail
