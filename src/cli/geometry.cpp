@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/geometry.h"
+
+#include <map>
+
+namespace fcl_prob::cli {
+namespace {
+
+template <class BV>
+Geometry build(const TriangleMesh& mesh) {
+  return buildModel<BV>(mesh);
+}
+
+using Builder = Geometry (*)(const TriangleMesh&);
+
+const std::map<std::string, Builder>& builders() {
+  static const std::map<std::string, Builder> all{
+      {"obb", build<fcl::OBBd>},         {"aabb", build<fcl::AABBd>},
+      {"rss", build<fcl::RSSd>},         {"obbrss", build<fcl::OBBRSSd>},
+      {"kios", build<fcl::kIOSd>},       {"kdop16", build<fcl::KDOPd<16>>},
+      {"kdop18", build<fcl::KDOPd<18>>}, {"kdop24", build<fcl::KDOPd<24>>}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& boundingVolumeNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const auto& [name, builder] : builders()) result.push_back(name);
+    return result;
+  }();
+  return names;
+}
+
+Geometry buildTree(const TriangleMesh& mesh, const std::string& bounding_volume) {
+  const auto position = builders().find(bounding_volume);
+  if (position == builders().end()) {
+    throw InvalidRequest("unknown bounding volume '" + bounding_volume + "'");
+  }
+  return position->second(mesh);
+}
+
+LoadedObject loadObject(const SceneObject& object) {
+  LoadedObject result;
+  result.pose = object.pose;
+  if (const auto* mesh = std::get_if<MeshFile>(&object.shape)) {
+    result.shape = loadMeshIsolated(mesh->path, mesh->options);
+  } else {
+    result.shape = std::get<PrimitiveShape>(object.shape);
+  }
+  return result;
+}
+
+Geometry buildGeometry(const LoadedObject& object, const std::string& bounding_volume) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
+    return buildTree(*mesh, bounding_volume);
+  }
+  return std::get<PrimitiveShape>(object.shape);
+}
+
+}  // namespace fcl_prob::cli

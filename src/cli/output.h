@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Writing that does not pass half a report off as a whole one.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+namespace fcl_prob::cli {
+
+/// `text` without line breaks and other control characters.
+std::string onOneLine(const std::string& text);
+
+/// \throws FileError if anything that was written to `stream` did not arrive.
+void flushOutput(std::ostream& stream, const std::string& name);
+
+/// Writes a file under another name beside it and renames it when it is complete and on the disk.
+/// \throws FileError; then a file that was there before is untouched.
+void writeFile(const std::string& path, const std::string& content);
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/run.h"
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+
+#include "cli/check_command.h"
+#include "cli/output.h"
+#include "fcl_prob/exceptions.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+int complain(const std::string& message) {
+  std::cerr << "fcl_prob: " << onOneLine(message) << std::endl;
+  return kBadInput;
+}
+
+int parseAndRun(int argc, const char* const* argv) {
+  CLI::App app("Collision probabilities of two shapes under Gaussian position error");
+  app.name("fcl_prob");
+  app.require_subcommand(1);
+  int exit_code = kAnswered;
+  addCheckCommand(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) return complain(error.what());
+    app.exit(error, std::cout, std::cerr);  // --help
+  }
+  flushOutput(std::cout, "standard output");
+  return exit_code;
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+  // A closed pipe shall be an error message, not a death.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return parseAndRun(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory");
+  } catch (const std::exception& error) {
+    return complain(error.what());
+  }
+}
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/scene_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/geometry.h"
+#include "io/quantities.h"
+#include "io/text_reader.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+detail::Numbers numbersFrom(const std::string& text) {
+  detail::Numbers numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view word = std::string_view(text).substr(begin, end - begin);
+    const std::optional<double> number = detail::parseNumber(word);
+    if (!number) throw InvalidRequest(detail::inQuotes(word) + " is not a number");
+    numbers.push_back(*number);
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+/// Runs `convert` and puts the name of the option before whatever it complains of.
+template <typename Convert>
+auto ofOption(const std::string& option, const Convert& convert) {
+  try {
+    return convert();
+  } catch (const Exception& error) {
+    throw InvalidRequest(option + ": " + error.what());
+  }
+}
+
+std::optional<fcl::Transform3d> poseOption(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return ofOption(option, [&] { return detail::poseFrom(numbersFrom(text)); });
+}
+
+GaussianDisplacement displacementFrom(const SceneArguments& arguments) {
+  const Eigen::Vector3d mean =
+      arguments.mean.empty() ? Eigen::Vector3d::Zero() : ofOption("--mean", [&] {
+        return detail::vectorFrom(numbersFrom(arguments.mean), "a mean");
+      });
+  if (!arguments.covariance.empty()) {
+    return ofOption("--covariance", [&] {
+      return GaussianDisplacement(mean, detail::covarianceFrom(numbersFrom(arguments.covariance)));
+    });
+  }
+  const Eigen::Quaterniond axes =
+      arguments.sigma_axes.empty() ? Eigen::Quaterniond::Identity() : ofOption("--sigma-axes", [&] {
+        return detail::quaternionFrom(numbersFrom(arguments.sigma_axes));
+      });
+  return ofOption("--sigma", [&] {
+    const Eigen::Vector3d sigma = detail::vectorFrom(numbersFrom(arguments.sigma), "sigma");
+    return GaussianDisplacement::fromStandardDeviations(sigma, axes, mean);
+  });
+}
+
+void applyDisplacement(const SceneArguments& arguments, Scene& scene) {
+  if (!arguments.covariance.empty() || !arguments.sigma.empty()) {
+    scene.displacement = displacementFrom(arguments);
+    return;
+  }
+  if (arguments.scene_file.empty()) throw InvalidRequest("needs --covariance or --sigma");
+  if (!arguments.mean.empty()) {
+    scene.displacement = ofOption("--mean", [&] {
+      return scene.displacement.withMean(detail::vectorFrom(numbersFrom(arguments.mean), "a mean"));
+    });
+  }
+}
+
+void applyMeshOptions(const std::string& option, bool normalize, std::optional<double> scale,
+                      SceneObject& object) {
+  auto* mesh = std::get_if<MeshFile>(&object.shape);
+  if (mesh == nullptr && scale) throw InvalidRequest(option + ": the object is not a mesh");
+  if (mesh == nullptr) return;
+  if (normalize) mesh->options.normalize = true;
+  if (scale) mesh->options.scale = *scale;
+}
+
+void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) {
+  if (arguments.method) {
+    const auto method = methodFromString(*arguments.method);
+    if (!method) {
+      std::string names;
+      for (const std::string& name : methodNames()) names += " " + name;
+      throw InvalidRequest("--method: unknown method " + detail::inQuotes(*arguments.method) +
+                           "; known are" + names);
+    }
+    request.method = *method;
+  }
+  if (arguments.contact) {
+    const auto contact = detail::contactFromString(*arguments.contact);
+    if (!contact) throw InvalidRequest("--contact: neither fcl nor solid");
+    request.contact = *contact;
+  }
+  const auto apply = [](const auto& option, auto& field) {
+    if (option) field = *option;
+  };
+  apply(arguments.relative_tolerance, request.relative_tolerance);
+  apply(arguments.absolute_tolerance, request.absolute_tolerance);
+  apply(arguments.threshold, request.threshold);
+  apply(arguments.time_limit, request.time_limit);
+  apply(arguments.confidence, request.confidence);
+  apply(arguments.samples, request.samples);
+  apply(arguments.seed, request.seed);
+  apply(arguments.threads, request.threads);
+}
+
+Scene baseScene(const SceneArguments& arguments) {
+  if (!arguments.scene_file.empty()) return loadScene(arguments.scene_file);
+  if (arguments.mesh_b.empty()) throw InvalidRequest("needs two mesh files, or --scene FILE.json");
+  Scene scene;
+  scene.a.shape = MeshFile{arguments.mesh_a, {}};
+  scene.b.shape = MeshFile{arguments.mesh_b, {}};
+  return scene;
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
+  auto* mesh_a = command.add_option("A", arguments.mesh_a, "Mesh file of the displaced object");
+  auto* mesh_b = command.add_option("B", arguments.mesh_b, "Mesh file of the other object");
+  command.add_option("--scene", arguments.scene_file, "Scene file (JSON) instead of A and B")
+      ->excludes(mesh_a)
+      ->excludes(mesh_b);
+  command.add_flag("--normalize", arguments.normalize,
+                   "Centre each mesh and make its longest side 1 m, before scale and pose");
+  command.add_option("--scale-a", arguments.scale_a, "Factor on the coordinates of A");
+  command.add_option("--scale-b", arguments.scale_b, "Factor on the coordinates of B");
+  command.add_option("--pose-a", arguments.pose_a, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
+  command.add_option("--pose-b", arguments.pose_b, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
+  auto* covariance = command.add_option("--covariance", arguments.covariance,
+                                        "xx,xy,xz,yy,yz,zz in square metres");
+  auto* sigma = command.add_option("--sigma", arguments.sigma,
+                                   "Three standard deviations in metres, instead of --covariance");
+  sigma->excludes(covariance);
+  command.add_option("--sigma-axes", arguments.sigma_axes, "Rotation of their axes: qw,qx,qy,qz")
+      ->needs(sigma);
+  command.add_option("--mean", arguments.mean, "Mean displacement x,y,z in metres");
+}
+
+void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
+  std::string methods;
+  for (const std::string& name : methodNames()) methods += (methods.empty() ? "" : ", ") + name;
+  command.add_option("--method", arguments.method, "One of " + methods);
+  command.add_option("--bv", arguments.bounding_volume, "Bounding volumes of the meshes' trees")
+      ->check(CLI::IsMember(boundingVolumeNames()));
+  command.add_option("--relative-tolerance", arguments.relative_tolerance,
+                     "Width of the interval relative to its upper end");
+  command.add_option("--absolute-tolerance", arguments.absolute_tolerance,
+                     "Width of the interval that is always good enough");
+  command.add_option("--threshold", arguments.threshold,
+                     "Stop as soon as it is certain on which side of this the probability is");
+  command.add_option("--time-limit", arguments.time_limit, "Seconds");
+  command.add_option("--confidence", arguments.confidence,
+                     "delta of general-pcd; coverage of the interval of sampling methods");
+  command.add_option("--samples", arguments.samples, "Number of samples at most")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--seed", arguments.seed, "Fixes all samples")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--threads", arguments.threads, "Results do not depend on it")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--contact", arguments.contact,
+                  "fcl: meshes are surfaces; solid: closed meshes are solids")
+      ->check(CLI::IsMember({"fcl", "solid"}));
+}
+
+Scene sceneFrom(const SceneArguments& arguments) {
+  Scene scene = baseScene(arguments);
+  applyMeshOptions("--scale-a", arguments.normalize, arguments.scale_a, scene.a);
+  applyMeshOptions("--scale-b", arguments.normalize, arguments.scale_b, scene.b);
+  if (const auto pose = poseOption("--pose-a", arguments.pose_a)) scene.a.pose = *pose;
+  if (const auto pose = poseOption("--pose-b", arguments.pose_b)) scene.b.pose = *pose;
+  applyDisplacement(arguments, scene);
+  applyRequest(arguments, scene.request);
+  return scene;
+}
+
+}  // namespace fcl_prob::cli
