@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/cell_examiner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_prob::detail {
+
+namespace {
+
+// A pair that sticks out of the leader's half-space by less than this is settled with it: the
+// sliver between goes into the upper bound.
+constexpr double kSliver = 1e-11;
+
+// Accuracy, relative to the cell's mass, of the masses of cells that stay open and of those
+// settled.
+constexpr double kOpenAccuracy = 1e-5;
+constexpr double kSettledAccuracy = 1e-11;
+
+// Cells wider than this are divided before a mass under a plane is integrated in them.
+constexpr double kWidestIntegrated = 2.5;
+
+// What remains of an open cell is cut back to the box of its front if that holds less than this
+// share of its mass.
+constexpr double kCutBack = 0.8;
+
+// Bound on the mass of the part of a cell within `width` of a plane.
+double sliverMass(const Cell& cell, double width) {
+  double exponent = 0.0;
+  double side = 1.0;
+  for (int i = 0; i < cell.rank; ++i) {
+    const double nearest = std::max({cell.lo[i], -cell.hi[i], 0.0});
+    exponent += nearest * nearest;
+    side = std::max(side, cell.hi[i] - cell.lo[i]);
+  }
+  // The density is at most (2π)^{-rank/2} <= 0.4^rank, a plane's section of the cell below 3
+  // side^2.
+  return width * std::pow(0.4, cell.rank) * std::exp(-0.5 * exponent) * 3 * side * side;
+}
+
+double largestWidth(const Cell& cell) {
+  double width = 0.0;
+  for (int i = 0; i < cell.rank; ++i) width = std::max(width, cell.hi[i] - cell.lo[i]);
+  return width;
+}
+
+void include(const Cell& part, Cell& box) {
+  box.lo = box.lo.cwiseMin(part.lo);
+  box.hi = box.hi.cwiseMax(part.hi);
+}
+
+// The lowest corner of a cell along m.
+Eigen::Vector3d lowestCorner(const Cell& cell, const Eigen::Vector3d& m) {
+  return (m.array() > 0).select(cell.lo, cell.hi);
+}
+
+double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
+  return m.dot(lowestCorner(part, m)) - 1e-13;  // less its rounding
+}
+
+}  // namespace
+
+SettledMass& SettledMass::operator+=(const SettledMass& other) {
+  mass.lower += other.mass.lower;
+  mass.upper += other.mass.upper;
+  moment += other.moment;
+  moment_error += other.moment_error;
+  return *this;
+}
+
+CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
+                           const SolidContact* solids, bool with_moments,
+                           ProbabilityStatistics& statistics)
+    : front_(pair, obstacles, statistics),
+      solids_(solids),
+      with_moments_(with_moments),
+      statistics_(statistics) {}
+
+Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
+  result_ = Examination{};
+  ++statistics_.cells;
+  front_.take(cell, inherited);
+  for (const Cell& covered : front_.covered()) settle(covered);
+  if (front_.cell().empty()) return std::move(result_);
+  if (front_.coarse().empty() && front_.cutting().empty()) {
+    settleFree(front_.cell());
+    return std::move(result_);
+  }
+  const int leader = champion();
+  if (leader >= 0) {
+    openWithPlane(front_.cutting()[leader]);
+  } else {
+    openWithoutPlane();
+  }
+  return std::move(result_);
+}
+
+// All of `cell` collides.
+void CellExaminer::settle(const Cell& cell) {
+  SettledMass settled;
+  settled.mass = cellMass(cell);
+  if (with_moments_) {
+    settled.moment = cellMoment(cell);
+    settled.moment_error = 1e-13 * settled.mass.upper * (1.0 + kReach);
+  }
+  result_.settled += settled;
+}
+
+// The part of `cell` in the plane's half-space collides; sign -1 takes it away again.
+void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double sign) {
+  const Bounds mass = cellHalfSpaceMass(cell, plane.m, plane.s, kSettledAccuracy);
+  SettledMass settled;
+  settled.mass = sign > 0 ? mass : Bounds{-mass.upper, -mass.lower};
+  if (with_moments_) {
+    const Moment moment = cellHalfSpaceMoment(cell, plane.m, plane.s);
+    settled.moment = sign * moment.value;
+    settled.moment_error = moment.error;
+  }
+  result_.settled += settled;
+}
+
+// No surfaces meet anywhere in `cell`: one point of it tells whether the solids overlap.
+void CellExaminer::settleFree(const Cell& cell) {
+  if (!solids_ || cell.empty() || !solids_->possible(cell)) return;
+  switch (solids_->at(0.5 * (cell.lo + cell.hi))) {
+    case Containment::inside:
+      settle(cell);
+      break;
+    case Containment::outside:
+      break;
+    case Containment::unknown: {
+      const double mass = cellMass(cell).upper;
+      result_.settled.mass.upper += mass;
+      result_.settled.moment_error += mass * (1.0 + kReach);
+      break;
+    }
+  }
+}
+
+// What is left of the cell around `box` is free.
+void CellExaminer::settleAround(const Cell& box) {
+  if (!solids_) return;
+  Cell rest = front_.cell();
+  for (int k = 0; k < rest.rank; ++k) {
+    Cell part = rest;
+    part.hi[k] = box.lo[k];
+    settleFree(part);
+    part = rest;
+    part.lo[k] = box.hi[k];
+    settleFree(part);
+    rest.lo[k] = box.lo[k];
+    rest.hi[k] = box.hi[k];
+  }
+}
+
+// The pair that covers most of the cell under a single plane; -1 if there is none.
+int CellExaminer::champion() const {
+  if (largestWidth(front_.cell()) > kWidestIntegrated) return -1;
+  // Where one object may be inside the other, what lies below the plane is not simply free.
+  if (solids_ && solids_->possible(front_.cell())) return -1;
+  int best = -1;
+  double depth = 1.0;
+  for (int i = 0; i < static_cast<int>(front_.cutting().size()); ++i) {
+    const CuttingPair& cutting = front_.cutting()[i];
+    if (cutting.sides == 1 && cutting.depth < depth) {
+      depth = cutting.depth;
+      best = i;
+    }
+  }
+  return best;
+}
+
+void CellExaminer::openWithoutPlane() {
+  OpenCell open;
+  const Cell& cell = front_.cell();
+  Cell box{cell.hi, cell.lo, cell.rank};
+  open.front.reserve(front_.cutting().size() + front_.coarse().size());
+  Cell part;
+  const auto keep = [&](const FrontPair& pair) {
+    if (!front_.clip(pair, part)) return;
+    include(part, box);
+    open.front.push_back(pair);
+  };
+  for (const CuttingPair& cutting : front_.cutting()) keep(cutting.pair);
+  for (const FrontPair& pair : front_.coarse()) keep(pair);
+  if (open.front.empty()) return settleFree(cell);
+  settleAround(box);
+  open.cell = box;
+  open.upper = cellMass(box).upper;
+  result_.open = std::move(open);
+}
+
+// The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
+// of the other pairs; pairs without such a part leave the front.
+void CellExaminer::openWithPlane(const CuttingPair& leader) {
+  const Cell& cell = front_.cell();
+  const Eigen::Vector3d& m = leader.inner.m;
+  const double enough = leader.outer - kSliver;
+  double settled_from = leader.outer;
+  OpenCell open;
+  open.possible_from = leader.outer;
+  open.front.push_back(leader.pair);
+  Cell box{cell.hi, cell.lo, cell.rank};
+  Cell part;
+  const auto consider = [&](const FrontPair& pair) {
+    double lowest = front_.lowestOfBox(pair, m);
+    if (lowest < enough && pair.obstacle >= 0) {
+      lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+    }
+    if (lowest < enough) {
+      if (!front_.clip(pair, part)) return;
+      lowest = std::max(lowest, lowestIn(part, m));
+    }
+    if (lowest >= enough) {
+      settled_from = std::min(settled_from, lowest);
+      return;
+    }
+    open.possible_from = std::min(open.possible_from, lowest);
+    open.front.push_back(pair);
+    include(part, box);
+  };
+  for (const CuttingPair& cutting : front_.cutting()) {
+    if (&cutting != &leader) consider(cutting.pair);
+  }
+  for (const FrontPair& pair : front_.coarse()) consider(pair);
+
+  const double sliver = sliverMass(cell, leader.inner.s - settled_from);
+  result_.settled.mass.upper += sliver;
+  result_.settled.moment_error += sliver * (1.0 + kReach);
+  if (open.front.size() == 1) return settlePart(cell, leader.inner, 1.0);
+
+  open.cell = cell;
+  open.has_plane = true;
+  open.covered = leader.inner;
+  if (cellMass(box).upper < kCutBack * cellMass(cell).upper) {
+    settlePart(cell, leader.inner, 1.0);
+    settlePart(box, leader.inner, -1.0);
+    open.cell = box;
+  }
+  open.lower = cellHalfSpaceMass(open.cell, m, leader.inner.s, kOpenAccuracy).lower;
+  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
+  result_.open = std::move(open);
+}
+
+SettledMass CellExaminer::coveredPart(const OpenCell& open) const {
+  SettledMass part;
+  if (!open.has_plane) return part;
+  part.mass = {open.lower, open.lower};
+  const Moment moment = cellHalfSpaceMoment(open.cell, open.covered.m, open.covered.s);
+  part.moment = moment.value;
+  part.moment_error = moment.error;
+  return part;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What one cell of the displacement space is worth: free, colliding, exactly known, or open.
+#pragma once
+
+#include <optional>
+
+#include "partition/cell_front.h"
+#include "partition/containment.h"
+
+namespace fcl_prob::detail {
+
+/// Mass that is settled for good, and ∫ y φ(y) dy over it.
+struct SettledMass {
+  Bounds mass;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double moment_error = 0.0;  ///< bound on the error of each component of `moment`
+
+  SettledMass& operator+=(const SettledMass& other);
+};
+
+struct Examination {
+  SettledMass settled;
+  std::optional<OpenCell> open;
+};
+
+class CellExaminer {
+ public:
+  /// \param solids  null: surfaces only
+  CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
+               bool with_moments, ProbabilityStatistics& statistics);
+
+  /// Examines `cell` against the front inherited from its parent.
+  Examination examine(const Cell& cell, const std::vector<FrontPair>& inherited);
+
+  /// The part of an open cell that its plane covers, as settled mass; nothing without a plane.
+  SettledMass coveredPart(const OpenCell& open) const;
+
+ private:
+  void settle(const Cell& cell);
+  void settlePart(const Cell& cell, const CellPlane& plane, double sign);
+  void settleFree(const Cell& cell);
+  void settleAround(const Cell& box);
+  int champion() const;
+  void openWithoutPlane();
+  void openWithPlane(const CuttingPair& leader);
+
+  CellFront front_;
+  const SolidContact* solids_;
+  bool with_moments_;
+  ProbabilityStatistics& statistics_;
+  Examination result_;
+};
+
+}  // namespace fcl_prob::detail

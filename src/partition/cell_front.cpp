@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/cell_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_prob::detail {
+
+namespace {
+
+// The constants below only steer; no bound depends on them. Measured on the benchmark scenes.
+
+// A pair can cover (a slice of) a cell only if its C-obstacle is about as large as the cell: pairs
+// are probed for that, most central first, up to kProbes leaf pairs a cell.
+constexpr double kProbeRatio = 0.5;
+constexpr int kProbes = 100;
+
+// Beyond the probes a pair is refined only if its C-obstacle is this many times larger than the
+// cell along every axis.
+constexpr double kRefineRatio = 6.0;
+
+// The least share of a cell's width that is worth cutting off, in a last look at all pairs and as
+// soon as a pair is met.
+constexpr double kLeastShare = 0.05;
+constexpr double kImmediateShare = 0.3;
+constexpr int kCarveRounds = 8;
+
+}  // namespace
+
+CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
+                     ProbabilityStatistics& statistics)
+    : pair_(pair),
+      obstacles_(obstacles),
+      statistics_(statistics),
+      kernels_(slabKernels()),
+      cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
+      box_{} {}
+
+void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) {
+  cell_ = cell;
+  box_ = cell.box();
+  covered_.clear();
+  cutting_.clear();
+  coarse_.clear();
+  stack_.clear();
+  gather(inherited);
+  statistics_.peak_front = std::max(statistics_.peak_front, coarse_.size() + cutting_.size());
+  if (!cell_.empty() && !covered_.empty()) classifyAgain();
+}
+
+// The leaves first: for what they cover, the other pairs need not be refined.
+void CellFront::gather(const std::vector<FrontPair>& inherited) {
+  for (const FrontPair& pair : inherited) {
+    if (pair.obstacle < 0) continue;
+    ++statistics_.pairs_tested;
+    if (overlaps(pair)) gatherLeaf(pair);
+    if (cell_.empty()) return;
+  }
+  carve();
+  if (cell_.empty()) return;
+  const std::size_t before = cutting_.size();
+  gatherCoarse(inherited);
+  if (!cell_.empty() && cutting_.size() > before) carve();
+}
+
+void CellFront::gatherLeaf(const FrontPair& pair) {
+  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
+  const CellCut cut = kernels_.classify(slabs, box_);
+  if (cut.relation == CellRelation::outside) return;
+  if (cut.relation == CellRelation::inside) {
+    covered_.push_back(cell_);
+    cell_.hi = cell_.lo;
+    cell_.settled = true;
+    return;
+  }
+  CuttingPair cutting{pair, cut.sides, cut.covered, {}, 0.0, 2.0};
+  if (cut.sides == 1) {
+    const double sign = cut.upper_side ? -1.0 : 1.0;
+    const int i = cut.slab;
+    cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
+    cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
+    cutting.inner.s = cutting.outer + slabs.margin()[i];
+    double middle = 0.0;
+    double radius = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      middle += cutting.inner.m[k] * box_.center[k];
+      radius += std::fabs(cutting.inner.m[k]) * box_.half[k];
+    }
+    cutting.depth = (cutting.inner.s - middle) / std::max(radius, 1e-300);
+  }
+  cutting_.push_back(cutting);
+}
+
+// Most central pairs first: they are the most likely to cover the cell.
+void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
+  ordered_.clear();
+  for (const FrontPair& pair : inherited) {
+    if (pair.obstacle < 0 && overlaps(pair)) ordered_.emplace_back(eccentricity(pair), pair);
+  }
+  std::sort(ordered_.begin(), ordered_.end(),
+            [](const auto& x, const auto& y) { return x.first < y.first; });
+  int probes = kProbes;
+  for (const auto& [unused, pair] : ordered_) {
+    refine(pair, probes);
+    if (cell_.empty()) return;
+  }
+}
+
+void CellFront::refine(const FrontPair& coarse, int& probes) {
+  stack_.push_back(coarse);
+  while (!stack_.empty()) {
+    const FrontPair pair = stack_.back();
+    stack_.pop_back();
+    ++statistics_.pairs_tested;
+    if (!overlaps(pair)) continue;
+    if (pair.obstacle >= 0) {
+      --probes;
+      const std::size_t before = cutting_.size();
+      gatherLeaf(pair);
+      if (cutting_.size() > before && cutting_.back().covered > kImmediateShare) {
+        carveBy(pair, kImmediateShare);
+      }
+      if (cell_.empty()) return;
+    } else if (largerThanCell(pair, probes > 0 ? kProbeRatio : kRefineRatio)) {
+      expand(pair);
+    } else {
+      coarse_.push_back(pair);
+    }
+  }
+}
+
+// Pushes the children of the larger node, the more central child last.
+void CellFront::expand(const FrontPair& pair) {
+  const PieceTree::Node& a = pair_.a.tree->nodes[pair.a];
+  const PieceTree::Node& b = pair_.b.tree->nodes[pair.b];
+  const bool first =
+      b.isLeaf() || (!a.isLeaf() && pair_.a.boxes[pair.a].size() >= pair_.b.boxes[pair.b].size());
+  FrontPair children[2];
+  children[0] = first ? FrontPair{a.left, pair.b, -1} : FrontPair{pair.a, b.left, -1};
+  children[1] = first ? FrontPair{a.right, pair.b, -1} : FrontPair{pair.a, b.right, -1};
+  if (eccentricity(children[0]) < eccentricity(children[1])) std::swap(children[0], children[1]);
+  for (FrontPair& child : children) {
+    if (!overlaps(child)) continue;
+    if (pair_.a.tree->nodes[child.a].isLeaf() && pair_.b.tree->nodes[child.b].isLeaf()) {
+      child.obstacle = obstacles_.find(child.a, child.b);
+    }
+    stack_.push_back(child);
+  }
+}
+
+// Settles slices of the cell that a cutting pair covers, largest first.
+void CellFront::carve() {
+  for (int round = 0; round < kCarveRounds; ++round) {
+    CellSlice best{-1, false, 0.0};
+    double share = kLeastShare;
+    // What a pair may cover was computed for the cell as it was; a smaller cell may be covered
+    // better, so that from the second round on the filter is a guess.
+    for (const CuttingPair& cutting : cutting_) {
+      if (cutting.covered <= (round == 0 ? share : 0.5 * share)) continue;
+      const CellSlice slice = kernels_.coveredSlice(obstacles_.slabs(cutting.pair.obstacle), box_);
+      if (slice.axis < 0 || slice.axis >= cell_.rank) continue;
+      if (slice.width > share * 2 * box_.half[slice.axis]) {
+        share = slice.width / (2 * box_.half[slice.axis]);
+        best = slice;
+      }
+    }
+    if (best.axis < 0) return;
+    cover(best);
+    if (cell_.empty()) return;
+  }
+}
+
+bool CellFront::carveBy(const FrontPair& pair, double least_share) {
+  const CellSlice slice = kernels_.coveredSlice(obstacles_.slabs(pair.obstacle), box_);
+  if (slice.axis < 0 || slice.axis >= cell_.rank) return false;
+  if (slice.width <= least_share * 2 * box_.half[slice.axis]) return false;
+  cover(slice);
+  return true;
+}
+
+void CellFront::cover(const CellSlice& covered) {
+  Cell slice = cell_;
+  const int k = covered.axis;
+  if (covered.at_lower_end) {
+    cell_.lo[k] = std::min(slice.hi[k], slice.lo[k] + covered.width);
+    slice.hi[k] = cell_.lo[k];
+  } else {
+    cell_.hi[k] = std::max(slice.lo[k], slice.hi[k] - covered.width);
+    slice.lo[k] = cell_.hi[k];
+  }
+  covered_.push_back(slice);
+  box_ = cell_.box();
+}
+
+void CellFront::classifyAgain() {
+  previous_.swap(cutting_);
+  cutting_.clear();
+  for (const CuttingPair& cutting : previous_) {
+    if (overlaps(cutting.pair)) gatherLeaf(cutting.pair);
+    if (cell_.empty()) return;
+  }
+}
+
+NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
+  return obstacleBox(pair_.a.boxes[pair.a], pair_.b.boxes[pair.b]);
+}
+
+bool CellFront::overlaps(const FrontPair& pair) const {
+  const NodeBox box = obstacleBoxOf(pair);
+  for (int k = 0; k < 3; ++k) {
+    if (box.lo[k] > cell_.hi[k] || box.hi[k] < cell_.lo[k]) return false;
+  }
+  return true;
+}
+
+// How far the middle of the cell is from that of the C-obstacle's box, relative to the box.
+double CellFront::eccentricity(const FrontPair& pair) const {
+  const NodeBox box = obstacleBoxOf(pair);
+  double worst = 0.0;
+  for (int k = 0; k < cell_.rank; ++k) {
+    const double off = std::fabs(0.5 * (box.lo[k] + box.hi[k]) - box_.center[k]);
+    worst = std::max(worst, 2 * off / (box.hi[k] - box.lo[k]));
+  }
+  return worst;
+}
+
+bool CellFront::largerThanCell(const FrontPair& pair, double ratio) const {
+  const NodeBox box = obstacleBoxOf(pair);
+  for (int k = 0; k < cell_.rank; ++k) {
+    if (box.hi[k] - box.lo[k] < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
+  }
+  return true;
+}
+
+double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
+  const NodeBox box = obstacleBoxOf(pair);
+  double lowest = -1e-13;  // rounding of the sum
+  for (int k = 0; k < 3; ++k) {
+    const double lo = std::max(box.lo[k], cell_.lo[k]);
+    const double hi = std::min(box.hi[k], cell_.hi[k]);
+    lowest += m[k] * (m[k] > 0 ? lo : hi);
+  }
+  return lowest;
+}
+
+double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const {
+  return kernels_.minimumAlong(obstacles_.slabs(pair.obstacle), box_, m.data());
+}
+
+bool CellFront::clip(const FrontPair& pair, Cell& part) const {
+  const NodeBox box = obstacleBoxOf(pair);
+  part = cell_;
+  for (int k = 0; k < cell_.rank; ++k) {
+    part.lo[k] = std::max(box.lo[k], cell_.lo[k]);
+    part.hi[k] = std::min(box.hi[k], cell_.hi[k]);
+  }
+  if (pair.obstacle < 0) return !part.empty();
+  for (int round = 0; round < 2 && !part.empty(); ++round) {
+    double lo[3] = {part.lo[0], part.lo[1], part.lo[2]};
+    double hi[3] = {part.hi[0], part.hi[1], part.hi[2]};
+    kernels_.contract(obstacles_.slabs(pair.obstacle), part.box(), lo, hi);
+    for (int k = 0; k < cell_.rank; ++k) {
+      part.lo[k] = lo[k];
+      part.hi[k] = hi[k];
+    }
+  }
+  return !part.empty();
+}
+
+}  // namespace fcl_prob::detail

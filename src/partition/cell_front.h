@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The pairs of pieces that may meet one cell, refined as far as the cell needs.
+#pragma once
+
+#include <vector>
+
+#include "fcl_prob/probability_result.h"
+#include "partition/obstacle_table.h"
+#include "partition/open_cell.h"
+
+namespace fcl_prob::detail {
+
+/// A pair of leaves whose C-obstacle meets the cell without covering it.
+struct CuttingPair {
+  FrontPair pair;
+  int sides;        ///< planes of the obstacle over which the cell sticks out
+  double covered;   ///< no slice with a larger share of the cell's width is within the obstacle
+  CellPlane inner;  ///< for sides == 1: {m·y >= s} of the cell is within the obstacle
+  double outer;     ///< for sides == 1: the obstacle lies in {m·y >= outer}
+  double depth;  ///< for sides == 1: signed distance of the plane from the cell's middle, -1 to 1
+};
+
+/// Works on one cell at a time: sorts its pairs, and cuts off the slices of it that a pair covers.
+class CellFront {
+ public:
+  CellFront(const WhitenedPair& pair, ObstacleTable& obstacles, ProbabilityStatistics& statistics);
+
+  /// Takes up a cell with the front inherited from its parent. Afterwards cell() is what remains of
+  /// it, covered() the slices that certainly collide, cutting() and coarse() its own front.
+  void take(const Cell& cell, const std::vector<FrontPair>& inherited);
+
+  const Cell& cell() const { return cell_; }
+  const CellBox& box() const { return box_; }
+  const std::vector<Cell>& covered() const { return covered_; }
+  const std::vector<CuttingPair>& cutting() const { return cutting_; }
+
+  /// Pairs with an inner node: too large to say anything of the cell but that they may meet it.
+  const std::vector<FrontPair>& coarse() const { return coarse_; }
+
+  /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
+  double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const;
+
+  /// The same from the slabs of a pair of leaves.
+  double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
+
+  /// A box around the pair's C-obstacle ∩ cell; false if that is empty.
+  bool clip(const FrontPair& pair, Cell& part) const;
+
+ private:
+  void gather(const std::vector<FrontPair>& inherited);
+  void gatherLeaf(const FrontPair& pair);
+  void gatherCoarse(const std::vector<FrontPair>& inherited);
+  void refine(const FrontPair& coarse, int& probes);
+  void expand(const FrontPair& pair);
+  void carve();
+  bool carveBy(const FrontPair& pair, double least_share);
+  void cover(const CellSlice& slice);
+  void classifyAgain();
+  NodeBox obstacleBoxOf(const FrontPair& pair) const;
+  bool overlaps(const FrontPair& pair) const;
+  double eccentricity(const FrontPair& pair) const;
+  bool largerThanCell(const FrontPair& pair, double ratio) const;
+
+  const WhitenedPair& pair_;
+  ObstacleTable& obstacles_;
+  ProbabilityStatistics& statistics_;
+  const SlabKernels& kernels_;
+
+  Cell cell_;
+  CellBox box_;
+  std::vector<Cell> covered_;
+  std::vector<CuttingPair> cutting_;
+  std::vector<FrontPair> coarse_;
+  std::vector<FrontPair> stack_;
+  std::vector<CuttingPair> previous_;
+  std::vector<std::pair<double, FrontPair>> ordered_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Whether one object is inside the other where their surfaces do not meet (contact = solid).
+#pragma once
+
+#include <fcl/common/types.h>
+
+#include <vector>
+
+#include "fcl_prob/whitening.h"
+#include "geometry/closed_mesh.h"
+#include "partition/cell_mass.h"
+#include "partition/whitened_tree.h"
+
+namespace fcl_prob::detail {
+
+/// One of the objects of a query. `solid` is the closed mesh that it is, null for a mesh that
+/// counts as a surface and for a convex shape, whose C-obstacles are solid by themselves.
+struct PartitionObject {
+  const PieceTree* tree;
+  fcl::Transform3d pose;
+  const ClosedMesh* solid;
+};
+
+class SolidContact {
+ public:
+  SolidContact(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
+               const WhitenedPair& pair);
+
+  /// False only if neither object can be inside the other for any displacement of the cell.
+  bool possible(const Cell& cell) const;
+
+  /// Whether, at a whitened displacement at which the surfaces do not meet, the solids overlap.
+  Containment at(const Eigen::Vector3d& y) const;
+
+ private:
+  /// One direction: `inner` inside `outer`.
+  struct Direction {
+    const ClosedMesh* outer;
+    std::vector<Eigen::Vector3d> points;  ///< of the inner object, frame of the outer one
+    Eigen::Matrix3d shift;  ///< displacement in the world to the frame of the outer one
+    NodeBox outer_box;      ///< whitened
+    NodeBox inner_box;      ///< whitened, at y = 0
+    double sign;            ///< of the whitened displacement of the inner object
+  };
+
+  Containment decide(const Direction& direction, const Eigen::Vector3d& displacement) const;
+  static bool fits(const Direction& direction, const Cell& cell);
+
+  Whitening whitening_;
+  std::vector<Direction> directions_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/obstacle_table.h"
+
+#include <algorithm>
+
+#include "partition/piece_slabs.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+constexpr std::size_t kBlockDoubles = 1 << 16;
+}
+
+ObstacleTable::ObstacleTable(const WhitenedPair& pair) : pair_(pair) {}
+
+double* ObstacleTable::allocate(int count) {
+  const std::size_t needed = static_cast<std::size_t>(count) * kSlabFields;
+  if (blocks_.empty() || block_used_ + needed > blocks_.back().size()) {
+    blocks_.emplace_back(std::max(kBlockDoubles, needed));
+    block_used_ = 0;
+  }
+  double* data = blocks_.back().data() + block_used_;
+  block_used_ += needed;
+  return data;
+}
+
+int ObstacleTable::find(int a, int b) {
+  const std::uint64_t key = (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint32_t>(b);
+  const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(obstacles_.size()));
+  if (is_new) {
+    const bool triangles = pair_.a.tree->isMesh() && pair_.b.tree->isMesh();
+    obstacles_.push_back(triangles ? buildTriangles(a, b) : buildPieces(a, b));
+  }
+  return entry->second;
+}
+
+SlabArrays ObstacleTable::buildTriangles(int a, int b) {
+  const auto corners = [](const WhitenedTree& whitened, int node, double* out) {
+    const Eigen::Vector3i& t = whitened.tree->triangles[whitened.tree->nodes[node].piece];
+    for (int corner = 0; corner < 3; ++corner) {
+      for (int k = 0; k < 3; ++k) out[3 * corner + k] = whitened.vertices[t[corner]][k];
+    }
+  };
+  double vertices_a[9];
+  double vertices_b[9];
+  corners(pair_.a, a, vertices_a);
+  corners(pair_.b, b, vertices_b);
+  double* data = allocate(kTriangleSlabs);
+  slabKernels().triangleSlabs(vertices_a, vertices_b, pair_.a.error + pair_.b.error, data);
+  return {data, kTriangleSlabs};
+}
+
+SlabArrays ObstacleTable::buildPieces(int a, int b) {
+  const PieceSlabs slabs =
+      pieceSlabs(pair_.a, pair_.a.tree->nodes[a].piece, pair_.b, pair_.b.tree->nodes[b].piece);
+  double* data = allocate(slabs.count);
+  std::copy(slabs.data.begin(), slabs.data.end(), data);
+  return {data, slabs.count};
+}
+
+std::size_t ObstacleTable::memory() const {
+  std::size_t bytes = obstacles_.capacity() * sizeof(SlabArrays) + index_.size() * 40;
+  for (const std::vector<double>& block : blocks_) bytes += block.size() * sizeof(double);
+  return bytes;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The C-obstacles of pairs of convex pieces, built when a cell first needs them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+#include "partition/whitened_tree.h"
+
+namespace fcl_prob::detail {
+
+class ObstacleTable {
+ public:
+  /// Keeps a reference to `pair`.
+  explicit ObstacleTable(const WhitenedPair& pair);
+
+  /// Index of the C-obstacle of leaf node `a` of A and leaf node `b` of B.
+  int find(int a, int b);
+
+  const SlabArrays& slabs(int obstacle) const { return obstacles_[obstacle]; }
+
+  std::size_t size() const { return obstacles_.size(); }
+  std::size_t memory() const;
+
+ private:
+  double* allocate(int count);
+  SlabArrays buildTriangles(int a, int b);
+  SlabArrays buildPieces(int a, int b);
+
+  const WhitenedPair& pair_;
+  std::vector<SlabArrays> obstacles_;
+  std::unordered_map<std::uint64_t, int> index_;
+  std::deque<std::vector<double>> blocks_;
+  std::size_t block_used_ = 0;
+};
+
+}  // namespace fcl_prob::detail

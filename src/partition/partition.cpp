@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/partition.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "partition/cell_sampling.h"
+#include "partition/closest_approach.h"
+#include "partition/partition_engine.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+
+class StageClock {
+ public:
+  explicit StageClock(ProbabilityStatistics& statistics) : statistics_(statistics) {}
+
+  void finish(const std::string& stage) {
+    const auto now = std::chrono::steady_clock::now();
+    statistics_.seconds.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  ProbabilityStatistics& statistics_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// The whitened frame with its first axis along the direction of closest approach, so that the
+// boundary of the C-obstacle lies across one axis of the cells.
+struct QueryFrame {
+  Whitening whitening;
+  WhitenedPair pair;
+};
+
+QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
+                      const GaussianDisplacement& displacement) {
+  const double unit = std::max({a.tree->radius, b.tree->radius, 1e-150});
+  const Whitening plain(displacement, unit);
+  WhitenedPair pair = whiten(*a.tree, a.pose, *b.tree, b.pose, plain);
+  if (displacement.rank() < 2) return {plain, std::move(pair)};
+  const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
+  return {rotated, whiten(*a.tree, a.pose, *b.tree, b.pose, rotated)};
+}
+
+// ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative), W the rows that move.
+void fillGradient(const QueryFrame& frame, const MomentBounds& moment, ProbabilityResult& result) {
+  Eigen::Matrix3d moving = frame.whitening.matrix();
+  for (int k = frame.whitening.rank(); k < 3; ++k) moving.row(k).setZero();
+  const Eigen::Vector3d middle = 0.5 * (moment.lower + moment.upper);
+  const Eigen::Vector3d half = 0.5 * (moment.upper - moment.lower);
+  const Eigen::Vector3d gradient = moving.transpose() * middle;
+  const Eigen::Vector3d radius = moving.cwiseAbs().transpose() * half +
+                                 1e-14 * (moving.cwiseAbs().transpose() * middle.cwiseAbs());
+  result.gradient = gradient;
+  result.gradient_lower = gradient - radius;
+  result.gradient_upper = gradient + radius;
+}
+
+void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
+                  const SampledMass& sampled, bool with_gradient, ProbabilityResult& result) {
+  double mass = engine.settled().mass.middle() + sampled.mass;
+  for (const OpenCell& cell : engine.openCells()) mass += cell.lower;
+  result.estimate = std::clamp(mass, *result.lower, *result.upper);
+  result.standard_error = std::sqrt(sampled.variance);
+  result.statistics.samples = sampled.samples;
+  if (!with_gradient) return;
+  Eigen::Matrix3d moving = frame.whitening.matrix();
+  for (int k = frame.whitening.rank(); k < 3; ++k) moving.row(k).setZero();
+  Eigen::Vector3d moment = engine.settled().moment + sampled.moment;
+  for (const OpenCell& cell : engine.openCells()) moment += engine.coveredPart(cell).moment;
+  result.gradient = moving.transpose() * moment;
+  const Eigen::Vector3d variance = moving.cwiseAbs2().transpose() * sampled.moment_variance;
+  result.gradient_standard_error = variance.cwiseSqrt();
+}
+
+void decide(const ProbabilityRequest& request, ProbabilityResult& result) {
+  if (!request.threshold) return;
+  result.decision = *result.upper < *request.threshold   ? Decision::below
+                    : *result.lower > *request.threshold ? Decision::above
+                                                         : Decision::undecided;
+}
+
+void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
+  const int rank = frame.whitening.rank();
+  result.plan.push_back("partition of the displacement space into " +
+                        std::to_string(result.statistics.cells) + " cells, " +
+                        std::to_string(result.statistics.leaf_pairs) + " pairs of pieces refined");
+  if (rank < 3) {
+    result.plan.push_back("covariance of rank " + std::to_string(rank) + ": " +
+                          std::to_string(3 - rank) + " axes left out of the cells");
+  }
+  if (solids) result.plan.push_back("containment decided once for every free cell");
+}
+
+}  // namespace
+
+ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
+                                       const GaussianDisplacement& displacement,
+                                       const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  StageClock clock(result.statistics);
+  const QueryFrame frame = queryFrame(a, b, displacement);
+  std::unique_ptr<SolidContact> solids;
+  if (a.solid || b.solid) {
+    solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);
+  }
+  clock.finish("whitening");
+
+  const bool estimate = request.method == ProbabilityMethod::estimate;
+  result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
+  PartitionEngine engine(frame.pair, frame.whitening.rank(), solids.get(), request,
+                         result.statistics);
+  result.status = engine.run(estimate);
+  clock.finish("partition");
+  const Bounds interval = engine.interval();
+  result.lower = interval.lower;
+  result.upper = interval.upper;
+  if (request.gradient) fillGradient(frame, engine.moment(), result);
+  if (estimate) {
+    CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), request.seed);
+    fillEstimate(frame, engine, sampler.sample(engine.openCells()), request.gradient, result);
+    clock.finish("sampling");
+  }
+  decide(request, result);
+  describe(frame, solids != nullptr, result);
+  return result;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The certified interval of DESIGN section 4: a disjoint partition of the displacement space.
+#pragma once
+
+#include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+#include "partition/containment.h"
+#include "partition/piece_tree.h"
+
+namespace fcl_prob::detail {
+
+/// Certified interval of the probability that `a`, displaced, meets `b`; with the request's method
+/// `estimate` also an unbiased estimate; decision and gradient as the request asks. Poses must be
+/// rigid and the request valid. Objects with a `solid` count as solids, others as surfaces.
+ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
+                                       const GaussianDisplacement& displacement,
+                                       const ProbabilityRequest& request);
+
+}  // namespace fcl_prob::detail

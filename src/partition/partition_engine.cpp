@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/partition_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "partition/cell_split.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+
+bool smallerGap(const OpenCell& x, const OpenCell& y) { return x.gap() < y.gap(); }
+
+// Cells between two looks at the clock and at the caller's wishes.
+constexpr std::size_t kPollEvery = 64;
+
+// Variance of a mean of two samples, each lower + gap * (0 or 1), is at most gap^2 / 8.
+constexpr double kSamplingVariance = 1.0 / 8.0;
+
+}  // namespace
+
+PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
+                                 const ProbabilityRequest& request,
+                                 ProbabilityStatistics& statistics)
+    : request_(request),
+      statistics_(statistics),
+      obstacles_(pair),
+      examiner_(pair, obstacles_, solids, request.gradient, statistics),
+      started_(std::chrono::steady_clock::now()) {
+  Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
+  for (int i = 0; i < rank; ++i) {
+    root.lo[i] = -kReach;
+    root.hi[i] = kReach;
+  }
+  add(examiner_.examine(root, {{0, 0, -1}}));
+}
+
+void PartitionEngine::add(Examination&& examination) {
+  settled_ += examination.settled;
+  if (!examination.open) return;
+  OpenCell& cell = *examination.open;
+  open_.lower += cell.lower;
+  open_.upper += cell.upper;
+  open_gap_squares_ += cell.gap() * cell.gap();
+  cell_memory_ += cell.memory();
+  queue_.push_back(std::move(cell));
+  std::push_heap(queue_.begin(), queue_.end(), smallerGap);
+}
+
+void PartitionEngine::remove(const OpenCell& cell) {
+  open_.lower -= cell.lower;
+  open_.upper -= cell.upper;
+  open_gap_squares_ -= cell.gap() * cell.gap();
+  cell_memory_ -= cell.memory();
+}
+
+void PartitionEngine::divideLargest() {
+  std::pop_heap(queue_.begin(), queue_.end(), smallerGap);
+  const OpenCell parent = std::move(queue_.back());
+  queue_.pop_back();
+  remove(parent);
+  const CellSplit split = chooseSplit(parent.cell);
+  if (split.axis < 0) {
+    // Its gap stays for good.
+    settled_.mass.lower += parent.lower;
+    settled_.mass.upper += parent.upper;
+    settled_.moment_error += parent.upper * (1.0 + kReach);
+    indivisible_ = true;
+    return;
+  }
+  Cell half = parent.cell;
+  half.hi[split.axis] = split.at;
+  add(examiner_.examine(half, parent.front));
+  half = parent.cell;
+  half.lo[split.axis] = split.at;
+  add(examiner_.examine(half, parent.front));
+}
+
+// Sums of many additions and removals drift: every so often they are taken anew.
+void PartitionEngine::recount() {
+  open_ = {0.0, 0.0};
+  open_gap_squares_ = 0.0;
+  for (const OpenCell& cell : queue_) {
+    open_.lower += cell.lower;
+    open_.upper += cell.upper;
+    open_gap_squares_ += cell.gap() * cell.gap();
+  }
+  changes_since_recount_ = 0;
+}
+
+// The sums of up to `cells` rounded terms each, with up to as many removals since the last recount.
+Bounds PartitionEngine::interval() const {
+  const double rounding = 1.2e-16 * (4.0 * static_cast<double>(statistics_.cells) + 16.0);
+  const double lower = settled_.mass.lower + open_.lower;
+  const double upper = settled_.mass.upper + open_.upper;
+  // What lies beyond kReach is below the smallest double.
+  return {std::clamp(lower * (1.0 - rounding), 0.0, 1.0),
+          std::clamp(upper * (1.0 + rounding) + 1e-320, 0.0, 1.0)};
+}
+
+MomentBounds PartitionEngine::moment() const {
+  MomentBounds bounds{settled_.moment, settled_.moment};
+  double error = settled_.moment_error;
+  for (const OpenCell& open : queue_) {
+    const SettledMass part = examiner_.coveredPart(open);
+    error += part.moment_error;
+    for (int k = 0; k < open.cell.rank; ++k) {
+      bounds.lower[k] += part.moment[k] + std::min(open.cell.lo[k], 0.0) * open.gap();
+      bounds.upper[k] += part.moment[k] + std::max(open.cell.hi[k], 0.0) * open.gap();
+    }
+  }
+  bounds.lower.array() -= error;
+  bounds.upper.array() += error;
+  return bounds;
+}
+
+std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const {
+  const Bounds now = interval();
+  if (request_.threshold) {
+    if (now.upper < *request_.threshold || now.lower > *request_.threshold) {
+      return ProbabilityStatus::decided;
+    }
+  }
+  if (queue_.empty()) {
+    return indivisible_ ? ProbabilityStatus::resolution_limit : ProbabilityStatus::exact;
+  }
+  const double tolerance =
+      std::max(request_.absolute_tolerance, request_.relative_tolerance * now.upper);
+  if (now.width() <= tolerance) return ProbabilityStatus::converged;
+  if (!estimate) return std::nullopt;
+  const double error_allowed =
+      std::max(request_.absolute_tolerance, request_.relative_tolerance * now.lower);
+  const double target = error_allowed * sampling_target_;
+  if (kSamplingVariance * open_gap_squares_ <= target * target) return ProbabilityStatus::converged;
+  return std::nullopt;
+}
+
+double PartitionEngine::secondsSoFar() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+std::size_t PartitionEngine::memory() const { return obstacles_.memory() + cell_memory_; }
+
+bool PartitionEngine::cancelled(const Bounds& now) const {
+  if (!request_.on_progress) return false;
+  ProbabilityProgress progress;
+  progress.interval = now;
+  progress.fraction =
+      static_cast<double>(statistics_.cells) / static_cast<double>(request_.max_cells);
+  progress.seconds = secondsSoFar();
+  return !request_.on_progress(progress);
+}
+
+std::optional<ProbabilityStatus> PartitionEngine::limited() const {
+  if (statistics_.cells >= request_.max_cells) return ProbabilityStatus::cell_limit;
+  if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
+  if (request_.time_limit && secondsSoFar() >= *request_.time_limit) {
+    return ProbabilityStatus::time_limit;
+  }
+  if (cancelled(interval())) return ProbabilityStatus::cancelled;
+  return std::nullopt;
+}
+
+ProbabilityStatus PartitionEngine::run(bool estimate) {
+  std::optional<ProbabilityStatus> status;
+  for (std::size_t step = 0; !status; ++step) {
+    if (++changes_since_recount_ * 4 > queue_.size()) recount();
+    status = satisfied(estimate);
+    if (status && changes_since_recount_ > 0) {
+      recount();
+      status = satisfied(estimate);
+    }
+    if (!status && step % kPollEvery == 0) status = limited();
+    if (!status) divideLargest();
+    statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
+  }
+  recount();
+  statistics_.cells_open = queue_.size();
+  statistics_.leaf_pairs = obstacles_.size();
+  return *status;
+}
+
+}  // namespace fcl_prob::detail

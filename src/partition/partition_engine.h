@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The best-first queue over open cells, and the totals of everything settled.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+#include "partition/cell_examiner.h"
+
+namespace fcl_prob::detail {
+
+/// Gradient of P in the whitened frame, E[y 1_V], between bounds.
+struct MomentBounds {
+  Eigen::Vector3d lower;
+  Eigen::Vector3d upper;
+};
+
+class PartitionEngine {
+ public:
+  /// Keeps references to all arguments.
+  PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
+                  const ProbabilityRequest& request, ProbabilityStatistics& statistics);
+
+  /// Divides cells until the request is satisfied or a limit is reached; says which. With
+  /// `estimate` the cells need only be small enough for sampling them to give the standard error
+  /// asked for. May be called again after tightenEstimate().
+  ProbabilityStatus run(bool estimate);
+
+  /// Certified; valid at every moment.
+  Bounds interval() const;
+
+  MomentBounds moment() const;
+
+  /// Asks for a sampling error smaller by `factor` < 1 than so far.
+  void tightenEstimate(double factor) { sampling_target_ *= factor; }
+
+  const SettledMass& settled() const { return settled_; }
+  const std::vector<OpenCell>& openCells() const { return queue_; }
+  ObstacleTable& obstacles() { return obstacles_; }
+
+  SettledMass coveredPart(const OpenCell& cell) const { return examiner_.coveredPart(cell); }
+
+ private:
+  void divideLargest();
+  void add(Examination&& examination);
+  void remove(const OpenCell& cell);
+  void recount();
+  std::optional<ProbabilityStatus> satisfied(bool estimate) const;
+  std::optional<ProbabilityStatus> limited() const;
+  bool cancelled(const Bounds& now) const;
+  double secondsSoFar() const;
+  std::size_t memory() const;
+
+  const ProbabilityRequest& request_;
+  ProbabilityStatistics& statistics_;
+  ObstacleTable obstacles_;
+  CellExaminer examiner_;
+  std::vector<OpenCell> queue_;  ///< a heap by gap
+  SettledMass settled_;
+  Bounds open_;  ///< sums over queue_
+  double open_gap_squares_ = 0.0;
+  double sampling_target_ = 1.0;
+  bool indivisible_ = false;
+  std::size_t cell_memory_ = 0;
+  std::size_t changes_since_recount_ = 0;
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/piece_tree.h"
+
+#include <algorithm>
+
+#include "fcl_prob/convex_polytope.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/convex_vertices.h"
+#include "geometry/geometry_kind.h"
+#include "geometry/mesh_visitor.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+
+// Moves the origin to the middle of the vertices, so that a geometry far from its own frame's
+// origin loses nothing to rounding in the products that follow.
+void centre(PieceTree& tree) {
+  Eigen::Vector3d lo = tree.vertices.front();
+  Eigen::Vector3d hi = lo;
+  for (const Eigen::Vector3d& v : tree.vertices) {
+    lo = lo.cwiseMin(v);
+    hi = hi.cwiseMax(v);
+  }
+  tree.origin = lo + 0.5 * (hi - lo);
+  for (Eigen::Vector3d& v : tree.vertices) {
+    v -= tree.origin;
+    tree.radius = std::max(tree.radius, v.norm());
+  }
+}
+
+template <typename BV>
+std::vector<PieceTree::Node> copyTopology(const fcl::BVHModel<BV>& model) {
+  std::vector<PieceTree::Node> nodes(model.getNumBVs());
+  for (int i = 0; i < model.getNumBVs(); ++i) {
+    const fcl::BVNode<BV>& from = model.getBV(i);
+    PieceTree::Node& to = nodes[i];
+    if (from.isLeaf()) {
+      to.piece = from.primitiveId();
+    } else {
+      to.left = from.leftChild();
+      to.right = from.rightChild();
+      if (to.left <= i || to.right <= i) {
+        throw InvalidGeometry("bounding volume tree with a child before its parent at node " +
+                              std::to_string(i));
+      }
+    }
+  }
+  return nodes;
+}
+
+void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
+  const MeshView view = meshView(geometry);
+  tree.vertices.assign(view.vertices, view.vertices + view.vertex_count);
+  tree.triangles.reserve(view.triangle_count);
+  for (int i = 0; i < view.triangle_count; ++i) {
+    const fcl::Triangle& t = view.triangles[i];
+    tree.triangles.emplace_back(static_cast<int>(t[0]), static_cast<int>(t[1]),
+                                static_cast<int>(t[2]));
+  }
+  tree.nodes = visitMesh(geometry, [](const auto& model) { return copyTopology(model); });
+}
+
+// Faces and edges of the hull; parallel ones once, since a slab has two sides.
+ConvexPiece pieceOfHull(const ConvexPolytope& hull) {
+  ConvexPiece piece;
+  for (int i = 0; i < static_cast<int>(hull.vertices.size()); ++i) piece.vertices.push_back(i);
+  const auto isNew = [](const std::vector<Eigen::Vector3d>& known, const Eigen::Vector3d& unit) {
+    return std::none_of(known.begin(), known.end(), [&unit](const Eigen::Vector3d& other) {
+      return other.cross(unit).norm() < 1e-14;
+    });
+  };
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<Eigen::Vector3d> directions;
+  for (const ConvexPolytope::Face& face : hull.faces) {
+    const int count = static_cast<int>(face.vertices.size());
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector3d edge =
+          hull.vertices[face.vertices[(i + 1) % count]] - hull.vertices[face.vertices[i]];
+      if (!isNew(directions, edge.normalized())) continue;
+      directions.push_back(edge.normalized());
+      piece.edges.push_back(edge);
+    }
+    if (!isNew(normals, face.normal)) continue;
+    normals.push_back(face.normal);
+    const Eigen::Vector3d& corner = hull.vertices[face.vertices[0]];
+    piece.faces.emplace_back(hull.vertices[face.vertices[1]] - corner,
+                             hull.vertices[face.vertices[count - 1]] - corner);
+  }
+  return piece;
+}
+
+// A hull without volume: every pair of vertices may be an edge, which gives more slabs than needed
+// and none too few.
+ConvexPiece pieceOfFlatHull(const ConvexPolytope& hull) {
+  ConvexPiece piece;
+  const int count = static_cast<int>(hull.vertices.size());
+  for (int i = 0; i < count; ++i) {
+    piece.vertices.push_back(i);
+    for (int j = 0; j < i; ++j) piece.edges.push_back(hull.vertices[i] - hull.vertices[j]);
+  }
+  for (std::size_t i = 1; i < piece.edges.size(); ++i) {
+    piece.faces.emplace_back(piece.edges[0], piece.edges[i]);
+  }
+  return piece;
+}
+
+void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
+  const auto vertices = polytopeVertices(geometry);
+  if (!vertices) {
+    throw UnsupportedGeometry("the partition does not handle " +
+                              nodeTypeName(geometry.getNodeType()));
+  }
+  const ConvexPolytope hull = convexHull(*vertices);
+  tree.vertices = hull.vertices;
+  tree.pieces.push_back(hull.faces.empty() ? pieceOfFlatHull(hull) : pieceOfHull(hull));
+  tree.nodes.resize(1);
+  tree.nodes[0].piece = 0;
+}
+
+}  // namespace
+
+std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry) {
+  auto tree = std::make_shared<PieceTree>();
+  if (kindOf(geometry) == GeometryKind::mesh) {
+    fillMesh(geometry, *tree);
+  } else {
+    fillConvex(geometry, *tree);
+  }
+  centre(*tree);
+  return tree;
+}
+
+}  // namespace fcl_prob::detail

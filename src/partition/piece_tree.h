@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A geometry as a binary tree over convex pieces: what the partition keeps of it between queries.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+namespace fcl_prob::detail {
+
+/// A convex piece as the hull of a few of the tree's vertices, with what its C-obstacles need:
+/// every face as a pair of spanning vectors, and the directions of the edges. Both transform
+/// linearly.
+struct ConvexPiece {
+  std::vector<int> vertices;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> faces;
+  std::vector<Eigen::Vector3d> edges;
+};
+
+/// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
+/// refits axis-aligned boxes in the whitened frame of each query.
+struct PieceTree {
+  struct Node {
+    int left = -1;   ///< index of the first child, always greater than the node's own; -1 at a leaf
+    int right = -1;  ///< index of the second child; -1 at a leaf
+    int piece = -1;  ///< at a leaf: its triangle, or its index in `pieces`
+    bool isLeaf() const { return left < 0; }
+  };
+
+  std::vector<Node> nodes;                 ///< nodes[0] is the root
+  Eigen::Vector3d origin;                  ///< metres, geometry's frame
+  std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to `origin`
+  std::vector<Eigen::Vector3i> triangles;  ///< of a mesh
+  std::vector<ConvexPiece> pieces;         ///< of anything else
+  double radius = 0.0;                     ///< metres: of a ball around `origin` with all vertices
+  bool isMesh() const { return !triangles.empty(); }
+};
+
+/// \throws UnsupportedGeometry for shapes that are not polyhedra, InvalidGeometry for broken ones.
+std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A piece tree moved into the whitened frame of one query.
+#pragma once
+
+#include <fcl/common/types.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fcl_prob/whitening.h"
+#include "partition/piece_tree.h"
+#include "partition/slab_kernels.h"
+
+namespace fcl_prob::detail {
+
+struct NodeBox {
+  double lo[3];
+  double hi[3];
+
+  double size() const { return hi[0] - lo[0] + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
+};
+
+/// Vertices and node boxes of one object in the whitened frame. With A's and B's trees of one
+/// query, `b - a` over their points is the C-obstacle: the constant part of both poses is in B's
+/// vertices.
+struct WhitenedTree {
+  const PieceTree* tree = nullptr;
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<NodeBox> boxes;  ///< of tree->nodes, padded by `error`
+  Eigen::Matrix3d linear;      ///< geometry's frame to whitened frame, linear part
+  double error = 0.0;          ///< bound on the error of every coordinate of `vertices`
+};
+
+struct WhitenedPair {
+  WhitenedTree a;
+  WhitenedTree b;
+};
+
+WhitenedPair whiten(const PieceTree& a, const fcl::Transform3d& pose_a, const PieceTree& b,
+                    const fcl::Transform3d& pose_b, const Whitening& whitening);
+
+/// Bounding box of the C-obstacle of two nodes: certainly contains it.
+inline NodeBox obstacleBox(const NodeBox& a, const NodeBox& b) {
+  return {{b.lo[0] - a.hi[0], b.lo[1] - a.hi[1], b.lo[2] - a.hi[2]},
+          {b.hi[0] - a.lo[0], b.hi[1] - a.lo[1], b.hi[2] - a.lo[2]}};
+}
+
+}  // namespace fcl_prob::detail
