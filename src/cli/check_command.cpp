@@ -3,69 +3,36 @@
 #include "cli/check_command.h"
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iostream>
 
+#include "cli/prepared_scene.h"
 #include "cli/progress_bar.h"
 #include "cli/result_report.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
-#include "fcl_prob/collision_probability.h"
 
 namespace fcl_prob::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct CheckArguments {
   SceneArguments scene;
   bool json = false;
 };
 
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-/// A limit came before what was asked for.
-bool stoppedByLimit(ProbabilityStatus status) {
-  switch (status) {
-    case ProbabilityStatus::time_limit:
-    case ProbabilityStatus::cell_limit:
-    case ProbabilityStatus::memory_limit:
-    case ProbabilityStatus::resolution_limit:
-    case ProbabilityStatus::cancelled:
-      return true;
-    default:
-      return false;
-  }
-}
-
-NominalAnswer answerOfFcl(const LoadedObject& a, const LoadedObject& b, const Scene& scene) {
-  constexpr const char* kVolume = "obbrss";
-  return nominalAnswer(buildGeometry(a, kVolume), a.pose, buildGeometry(b, kVolume), b.pose,
-                       scene.displacement.mean());
-}
-
 CheckReport check(Scene scene, const std::string& bounding_volume) {
-  const LoadedObject a = loadObject(scene.a);
-  const LoadedObject b = loadObject(scene.b);
-
-  CheckReport report;
-  Clock::time_point start = Clock::now();
-  const Geometry geometry_a = buildGeometry(a, bounding_volume);
-  const Geometry geometry_b = buildGeometry(b, bounding_volume);
-  report.build_ms = millisecondsSince(start);
-
+  const PreparedScene prepared(scene, bounding_volume);
   noteInterrupts();
-  ProgressBar bar("fcl_prob check");
-  scene.request.gradient = true;
-  scene.request.on_progress = std::ref(bar);
-  start = Clock::now();
-  collisionProbability(geometry_a.get(), a.pose, geometry_b.get(), b.pose, scene.displacement,
-                       scene.request, report.result);
-  report.time_ms = millisecondsSince(start);
-
-  report.nominal = answerOfFcl(a, b, scene);
+  CheckReport report;
+  {
+    ProgressBar bar("fcl_prob check");
+    scene.request.gradient = true;
+    scene.request.on_progress = std::ref(bar);
+    const TimedResult timed = prepared.query(scene.request);
+    report.result = timed.result;
+    report.time_ms = timed.time_ms;
+  }
+  report.build_ms = prepared.buildTime();
+  report.nominal = prepared.nominal();
   report.threshold = scene.request.threshold.value_or(-1.0);
   return report;
 }

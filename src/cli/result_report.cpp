@@ -5,23 +5,12 @@
 #include <iomanip>
 #include <sstream>
 
+#include "cli/json_values.h"
+
 namespace fcl_prob::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename Value>
-Json orNull(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json orNull(const std::optional<Eigen::Vector3d>& value) {
-  return value ? Json({value->x(), value->y(), value->z()}) : Json(nullptr);
-}
-
-Json orNull(const std::optional<Bounds>& value) {
-  return value ? Json({value->lower, value->upper}) : Json(nullptr);
-}
 
 Json jsonOf(const ProbabilityStatistics& statistics) {
   Json seconds = Json::object();
@@ -100,9 +89,7 @@ Json jsonOf(const CheckReport& report) {
           {"status", toString(result.status)},
           {"time_ms", report.time_ms},
           {"build_ms", report.build_ms},
-          {"fcl",
-           {{"collides", orNull(report.nominal.collides)},
-            {"distance", orNull(report.nominal.distance)}}},
+          {"fcl", jsonOf(report.nominal)},
           {"plan", result.plan},
           {"statistics", jsonOf(result.statistics)}};
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "cli/check_command.h"
+#include "cli/compare_command.h"
 #include "cli/output.h"
 #include "fcl_prob/exceptions.h"
 
@@ -24,6 +25,7 @@ int parseAndRun(int argc, const char* const* argv) {
   app.require_subcommand(1);
   int exit_code = kAnswered;
   addCheckCommand(app, exit_code);
+  addCompareCommand(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -160,8 +160,7 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
                      "delta of general-pcd; coverage of the interval of sampling methods");
   command.add_option("--samples", arguments.samples, "Number of samples at most")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--seed", arguments.seed, "Fixes all samples")
-      ->check(CLI::NonNegativeNumber);
+  command.add_option("--seed", arguments.seed, "Fixes all samples")->check(CLI::NonNegativeNumber);
   command.add_option("--threads", arguments.threads, "Results do not depend on it")
       ->check(CLI::NonNegativeNumber);
   command

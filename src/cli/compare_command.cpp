@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/compare_command.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/comparison.h"
+#include "cli/comparison_report.h"
+#include "cli/gnuplot.h"
+#include "cli/progress_bar.h"
+#include "cli/run.h"
+#include "cli/scene_arguments.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+struct CompareArguments {
+  SceneArguments scene;
+  bool csv = false;
+  bool json = false;
+  std::string plot;
+};
+
+std::string titleOf(const SceneArguments& arguments) {
+  const auto name = [](const std::string& path) {
+    return std::filesystem::path(path).stem().string();
+  };
+  if (!arguments.scene_file.empty()) return name(arguments.scene_file);
+  return name(arguments.mesh_a) + " / " + name(arguments.mesh_b);
+}
+
+/// The runs of the default list, or only those of the method that --method names.
+std::vector<ComparisonRun> runsFor(const ProbabilityRequest& request) {
+  std::vector<ComparisonRun> runs = defaultRuns(request);
+  if (request.method == ProbabilityMethod::automatic) return runs;
+  const auto other = [&](const ComparisonRun& run) { return run.request.method != request.method; };
+  runs.erase(std::remove_if(runs.begin(), runs.end(), other), runs.end());
+  return runs;
+}
+
+Comparison compareWithProgress(const Scene& scene, const std::string& bounding_volume) {
+  const PreparedScene prepared(scene, bounding_volume);
+  noteInterrupts();
+  ProgressBar bar("fcl_prob compare");
+  const auto progress = [&bar](std::size_t index, std::size_t count, const std::string& what) {
+    bar.show(static_cast<double>(index) / static_cast<double>(count), what);
+    return !interrupted();
+  };
+  ProbabilityRequest request = scene.request;
+  request.on_progress = [](const ProbabilityProgress&) { return !interrupted(); };
+  return compare(prepared, runsFor(request), request, progress);
+}
+
+void plot(const Comparison& comparison, const CompareArguments& arguments,
+          const std::string& terminal) {
+  const std::string script = gnuplotScriptOf(comparison, titleOf(arguments.scene), terminal);
+  if (!runGnuplot(script, arguments.plot)) {
+    std::cerr << "fcl_prob: no plot: gnuplot is not installed (package gnuplot-nox)\n";
+  }
+}
+
+int runCompare(const CompareArguments& arguments) {
+  const std::optional<std::string> terminal = gnuplotTerminal(arguments.plot);
+  if (!arguments.plot.empty() && !terminal) {
+    throw InvalidRequest("--plot: the file name must end in .svg or .png");
+  }
+  const Comparison comparison =
+      compareWithProgress(sceneFrom(arguments.scene), arguments.scene.bounding_volume);
+  if (arguments.json) {
+    std::cout << jsonOf(comparison).dump(1) << '\n';
+  } else {
+    std::cout << (arguments.csv ? csvOf(comparison) : tableOf(comparison));
+  }
+  if (terminal) plot(comparison, arguments, *terminal);
+  return interrupted() ? kStopped : kAnswered;
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App& command =
+      *app.add_subcommand("compare", "Every method at several budgets on one scene");
+  addSceneOptions(command, arguments->scene);
+  addRequestOptions(command, arguments->scene);
+  auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of a table");
+  command.add_flag("--json", arguments->json, "JSON instead of a table")->excludes(csv);
+  command.add_option("--plot", arguments->plot,
+                     "Also plot error and bounds against run time, to FILE.svg or FILE.png");
+  command.callback([arguments, &exit_code] { exit_code = runCompare(*arguments); });
+}
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The gnuplot script of a comparison.
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+#include "cli/comparison_report.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+/// The records of one method that gave an answer, in the order of their run time.
+using Curves = std::map<ProbabilityMethod, std::vector<const ComparisonRecord*>>;
+
+Curves curvesOf(const Comparison& comparison) {
+  Curves curves;
+  for (const ComparisonRecord& record : comparison.records) {
+    if (!record.refusal) curves[record.method].push_back(&record);
+  }
+  for (auto& [method, records] : curves) {
+    std::sort(records.begin(), records.end(),
+              [](const auto* a, const auto* b) { return a->time_ms < b->time_ms; });
+  }
+  return curves;
+}
+
+/// What the method itself says its error may be, in the units of `error`.
+double claimedError(const ComparisonRecord& record) {
+  const ProbabilityResult& result = record.result;
+  if (result.standard_error) return *result.standard_error;
+  if (result.lower && result.upper) return 0.5 * (*result.upper - *result.lower);
+  return 0.0;
+}
+
+/// The range that the method gives for P: certified, of confidence, or up to a bound.
+Bounds rangeOf(const ComparisonRecord& record) {
+  const ProbabilityResult& result = record.result;
+  if (result.lower && result.upper) return {*result.lower, *result.upper};
+  if (result.confidence_interval) return *result.confidence_interval;
+  return {record.value, record.value};
+}
+
+std::string blockName(ProbabilityMethod method) {
+  return "$method" + std::to_string(static_cast<int>(method));
+}
+
+/// One block of data a method: time, relative error, its bar, value, range.
+void writeData(const Curves& curves, const ComparisonReference& reference, std::ostream& out) {
+  // A method may be right to the last digit of the reference, which a logarithm cannot show.
+  const double floor =
+      std::max(0.5 * reference.interval.width() / std::max(reference.value, 1e-300), 1e-12);
+  for (const auto& [method, records] : curves) {
+    out << blockName(method) << " << EOD\n";
+    for (const ComparisonRecord* record : records) {
+      const double claimed = claimedError(*record) / std::max(reference.value, 1e-300);
+      const double error = std::max(record->relative_error, floor);
+      const Bounds range = rangeOf(*record);
+      out << record->time_ms << ' ' << error << ' ' << std::min(error, std::max(claimed, floor))
+          << ' ' << std::max(error, claimed) << ' ' << record->value << ' ' << range.lower << ' '
+          << range.upper << '\n';
+    }
+    out << "EOD\n";
+  }
+}
+
+void writeCurves(const Curves& curves, const std::string& columns, std::ostream& out) {
+  bool first = true;
+  int style = 1;
+  for (const auto& [method, records] : curves) {
+    out << (first ? "plot " : ", \\\n     ") << blockName(method) << " using " << columns
+        << " with yerrorlines lt " << style << " pt " << 3 + style << " title '" << toString(method)
+        << "'";
+    first = false;
+    ++style;
+  }
+}
+
+}  // namespace
+
+std::string gnuplotScriptOf(const Comparison& comparison, const std::string& title,
+                            const std::string& terminal) {
+  const Curves curves = curvesOf(comparison);
+  std::ostringstream out;
+  out << std::setprecision(10);
+  writeData(curves, comparison.reference, out);
+  std::string safe_title = title;
+  std::replace(safe_title.begin(), safe_title.end(), '\'', ' ');
+  out << "set terminal " << terminal << " noenhanced\nset output\n"
+      << "set multiplot layout 1,2 title '" << safe_title << "'\n"
+      << "set logscale x\nset grid\nset xlabel 'run time / ms'\nset key off\n"
+      << "set logscale y\nset format y '%.0e'\nset ylabel 'relative error'\n";
+  writeCurves(curves, "1:2:3:4", out);
+  out << "\nset key on outside right\nunset logscale y\nset format y '%g'\nset ylabel 'P'\n"
+      << "set yrange [0:*<1.05]\n";
+  writeCurves(curves, "1:5:6:7", out);
+  out << ", \\\n     " << comparison.reference.value
+      << " with lines lc 'black' dt 2 title 'reference'\nunset multiplot\n";
+  return out.str();
+}
+
+}  // namespace fcl_prob::cli

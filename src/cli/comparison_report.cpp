@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/comparison_report.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include "cli/json_values.h"
+#include "cli/text_table.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value, int digits = 4) {
+  std::ostringstream text;
+  text << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string numberOrEmpty(const std::optional<double>& value) {
+  return value ? number(*value, 17) : "";
+}
+
+/// How the answer is known: an interval, a bound, or a number with its error.
+std::string rangeOf(const ProbabilityResult& result) {
+  if (result.lower && result.upper) {
+    return "[" + number(*result.lower, 6) + ", " + number(*result.upper, 6) + "]";
+  }
+  if (result.upper) return "<= " + number(*result.upper, 6);
+  if (result.confidence_interval) {
+    return "~ [" + number(result.confidence_interval->lower, 6) + ", " +
+           number(result.confidence_interval->upper, 6) + "]";
+  }
+  return "";
+}
+
+std::string referenceText(const ComparisonReference& reference) {
+  return number(reference.interval.lower, 8) + " <= P <= " + number(reference.interval.upper, 8) +
+         (reference.certified ? " (certified, " : " (Monte Carlo, not certified, ") +
+         number(reference.time_ms) + " ms)";
+}
+
+}  // namespace
+
+std::string tableOf(const Comparison& comparison) {
+  TextTable table(
+      {"method", "budget", "value", "interval or bound", "relative error", "time / ms", "status"});
+  std::string refusals;
+  for (const ComparisonRecord& record : comparison.records) {
+    const std::string name = toString(record.method);
+    if (record.refusal) {
+      const std::string line = "not for this scene: " + *record.refusal + "\n";
+      if (refusals.find(line) == std::string::npos) refusals += line;
+      continue;
+    }
+    table.add({name, record.budget, number(record.value, 6), rangeOf(record.result),
+               number(record.relative_error, 3), number(record.time_ms),
+               toString(record.result.status)});
+  }
+  return "reference: " + referenceText(comparison.reference) + "\n" + "trees built in " +
+         number(comparison.build_ms) + " ms\n\n" + table.text() + refusals;
+}
+
+std::string csvOf(const Comparison& comparison) {
+  constexpr int kAllDigits = 17;
+  TextTable table({"method", "budget", "value", "lower", "upper", "confidence_lower",
+                   "confidence_upper", "standard_error", "error", "relative_error", "time_ms",
+                   "status"});
+  for (const ComparisonRecord& record : comparison.records) {
+    if (record.refusal) continue;
+    const ProbabilityResult& result = record.result;
+    const auto& confidence = result.confidence_interval;
+    table.add({toString(record.method), record.budget, number(record.value, kAllDigits),
+               numberOrEmpty(result.lower), numberOrEmpty(result.upper),
+               confidence ? number(confidence->lower, kAllDigits) : "",
+               confidence ? number(confidence->upper, kAllDigits) : "",
+               numberOrEmpty(result.standard_error), number(record.error, kAllDigits),
+               number(record.relative_error, kAllDigits), number(record.time_ms, kAllDigits),
+               toString(result.status)});
+  }
+  return table.csv();
+}
+
+Json jsonOf(const Comparison& comparison) {
+  Json records = Json::array();
+  for (const ComparisonRecord& record : comparison.records) {
+    Json json{{"method", toString(record.method)}, {"budget", record.budget}};
+    if (record.refusal) {
+      json["refusal"] = *record.refusal;
+    } else {
+      json["value"] = record.value;
+      json["lower"] = orNull(record.result.lower);
+      json["upper"] = orNull(record.result.upper);
+      json["confidence_interval"] = orNull(record.result.confidence_interval);
+      json["standard_error"] = orNull(record.result.standard_error);
+      json["raw_sum"] = orNull(record.result.statistics.raw_sum);
+      json["error"] = record.error;
+      json["relative_error"] = record.relative_error;
+      json["time_ms"] = record.time_ms;
+      json["status"] = toString(record.result.status);
+    }
+    records.push_back(json);
+  }
+  return {{"reference",
+           {{"value", comparison.reference.value},
+            {"lower", comparison.reference.interval.lower},
+            {"upper", comparison.reference.interval.upper},
+            {"certified", comparison.reference.certified},
+            {"time_ms", comparison.reference.time_ms}}},
+          {"fcl", jsonOf(comparison.nominal)},
+          {"build_ms", comparison.build_ms},
+          {"records", records}};
+}
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A scene that is ready to be queried, and queries with a clock.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/geometry.h"
+#include "cli/nominal_answer.h"
+#include "fcl_prob/collision_probability.h"
+
+namespace fcl_prob::cli {
+
+/// A result and how long it took.
+struct TimedResult {
+  ProbabilityResult result;
+  double time_ms = 0.0;
+};
+
+/// Loads the objects of a scene, builds their trees and prepares the query.
+class PreparedScene {
+ public:
+  /// \throws what the loader, the trees and the query throw
+  PreparedScene(const Scene& scene, const std::string& bounding_volume);
+
+  /// The query alone, without loading and building.
+  TimedResult query(const ProbabilityRequest& request) const;
+
+  /// Building the trees and preparing the query, milliseconds.
+  double buildTime() const { return build_ms_; }
+
+  /// FCL's own answer with A at its mean displacement.
+  NominalAnswer nominal() const;
+
+  const LoadedObject& objectA() const { return a_; }
+  const LoadedObject& objectB() const { return b_; }
+  const GaussianDisplacement& displacement() const { return displacement_; }
+
+ private:
+  LoadedObject a_;
+  LoadedObject b_;
+  GaussianDisplacement displacement_;
+  double build_ms_ = 0.0;
+  std::unique_ptr<PreparedQuery> query_;
+};
+
+/// A limit came before what was asked for; the result is valid all the same.
+bool stoppedByLimit(ProbabilityStatus status);
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// fcl_prob compare from outside, and its reports.
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "catch.h"
+#include "cli/comparison.h"
+#include "cli/comparison_report.h"
+#include "cli/text_table.h"
+#include "command.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob_test;
+using nlohmann::json;
+
+TEST_CASE("compare has one record a method and budget, near its reference", "[cli]") {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      runCommand({"compare", "--scene", dataFile("two_boxes.json"), "--json"}, folder);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const json answer = json::parse(result.out);
+  const double reference = answer.at("reference").at("value").get<double>();
+  CHECK(reference > 0.1);
+  CHECK(reference < 0.3);
+  CHECK(answer.at("fcl").at("collides") == false);
+
+  std::set<std::pair<std::string, std::string>> seen;
+  int answered = 0;
+  for (const json& record : answer.at("records")) {
+    CAPTURE(record.dump());
+    CHECK(seen.emplace(record.at("method"), record.at("budget")).second);
+    if (record.contains("refusal")) continue;
+    ++answered;
+    CHECK(record.at("time_ms").get<double>() > 0.0);
+    CHECK(record.at("error").get<double>() ==
+          Approx(std::abs(record.at("value").get<double>() - reference)));
+    if (record.at("lower").is_number()) CHECK(record.at("lower").get<double>() <= reference + 1e-9);
+    if (record.at("upper").is_number()) CHECK(record.at("upper").get<double>() >= reference - 1e-9);
+  }
+  CHECK(seen.size() == cli::defaultRuns({}).size());
+  CHECK(answered >= 4);
+}
+
+TEST_CASE("compare as CSV and table, for one method", "[cli]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> arguments{"compare", "--scene", dataFile("two_boxes.json"),
+                                           "--method", "monte-carlo"};
+  std::vector<std::string> with_csv = arguments;
+  with_csv.emplace_back("--csv");
+  const CommandResult csv = runCommand(with_csv, folder);
+  REQUIRE(csv.exit_code == 0);
+  std::istringstream lines(csv.out);
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line.rfind("method,budget,value,lower,upper,", 0) == 0);
+  const auto commas = std::count(line.begin(), line.end(), ',');
+  int rows = 0;
+  while (std::getline(lines, line)) {
+    CHECK(std::count(line.begin(), line.end(), ',') == commas);
+    CHECK(line.rfind("monte-carlo,", 0) == 0);
+    ++rows;
+  }
+  CHECK(rows == 4);
+
+  const CommandResult table = runCommand(arguments, folder);
+  CHECK(table.out.find("reference: ") == 0);
+  CHECK(table.out.find("10000 samples") != std::string::npos);
+}
+
+TEST_CASE("compare plots with gnuplot, or says that it is missing", "[cli]") {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      runCommand({"compare", "--scene", dataFile("two_boxes.json"), "--method", "monte-carlo",
+                  "--plot", folder.path("plot.svg")},
+                 folder);
+  CHECK(result.exit_code == 0);
+  if (std::system("command -v gnuplot >/dev/null 2>&1") == 0) {
+    const std::string plot = readWhole(folder.path("plot.svg"));
+    CHECK(plot.find("<svg") != std::string::npos);
+    CHECK(plot.find("monte-carlo") != std::string::npos);
+    CHECK(result.err.empty());
+  } else {
+    CHECK(result.err.find("gnuplot is not installed") != std::string::npos);
+  }
+  CHECK(runCommand({"compare", "--scene", dataFile("two_boxes.json"), "--plot", "x.pdf"}, folder)
+            .refused());
+}
+
+TEST_CASE("tables as text, Markdown and CSV", "[cli]") {
+  cli::TextTable table({"a", "long"});
+  table.add({"1,5", "x\"y"});
+  CHECK(table.text() == "a    long\n1,5  x\"y\n");
+  CHECK(table.markdown() == "| a | long |\n| --- | --- |\n| 1,5 | x\"y |\n");
+  CHECK(table.csv() == "a,long\n\"1,5\",\"x\"\"y\"\n");
+}
