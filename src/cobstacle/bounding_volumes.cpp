@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cobstacle/bounding_volumes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_prob::detail {
+
+RoundedZonotope roundedZonotope(const fcl::AABBd& box) {
+  RoundedZonotope result{Zonotope(0.5 * (box.min_ + box.max_)), 0.0};
+  const Eigen::Vector3d half = 0.5 * (box.max_ - box.min_);
+  for (int k = 0; k < 3; ++k) result.core.addGenerator(half[k] * Eigen::Vector3d::Unit(k));
+  return result;
+}
+
+RoundedZonotope roundedZonotope(const fcl::OBBd& box) {
+  RoundedZonotope result{Zonotope(box.To), 0.0};
+  for (int k = 0; k < 3; ++k) result.core.addGenerator(box.extent[k] * box.axis.col(k));
+  return result;
+}
+
+RoundedZonotope roundedZonotope(const fcl::RSSd& rss) {
+  const Eigen::Vector3d u = 0.5 * rss.l[0] * rss.axis.col(0);
+  const Eigen::Vector3d v = 0.5 * rss.l[1] * rss.axis.col(1);
+  RoundedZonotope result{Zonotope(rss.To + u + v), rss.r};
+  result.core.addGenerator(u);
+  result.core.addGenerator(v);
+  return result;
+}
+
+RoundedZonotope roundedZonotope(const SphereBv& sphere) {
+  return {Zonotope(sphere.center()), sphere.radius()};
+}
+
+RoundedZonotope roundedZonotope(const fcl::OBBRSSd& both) { return roundedZonotope(both.obb); }
+
+RoundedZonotope roundedZonotope(const fcl::kIOSd& kios) { return roundedZonotope(kios.obb); }
+
+RoundedZonotope smallestSphere(const fcl::kIOSd& kios) {
+  unsigned best = 0;
+  for (unsigned i = 1; i < kios.num_spheres; ++i) {
+    if (kios.spheres[i].r < kios.spheres[best].r) best = i;
+  }
+  return {Zonotope(kios.spheres[best].o), kios.spheres[best].r};
+}
+
+std::vector<Slab> slabsOf(const Kdop26& dop) {
+  std::vector<Slab> slabs;
+  for (int k = 0; k < Kdop26::kSlabs; ++k) {
+    slabs.push_back({Kdop26::direction(k), dop.lower(k), dop.upper(k)});
+  }
+  return slabs;
+}
+
+void addReversed(const std::vector<Slab>& slabs_of_a, std::vector<Slab>& slabs_of_b) {
+  for (std::size_t k = 0; k < slabs_of_b.size(); ++k) {
+    slabs_of_b[k].lower -= slabs_of_a[k].upper;
+    slabs_of_b[k].upper -= slabs_of_a[k].lower;
+  }
+}
+
+ConvexMesh meshOfSlabs(const std::vector<Slab>& slabs) {
+  double size = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    size = std::max({size, std::abs(slabs[k].lower), std::abs(slabs[k].upper)});
+  }
+  FaceSet faces;
+  setToSlabs(slabs, 1e-14 * size, faces);
+  return makeConvexMesh(faces.vertices());
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/convex_body.h"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include "cobstacle/bounding_volumes.h"
+#include "cobstacle/convex_body_data.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/convex_vertices.h"
+#include "geometry/geometry_kind.h"
+#include "geometry/validation.h"
+
+namespace fcl_prob {
+namespace {
+
+using detail::ConvexBodyData;
+using detail::PolytopeSet;
+using detail::RoundedZonotope;
+using detail::SweptSet;
+using detail::Zonotope;
+
+constexpr int kLeastResolution = 8;
+
+using Data = std::shared_ptr<const ConvexBodyData>;
+
+Data sharedZonotope(const RoundedZonotope& body, int resolution = 0) {
+  return std::make_shared<const ConvexBodyData>(body, resolution);
+}
+
+Data sharedHull(const std::vector<Eigen::Vector3d>& points) {
+  return std::make_shared<const ConvexBodyData>(
+      std::make_unique<const PolytopeSet>(detail::makeConvexMesh(points)));
+}
+
+Data sharedDop(const std::vector<detail::Slab>& slabs) {
+  return std::make_shared<const ConvexBodyData>(
+      std::make_unique<const PolytopeSet>(detail::meshOfSlabs(slabs)));
+}
+
+Data sharedSwept(std::vector<SweptSet::Centre> centres, const Eigen::Vector3d& semi_axes,
+                 int resolution) {
+  return std::make_shared<const ConvexBodyData>(std::make_unique<const SweptSet>(
+      std::move(centres), Eigen::Matrix3d(semi_axes.asDiagonal()), resolution));
+}
+
+void requireResolution(int resolution) {
+  if (resolution < kLeastResolution) {
+    throw InvalidRequest("resolution of a convex body is " + std::to_string(resolution) +
+                         ", must be at least " + std::to_string(kLeastResolution));
+  }
+}
+
+RoundedZonotope capsule(const fcl::Capsuled& shape) {
+  RoundedZonotope body{Zonotope(Eigen::Vector3d::Zero()), shape.radius};
+  body.core.addGenerator(0.5 * shape.lz * Eigen::Vector3d::UnitZ());
+  return body;
+}
+
+RoundedZonotope box(const fcl::Boxd& shape) {
+  RoundedZonotope body;
+  for (int k = 0; k < 3; ++k) {
+    body.core.addGenerator(0.5 * shape.side[k] * Eigen::Vector3d::Unit(k));
+  }
+  return body;
+}
+
+Data dataOf(const fcl::CollisionGeometryd& shape, int resolution) {
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  switch (shape.getNodeType()) {
+    case fcl::GEOM_BOX:
+      return sharedZonotope(box(static_cast<const fcl::Boxd&>(shape)));
+    case fcl::GEOM_SPHERE:
+      return sharedZonotope({Zonotope(origin), static_cast<const fcl::Sphered&>(shape).radius},
+                            resolution);
+    case fcl::GEOM_CAPSULE:
+      return sharedZonotope(capsule(static_cast<const fcl::Capsuled&>(shape)), resolution);
+    case fcl::GEOM_ELLIPSOID:
+      return sharedSwept({{origin, true}}, static_cast<const fcl::Ellipsoidd&>(shape).radii,
+                         resolution);
+    case fcl::GEOM_CYLINDER: {
+      const auto& cylinder = static_cast<const fcl::Cylinderd&>(shape);
+      const Eigen::Vector3d up(0.0, 0.0, 0.5 * cylinder.lz);
+      return sharedSwept({{-up, true}, {up, true}}, {cylinder.radius, cylinder.radius, 0.0},
+                         resolution);
+    }
+    case fcl::GEOM_CONE: {
+      const auto& cone = static_cast<const fcl::Coned&>(shape);
+      const Eigen::Vector3d up(0.0, 0.0, 0.5 * cone.lz);
+      return sharedSwept({{-up, true}, {up, false}}, {cone.radius, cone.radius, 0.0}, resolution);
+    }
+    default:
+      if (const auto vertices = detail::polytopeVertices(shape)) return sharedHull(*vertices);
+      throw UnsupportedGeometry("not a bounded convex shape: " +
+                                detail::nodeTypeName(shape.getNodeType()));
+  }
+}
+
+}  // namespace
+
+ConvexBody::ConvexBody(const fcl::CollisionGeometryd& shape, int resolution) {
+  requireResolution(resolution);
+  detail::validateGeometry(&shape, "convex body");
+  data_ = dataOf(shape, resolution);
+}
+
+ConvexBody::ConvexBody(const fcl::AABBd& box)
+    : data_(sharedZonotope(detail::roundedZonotope(box))) {}
+ConvexBody::ConvexBody(const fcl::OBBd& box)
+    : data_(sharedZonotope(detail::roundedZonotope(box))) {}
+ConvexBody::ConvexBody(const fcl::OBBRSSd& both) : ConvexBody(both.obb) {}
+ConvexBody::ConvexBody(const fcl::kIOSd& kios) : ConvexBody(kios.obb) {}
+ConvexBody::ConvexBody(const fcl::KDOPd<16>& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const fcl::KDOPd<18>& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const fcl::KDOPd<24>& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const Kdop26& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const std::vector<Eigen::Vector3d>& points) : data_(sharedHull(points)) {}
+
+ConvexBody::ConvexBody(const fcl::RSSd& rss, int resolution) {
+  requireResolution(resolution);
+  data_ = sharedZonotope(detail::roundedZonotope(rss), resolution);
+}
+
+ConvexBody::ConvexBody(const SphereBv& sphere, int resolution) {
+  requireResolution(resolution);
+  data_ = sharedZonotope(detail::roundedZonotope(sphere), resolution);
+}
+
+bool ConvexBody::isPolytope() const {
+  return data_->rounded ? data_->rounded->radius == 0.0 : data_->set().isPolytope();
+}
+
+Eigen::Vector3d ConvexBody::supportPoint(const Eigen::Vector3d& direction) const {
+  return data_->set().supportPoint(direction);
+}
+
+}  // namespace fcl_prob

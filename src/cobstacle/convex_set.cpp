@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cobstacle/convex_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fcl_prob::detail {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// The outer polytope is this much larger than computed, so that rounding leaves no point outside.
+constexpr double kOuterSlack = 1e-12;
+
+Points pointsOnCircle(int count) {
+  Points points;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * i / count;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  return points;
+}
+
+/// Fibonacci lattice with its mirror image: nearly even, and symmetric about the centre.
+Points pointsOnSphere(int count) {
+  const double golden_angle = M_PI * (3.0 - std::sqrt(5.0));
+  const int half = std::max(count / 2, 3);
+  Points points;
+  for (int i = 0; i < half; ++i) {
+    const double height = (i + 0.5) / half;
+    const double radius = std::sqrt(1.0 - height * height);
+    const Eigen::Vector3d p(radius * std::cos(i * golden_angle),
+                            radius * std::sin(i * golden_angle), height);
+    points.push_back(p);
+    points.push_back(-p);
+  }
+  return points;
+}
+
+/// Radius of the largest ball (disk) around the origin inside the hull of the points.
+double inradius(const Points& points, bool disk) {
+  if (disk) return std::cos(M_PI / static_cast<double>(points.size()));
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConvexPolytope::Face& face : convexHull(points).faces) {
+    for (int vertex : face.vertices) least = std::min(least, face.normal.dot(points[vertex]));
+  }
+  return least;
+}
+
+}  // namespace
+
+double ConvexSet::size() const {
+  double largest = 0.0;
+  for (const Eigen::Vector3d& v : outerMesh().vertices) largest = std::max(largest, v.norm());
+  return largest;
+}
+
+SweptSet::SweptSet(std::vector<Centre> centres, const Eigen::Matrix3d& semi_axes, int resolution)
+    : centres_(std::move(centres)), semi_axes_(semi_axes) {
+  const bool disk = semi_axes_.col(2).isZero(0.0);
+  const Points ball = disk ? pointsOnCircle(resolution) : pointsOnSphere(resolution);
+  outer_ = hullOf(ball, (1.0 + kOuterSlack) / inradius(ball, disk));
+  inner_ = hullOf(ball, 1.0);
+}
+
+Eigen::Vector3d SweptSet::supportPoint(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d on_ball = semi_axes_.transpose() * direction;
+  const double length = on_ball.norm();
+  const Eigen::Vector3d swept =
+      length > 0.0 ? Eigen::Vector3d(semi_axes_ * (on_ball / length)) : Eigen::Vector3d::Zero();
+  double highest = -std::numeric_limits<double>::infinity();
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  for (const Centre& centre : centres_) {
+    const Eigen::Vector3d point =
+        centre.swept ? Eigen::Vector3d(centre.position + swept) : centre.position;
+    const double height = direction.dot(point);
+    if (height > highest) {
+      highest = height;
+      best = point;
+    }
+  }
+  return best;
+}
+
+ConvexMesh SweptSet::hullOf(const Points& ball, double scale) const {
+  Points points;
+  for (const Centre& centre : centres_) {
+    if (!centre.swept) {
+      points.push_back(centre.position);
+      continue;
+    }
+    for (const Eigen::Vector3d& p : ball) {
+      points.push_back(centre.position + semi_axes_ * (scale * p));
+    }
+  }
+  return makeConvexMesh(points);
+}
+
+}  // namespace fcl_prob::detail

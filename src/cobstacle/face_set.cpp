@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cobstacle/face_set.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+
+namespace fcl_prob::detail {
+namespace {
+
+/// A face is left out of a ConvexPolytope when its area is below this times its longest edge
+/// squared: its normal would be noise.
+constexpr double kSliver = 1e-13;
+
+std::uint64_t mixed(std::uint64_t x) {  // SplitMix64's finalizer
+  x += 0x9E3779B97F4A7C15ull;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t edgeKey(int low, int high) {
+  return mixed((static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint32_t>(high));
+}
+
+double longestEdge(const FaceSet& faces, std::size_t face) {
+  const int count = faces.cornerCount(face);
+  double longest = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d edge = faces.position(face, (i + 1) % count) - faces.position(face, i);
+    longest = std::max(longest, edge.norm());
+  }
+  return longest;
+}
+
+}  // namespace
+
+void FaceSet::clear() {
+  vertices_.clear();
+  first_.clear();
+  corners_.clear();
+}
+
+int FaceSet::addVertex(const Eigen::Vector3d& position) {
+  vertices_.push_back(position);
+  return static_cast<int>(vertices_.size()) - 1;
+}
+
+void FaceSet::addFace(std::initializer_list<int> corners) {
+  beginFace();
+  corners_.insert(corners_.end(), corners);
+}
+
+Eigen::Vector3d FaceSet::vectorArea(std::size_t face) const {
+  const Eigen::Vector3d& origin = position(face, 0);
+  const int count = cornerCount(face);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 1; i + 1 < count; ++i) {
+    sum += (position(face, i) - origin).cross(position(face, i + 1) - origin);
+  }
+  return 0.5 * sum;
+}
+
+bool FaceSet::closed() const {
+  std::uint64_t sum = 0;
+  for (std::size_t face = 0; face < faceCount(); ++face) {
+    int from = corners_[end(face) - 1];
+    for (int at = first_[face]; at < end(face); ++at) {
+      const int to = corners_[at];
+      if (from < to) sum += edgeKey(from, to);
+      if (from > to) sum -= edgeKey(to, from);
+      from = to;
+    }
+  }
+  return sum == 0;
+}
+
+ConvexPolytope toPolytope(const FaceSet& faces) {
+  ConvexPolytope polytope;
+  polytope.vertices = faces.vertices();
+  for (std::size_t f = 0; f < faces.faceCount(); ++f) {
+    const Eigen::Vector3d area = faces.vectorArea(f);
+    const double longest = longestEdge(faces, f);
+    if (!(area.norm() > kSliver * longest * longest)) continue;
+    ConvexPolytope::Face face;
+    face.normal = area.normalized();
+    face.offset = face.normal.dot(faces.position(f, 0));
+    for (int i = 0; i < faces.cornerCount(f); ++i) {
+      face.vertices.push_back(faces.corner(f, i));
+      face.offset = std::max(face.offset, face.normal.dot(faces.position(f, i)));
+    }
+    polytope.faces.push_back(std::move(face));
+  }
+  return polytope;
+}
+
+void setToBox(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, FaceSet& faces) {
+  faces.clear();
+  for (int corner = 0; corner < 8; ++corner) {
+    faces.addVertex({(corner & 1) ? upper.x() : lower.x(), (corner & 2) ? upper.y() : lower.y(),
+                     (corner & 4) ? upper.z() : lower.z()});
+  }
+  faces.addFace({0, 4, 6, 2});
+  faces.addFace({1, 3, 7, 5});
+  faces.addFace({0, 1, 5, 4});
+  faces.addFace({2, 6, 7, 3});
+  faces.addFace({0, 2, 3, 1});
+  faces.addFace({4, 5, 7, 6});
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cobstacle/minkowski_sum.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "cobstacle/perturbation.h"
+
+namespace fcl_prob::detail {
+
+double MinkowskiSum::Heights::compute(const ConvexMesh& faces_of, const ConvexMesh& vertices_of,
+                                      const Eigen::Vector3d& turn) {
+  const std::size_t vertex_count = vertices_of.vertices.size();
+  const std::size_t edge_count = vertices_of.edges.size();
+  of_vertex.resize(vertex_count);
+  sign_of_edge.resize(faces_of.faces.size() * edge_count);
+  highest.resize(faces_of.faces.size());
+  const bool turned = !turn.isZero(0.0);
+  double defect = 0.0;
+
+  for (std::size_t f = 0; f < faces_of.faces.size(); ++f) {
+    const Eigen::Vector3d& n = faces_of.faces[f].normal;
+    const Eigen::Vector3d direction = n + turn.cross(n);
+    for (std::size_t i = 0; i < vertex_count; ++i) {
+      of_vertex[i] = direction.dot(vertices_of.vertices[i]);
+    }
+    highest[f] =
+        static_cast<int>(std::max_element(of_vertex.begin(), of_vertex.end()) - of_vertex.begin());
+    std::int8_t* signs = sign_of_edge.data() + f * edge_count;
+    for (std::size_t e = 0; e < edge_count; ++e) {
+      const ConvexMesh::Edge& edge = vertices_of.edges[e];
+      signs[e] = of_vertex[edge.to] > of_vertex[edge.from] ? 1 : -1;
+    }
+    if (!turned) continue;
+    for (std::size_t e = 0; e < edge_count; ++e) {
+      const ConvexMesh::Edge& edge = vertices_of.edges[e];
+      const double climb = n.dot(vertices_of.vertices[edge.to] - vertices_of.vertices[edge.from]);
+      if ((climb > 0.0) != (signs[e] > 0)) defect = std::max(defect, std::abs(climb));
+    }
+  }
+  return defect;
+}
+
+std::optional<double> MinkowskiSum::compute(const ConvexMesh& p, const ConvexMesh& q,
+                                            FaceSet& sum) {
+  p_ = &p;
+  q_ = &q;
+  const std::size_t pairs = p.vertices.size() * q.vertices.size();
+  if (vertex_index_.size() < pairs) {
+    vertex_index_.resize(pairs);
+    vertex_stamp_.resize(pairs, 0);
+  }
+  for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
+    if (const auto defect = computePerturbed(p, q, attempt, sum)) return defect;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> MinkowskiSum::computePerturbed(const ConvexMesh& p, const ConvexMesh& q,
+                                                     int attempt, FaceSet& sum) {
+  sum.clear();
+  if (++stamp_ == 0) {  // wrapped around: old stamps would look new
+    std::fill(vertex_stamp_.begin(), vertex_stamp_.end(), 0u);
+    stamp_ = 1;
+  }
+  const Eigen::Vector3d turn = perturbation(0, attempt);
+  // A chain of edges may be in the wrong order as a whole, so the defects of all of them count.
+  const double defect = heights_of_q_.compute(p, q, -turn) * static_cast<double>(q.edges.size()) +
+                        heights_of_p_.compute(q, p, turn) * static_cast<double>(p.edges.size());
+  addTranslatedFaces(p, q, sum);
+  addParallelograms(p, q, sum);
+  if (p.edges.empty() && q.edges.empty()) vertex(0, 0, sum);
+  if (!sum.closed()) return std::nullopt;
+  return defect;
+}
+
+void MinkowskiSum::addTranslatedFaces(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum) {
+  for (std::size_t f = 0; f < p.faces.size(); ++f) {
+    sum.beginFace();
+    for (int c = 0; c < p.faces[f].count; ++c) {
+      sum.addCorner(vertex(p.corners[p.faces[f].first + c], heights_of_q_.highest[f], sum));
+    }
+  }
+  for (std::size_t f = 0; f < q.faces.size(); ++f) {
+    sum.beginFace();
+    for (int c = 0; c < q.faces[f].count; ++c) {
+      sum.addCorner(vertex(heights_of_p_.highest[f], q.corners[q.faces[f].first + c], sum));
+    }
+  }
+}
+
+// The parallelogram of the edges e_P, e_Q is a facet with outward normal m = e_P × e_Q if m is in
+// the normal cones of both. For e_P with its left face of normal n that means m·(n × e_P) <= 0,
+// which is
+// -|e_P|² e_Q·n: so e_Q climbs along the left face's normal and descends along the right one's; for
+// e_Q the other way round. With all four signs reversed it is a facet of normal -m.
+void MinkowskiSum::addParallelograms(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum) {
+  const std::size_t edges_p = p.edges.size();
+  const std::size_t edges_q = q.edges.size();
+  for (std::size_t e = 0; e < edges_p; ++e) {
+    const ConvexMesh::Edge& edge_p = p.edges[e];
+    const std::int8_t* left =
+        edge_p.left < 0 ? nullptr : &heights_of_q_.sign_of_edge[edge_p.left * edges_q];
+    const std::int8_t* right =
+        edge_p.left < 0 ? nullptr : &heights_of_q_.sign_of_edge[edge_p.right * edges_q];
+    for (std::size_t k = 0; k < edges_q; ++k) {
+      if (left && left[k] == right[k]) continue;
+      const ConvexMesh::Edge& edge_q = q.edges[k];
+      bool along = !left || left[k] > 0;
+      bool against = !left || left[k] < 0;
+      if (edge_q.left >= 0) {
+        const std::int8_t on_left = heights_of_p_.sign_of_edge[edge_q.left * edges_p + e];
+        const std::int8_t on_right = heights_of_p_.sign_of_edge[edge_q.right * edges_p + e];
+        if (on_left == on_right) continue;
+        along = along && on_left < 0;
+        against = against && on_left > 0;
+      }
+      if (along) addParallelogram(edge_p, edge_q, true, sum);
+      if (against) addParallelogram(edge_p, edge_q, false, sum);
+    }
+  }
+}
+
+void MinkowskiSum::addParallelogram(const ConvexMesh::Edge& edge_p, const ConvexMesh::Edge& edge_q,
+                                    bool along, FaceSet& sum) {
+  const int start = vertex(edge_p.from, edge_q.from, sum);
+  const int plus_p = vertex(edge_p.to, edge_q.from, sum);
+  const int plus_both = vertex(edge_p.to, edge_q.to, sum);
+  const int plus_q = vertex(edge_p.from, edge_q.to, sum);
+  if (along) {
+    sum.addFace({start, plus_p, plus_both, plus_q});
+  } else {
+    sum.addFace({start, plus_q, plus_both, plus_p});
+  }
+}
+
+int MinkowskiSum::vertex(int i, int j, FaceSet& sum) {
+  const std::size_t key = static_cast<std::size_t>(i) * q_->vertices.size() + j;
+  if (vertex_stamp_[key] != stamp_) {
+    vertex_stamp_[key] = stamp_;
+    vertex_index_[key] = sum.addVertex(p_->vertices[i] + q_->vertices[j]);
+  }
+  return vertex_index_[key];
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Proposals for the direction in which the mean is separated from a C-obstacle.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cobstacle/c_obstacle.h"
+
+namespace fcl_prob::detail {
+
+/// Directions from the mean (the origin of the whitened frame) towards V; unit vectors, or zero if
+/// there is none. They are proposals: a bound must take its offset from a support value.
+struct Separation {
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< towards the nearest point
+  Eigen::Vector3d face = Eigen::Vector3d::Zero();  ///< against the normal of the face whose plane
+                                                   ///< is farthest (inside: least deep)
+};
+
+/// By looking at every face.
+Separation separationOf(const FaceSet& faces);
+
+/// By FCL's GJK on support points, for curved bodies; zero if it does not succeed.
+Eigen::Vector3d gjkDirection(const CObstacle& obstacle);
+
+/// The direction of the longest edge after projection along `axis` (unit), as a unit vector
+/// orthogonal to it.
+Eigen::Vector3d longestEdgeAcross(const FaceSet& faces, const Eigen::Vector3d& axis);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cobstacle/zonotope.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "cobstacle/perturbation.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+constexpr double kParallel = 1e-14;
+
+bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double limit = kParallel * a.norm() * b.norm();
+  return a.cross(b).squaredNorm() <= limit * limit;
+}
+
+}  // namespace
+
+void Zonotope::addGenerator(const Eigen::Vector3d& generator) {
+  if (generator.isZero(0.0)) return;
+  for (int i = 0; i < count_; ++i) {
+    if (!parallel(generators_[i], generator)) continue;
+    generators_[i] +=
+        generators_[i].dot(generator) >= 0.0 ? generator : Eigen::Vector3d(-generator);
+    return;
+  }
+  assert(count_ < kMaxGenerators);
+  generators_[count_++] = generator;
+}
+
+Zonotope Zonotope::mapped(const Eigen::Matrix3d& map) const {
+  Zonotope image(map * centre_);
+  image.count_ = count_;
+  for (int i = 0; i < count_; ++i) image.generators_[i] = map * generators_[i];
+  return image;
+}
+
+double Zonotope::support(const Eigen::Vector3d& direction) const {
+  double sum = centre_.dot(direction);
+  for (int i = 0; i < count_; ++i) sum += std::abs(generators_[i].dot(direction));
+  return sum;
+}
+
+Eigen::Vector3d Zonotope::supportPoint(const Eigen::Vector3d& direction) const {
+  Eigen::Vector3d point = centre_;
+  for (int i = 0; i < count_; ++i) {
+    point +=
+        generators_[i].dot(direction) >= 0.0 ? generators_[i] : Eigen::Vector3d(-generators_[i]);
+  }
+  return point;
+}
+
+int Zonotope::vertexIndex(unsigned signs, std::array<int, 1u << kMaxGenerators>& indices,
+                          FaceSet& faces) const {
+  int& index = indices[signs];
+  if (index >= 0) return index;
+  Eigen::Vector3d point = centre_;
+  for (int i = 0; i < count_; ++i) {
+    point += (signs >> i) & 1u ? generators_[i] : Eigen::Vector3d(-generators_[i]);
+  }
+  return index = faces.addVertex(point);
+}
+
+std::optional<double> Zonotope::faces(FaceSet& faces) const {
+  for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
+    if (const auto defect = facesPerturbed(attempt, faces)) return defect;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) const {
+  faces.clear();
+  std::array<Eigen::Vector3d, kMaxGenerators> moved;
+  for (int i = 0; i < count_; ++i) {
+    moved[i] = generators_[i] + generators_[i].norm() * perturbation(i, attempt);
+  }
+  std::array<int, 1u << kMaxGenerators> indices;
+  std::fill_n(indices.begin(), 1u << count_, -1);
+  const unsigned all = (1u << count_) - 1u;
+  double defect = 0.0;
+
+  for (int i = 0; i < count_; ++i) {
+    for (int j = i + 1; j < count_; ++j) {
+      const Eigen::Vector3d normal = moved[i].cross(moved[j]);
+      unsigned upper = 0;  // the signs of the face's centre on the side of `normal`
+      for (int k = 0; k < count_; ++k) {
+        if (k != i && k != j && normal.dot(moved[k]) > 0.0) upper |= 1u << k;
+      }
+      if (attempt > 0) defect = std::max(defect, defectOf(i, j, upper));
+      const unsigned gi = 1u << i;
+      const unsigned gj = 1u << j;
+      const unsigned lower = all & ~upper & ~gi & ~gj;
+      const auto vertex = [&](unsigned signs) { return vertexIndex(signs, indices, faces); };
+      faces.addFace(
+          {vertex(upper), vertex(upper | gi), vertex(upper | gi | gj), vertex(upper | gj)});
+      faces.addFace(
+          {vertex(lower), vertex(lower | gj), vertex(lower | gi | gj), vertex(lower | gi)});
+    }
+  }
+  if (!faces.closed()) return std::nullopt;
+  return defect;
+}
+
+double Zonotope::defectOf(int i, int j, unsigned upper) const {
+  const Eigen::Vector3d normal = generators_[i].cross(generators_[j]).normalized();
+  double defect = 0.0;
+  for (int k = 0; k < count_; ++k) {
+    if (k == i || k == j) continue;
+    const double height = normal.dot(generators_[k]);
+    if ((height > 0.0) != (((upper >> k) & 1u) != 0)) defect += 2.0 * std::abs(height);
+  }
+  return defect;
+}
+
+}  // namespace fcl_prob::detail
