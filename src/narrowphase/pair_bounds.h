@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The bounds of one C-obstacle after another, without new memory for each.
+#pragma once
+
+#include <vector>
+
+#include "cobstacle/c_obstacle.h"
+#include "cobstacle/nearest.h"
+#include "fcl_prob/convex_pcd.h"
+#include "narrowphase/tail_mean.h"
+
+namespace fcl_prob::detail {
+
+/// Not for concurrent use.
+class PairBounds {
+ public:
+  ConvexPcdBounds bounds(const CObstacle& obstacle);
+  ConvexPcdBaselines baselines(const CObstacle& obstacle);
+
+  /// Certified mass of the polytope whose faces the C-obstacle gives.
+  Bounds mass(const CObstacle& obstacle);
+
+ private:
+  /// Brings the faces of `obstacle` into scratch_, cut and extruded if the displacement has rank 1
+  /// or 2. Returns their whitened error.
+  double prepareFaces(const CObstacle& obstacle);
+
+  Bounds massOfSection(int rank, const Eigen::Vector3d& error);
+  ConvexPcdBounds ellipsoidBounds(const CObstacle& obstacle, const Ellipsoid& ball);
+
+  ObstacleScratch scratch_;
+  std::vector<TailValue> work_;
+};
+
+}  // namespace fcl_prob::detail
