@@ -5,21 +5,7 @@
 namespace fcl_prob::detail {
 
 MeshView meshView(const fcl::CollisionGeometryd& geometry) {
-  return visitMesh(geometry, [](const auto& model) {
-    MeshView view;
-    view.vertices = model.vertices;
-    view.vertex_count = model.num_vertices;
-    view.triangles = model.tri_indices;
-    view.triangle_count = model.num_tris;
-    view.build_state = model.build_state;
-    view.node_count = model.getNumBVs();
-    return view;
-  });
-}
-
-TriangleMesh triangleMesh(const MeshView& view) {
-  return {{view.vertices, view.vertices + view.vertex_count},
-          {view.triangles, view.triangles + view.triangle_count}};
+  return visitMesh(geometry, [](const auto& model) { return viewOf(model); });
 }
 
 }  // namespace fcl_prob::detail

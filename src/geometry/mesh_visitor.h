@@ -58,6 +58,19 @@ struct MeshView {
   }
 };
 
+/// Of a model of any bounding volume, also of those that visitMesh() does not know.
+template <typename BV>
+MeshView viewOf(const fcl::BVHModel<BV>& model) {
+  MeshView view;
+  view.vertices = model.vertices;
+  view.vertex_count = model.num_vertices;
+  view.triangles = model.tri_indices;
+  view.triangle_count = model.num_tris;
+  view.build_state = model.build_state;
+  view.node_count = model.getNumBVs();
+  return view;
+}
+
 /// \throws UnsupportedGeometry if `geometry` is not a mesh.
 MeshView meshView(const fcl::CollisionGeometryd& geometry);
 

@@ -65,26 +65,6 @@ void validateTriangle(const MeshView& mesh, int triangle, const std::string& nam
   }
 }
 
-void validateMesh(const MeshView& mesh, const std::string& name) {
-  requireFinished(mesh, name);
-  if (mesh.vertex_count <= 0 || mesh.vertices == nullptr) {
-    throw InvalidGeometry(name + ": the mesh has no vertices");
-  }
-  if (mesh.triangle_count <= 0 || mesh.triangles == nullptr) {
-    throw InvalidGeometry(name + ": the mesh is a point cloud of " +
-                          std::to_string(mesh.vertex_count) + " vertices without triangles");
-  }
-  if (mesh.node_count <= 0) {
-    throw InvalidGeometry(name + ": the mesh has no bounding volume tree");
-  }
-  for (int i = 0; i < mesh.vertex_count; ++i) {
-    if (!mesh.vertices[i].allFinite()) {
-      requireFinite(mesh.vertices[i], "vertex " + std::to_string(i), name);
-    }
-  }
-  for (int i = 0; i < mesh.triangle_count; ++i) validateTriangle(mesh, i, name);
-}
-
 void validatePlane(const Eigen::Vector3d& normal, double offset, const std::string& name) {
   requireFinite(normal, "the normal", name);
   if (std::abs(normal.norm() - 1.0) > kRigidTolerance) {
@@ -153,11 +133,31 @@ void validateShape(const fcl::CollisionGeometryd& geometry, const std::string& n
 
 }  // namespace
 
+void validateMeshView(const MeshView& mesh, const std::string& name) {
+  requireFinished(mesh, name);
+  if (mesh.vertex_count <= 0 || mesh.vertices == nullptr) {
+    throw InvalidGeometry(name + ": the mesh has no vertices");
+  }
+  if (mesh.triangle_count <= 0 || mesh.triangles == nullptr) {
+    throw InvalidGeometry(name + ": the mesh is a point cloud of " +
+                          std::to_string(mesh.vertex_count) + " vertices without triangles");
+  }
+  if (mesh.node_count <= 0) {
+    throw InvalidGeometry(name + ": the mesh has no bounding volume tree");
+  }
+  for (int i = 0; i < mesh.vertex_count; ++i) {
+    if (!mesh.vertices[i].allFinite()) {
+      requireFinite(mesh.vertices[i], "vertex " + std::to_string(i), name);
+    }
+  }
+  for (int i = 0; i < mesh.triangle_count; ++i) validateTriangle(mesh, i, name);
+}
+
 void validateGeometry(const fcl::CollisionGeometryd* geometry, const std::string& name) {
   if (geometry == nullptr) throw InvalidGeometry(name + ": the geometry is null");
   const std::string full_name = name + " (" + nodeTypeName(geometry->getNodeType()) + ")";
   if (kindOf(*geometry) == GeometryKind::mesh) {
-    validateMesh(meshView(*geometry), full_name);
+    validateMeshView(meshView(*geometry), full_name);
   } else {
     validateShape(*geometry, full_name);
   }

@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include "geometry/mesh_visitor.h"
+
 namespace fcl_prob::detail {
 
 /// Checks that `geometry` is one that a query can work on, in time linear in its size.
@@ -17,6 +19,10 @@ namespace fcl_prob::detail {
 ///         not close a convex body; the message holds the offending value.
 /// \throws UnsupportedGeometry if its type is not one of FCL's.
 void validateGeometry(const fcl::CollisionGeometryd* geometry, const std::string& name);
+
+/// The part of validateGeometry() for meshes, also those of a bounding volume that FCL does not
+/// know. \throws InvalidGeometry
+void validateMeshView(const MeshView& mesh, const std::string& name);
 
 /// \throws InvalidPose if `pose` is not finite, or its linear part not a rotation to 1e-9.
 void validatePose(const fcl::Transform3d& pose, const std::string& name);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "traversal/node_pairs.h"
+
+namespace fcl_prob::detail {
+
+double NodePairs::bound(int node_a, int node_b) {
+  return least(*PairObstacle(frame_, a_.body(node_a), b_.body(node_b)));
+}
+
+double NodePairs::pieceBound(int leaf_a, int leaf_b) {
+  return least(*PairObstacle(frame_, a_.piece(leaf_a), b_.piece(leaf_b)));
+}
+
+bool NodePairs::refinesA(int node_a, int node_b) const {
+  if (b_.isLeaf(node_b)) return true;
+  return !a_.isLeaf(node_a) && a_.volume(node_a) >= b_.volume(node_b);
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "traversal/pair_sum.h"
+
+#include <algorithm>
+
+namespace fcl_prob::detail {
+namespace {
+
+struct NodePair {
+  int a;
+  int b;
+};
+
+struct Children {
+  NodePair first;
+  NodePair second;
+};
+
+Children childrenOf(const NodePairs& pairs, int node_a, int node_b) {
+  if (pairs.refinesA(node_a, node_b)) {
+    const int left = pairs.a().leftChild(node_a);
+    return {{left, node_b}, {left + 1, node_b}};
+  }
+  const int left = pairs.b().leftChild(node_b);
+  return {{node_a, left}, {node_a, left + 1}};
+}
+
+/// Sums of many bounds stay upper bounds when each addition is rounded up.
+double addedUp(double a, double b) { return (a + b) * (1.0 + 0x1p-52); }
+
+}  // namespace
+
+double PairSum::bound(int node_a, int node_b) {
+  ++result_.pairs_bounded;
+  double bound = pairs_.bound(node_a, node_b);
+  if (node_a == 0 && node_b == 0) result_.root = bound;
+  if (request_.leaf_bound == LeafBound::triangles && leaves(node_a, node_b) &&
+      bound >= threshold_) {
+    bound = std::min(bound, pairs_.pieceBound(node_a, node_b));
+  }
+  return bound;
+}
+
+bool PairSum::refines(int node_a, int node_b, double bound) {
+  if (bound < threshold_ || leaves(node_a, node_b)) return false;
+  if (result_.pairs_bounded < request_.max_pairs && !finished()) return true;
+  result_.complete = false;
+  return false;
+}
+
+void PairSum::add(int node_a, int node_b, double bound) {
+  result_.raw_sum = addedUp(result_.raw_sum, bound);
+  ++result_.pairs_summed;
+  if (leaves(node_a, node_b)) ++result_.leaf_pairs;
+}
+
+GeneralPcdResult PairSum::result() const {
+  GeneralPcdResult result = result_;
+  result.upper = std::min(1.0, result.raw_sum);
+  return result;
+}
+
+void sumRecursively(PairSum& sum, int node_a, int node_b) {
+  const double bound = sum.bound(node_a, node_b);
+  if (!sum.refines(node_a, node_b, bound)) {
+    sum.add(node_a, node_b, bound);
+    return;
+  }
+  const Children children = childrenOf(sum.pairs(), node_a, node_b);
+  sumRecursively(sum, children.first.a, children.first.b);
+  sumRecursively(sum, children.second.a, children.second.b);
+}
+
+double minimumRecursively(PairSum& sum, int node_a, int node_b, double bound) {
+  if (!sum.refines(node_a, node_b, bound)) return bound;
+  const Children children = childrenOf(sum.pairs(), node_a, node_b);
+  const double first_bound = sum.bound(children.first.a, children.first.b);
+  const double first = minimumRecursively(sum, children.first.a, children.first.b, first_bound);
+  if (first >= bound) return bound;
+  const double second_bound = sum.bound(children.second.a, children.second.b);
+  const double second = minimumRecursively(sum, children.second.a, children.second.b, second_bound);
+  return std::min(bound, addedUp(first, second));
+}
+
+}  // namespace fcl_prob::detail
