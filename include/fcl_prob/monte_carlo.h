@@ -40,6 +40,24 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
                                         const GaussianDisplacement& displacement,
                                         const ProbabilityRequest& request);
 
+/// The same for small probabilities, by importance sampling.
+///
+/// Finds the nearest displacement that collides in the whitened frame (FCL's mesh distance of the
+/// whitened shapes, of polyhedra around curved ones), learns from pilot runs (a fifth of
+/// request.samples) where the hits are, and samples a mixture of heavy-tailed components there,
+/// mixed with a shell of all directions beyond the nearest contact. The shell bounds the weight of
+/// every hit, so the interval (gamma interval of Fay & Feuer 1997) holds however badly the mixture
+/// fits. request.absolute_tolerance is not used. statistics.effective_samples says how many equally
+/// weighted hits the hits are worth.
+///
+/// \throws as monteCarloProbability(); InvalidRequest also if the covariance is 0.
+ProbabilityResult rareEventProbability(const fcl::CollisionGeometryd& a,
+                                       const fcl::Transform3d& pose_a,
+                                       const fcl::CollisionGeometryd& b,
+                                       const fcl::Transform3d& pose_b,
+                                       const GaussianDisplacement& displacement,
+                                       const ProbabilityRequest& request);
+
 /// Exact confidence interval (Clopper & Pearson 1934) of a probability from `hits` in `samples`
 /// trials: covers it with at least `confidence`, usually more. \throws InvalidRequest if samples is
 /// 0, hits > samples or confidence is not in (0, 1).

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/monte_carlo.h"
+#include "montecarlo/displaced_collider.h"
+#include "montecarlo/importance_density.h"
+#include "montecarlo/mixture_fit.h"
+#include "montecarlo/sampling_run.h"
+#include "montecarlo/whitened_obstacle.h"
+
+namespace fcl_prob {
+namespace {
+
+using namespace detail;
+
+constexpr std::uint64_t kPilots = 4;
+constexpr double kPilotShare = 0.05;  // of the samples, each
+constexpr double kCoverShareOfPilots = 0.4;
+constexpr double kCoverShare = 0.2;
+constexpr int kMostComponents = 8;
+
+/// fcl::collide as a function of the whitened displacement.
+class WhitenedCollider {
+ public:
+  WhitenedCollider(const DisplacedCollider& collider, const Whitening& whitening)
+      : collider_(collider), whitening_(whitening) {}
+
+  bool collides(const Eigen::Vector3d& y) const {
+    return collider_.collides(whitening_.unapply(y));
+  }
+
+ private:
+  const DisplacedCollider& collider_;
+  const Whitening& whitening_;
+};
+
+/// Before anything has been hit: around the nearest point, short along the direction of approach,
+/// as the tail of the normal density is there.
+std::vector<MixtureComponent> firstGuess(const WhitenedObstacle& obstacle) {
+  if (!obstacle.nearest) return {};
+  const Eigen::Matrix3d precision =
+      Eigen::Matrix3d::Identity() + *obstacle.nearest * obstacle.nearest->transpose();
+  return {{1.0, *obstacle.nearest, precision.inverse()}};
+}
+
+/// Learns from pilot runs where the hits are; their samples do not count for the answer.
+class DensityAdaptation {
+ public:
+  DensityAdaptation(const WhitenedCollider& collider, const WhitenedObstacle& obstacle,
+                    const ProbabilityRequest& request)
+      : collider_(collider), obstacle_(obstacle), request_(request), loop_(request.threads) {}
+
+  ImportanceDensity adapt() {
+    std::vector<MixtureComponent> mixture = firstGuess(obstacle_);
+    for (std::uint64_t pilot = 1; pilot <= kPilots; ++pilot) {
+      densities_.push_back(densityOf(kCoverShareOfPilots, mixture));
+      draw({request_.seed, pilot});
+      const auto fitted = fitMixture(weightedHits(), obstacle_.whitening.rank(), kMostComponents);
+      if (!fitted.empty()) mixture = fitted;
+    }
+    return densityOf(kCoverShare, mixture);
+  }
+
+  std::size_t samplesUsed() const { return kPilots * samplesOfPilot(); }
+
+ private:
+  std::size_t samplesOfPilot() const {
+    return static_cast<std::size_t>(kPilotShare * static_cast<double>(request_.samples));
+  }
+
+  ImportanceDensity densityOf(double cover_share,
+                              const std::vector<MixtureComponent>& mixture) const {
+    return {obstacle_.whitening.rank(), obstacle_.cover, cover_share, mixture};
+  }
+
+  void draw(RandomStream stream) {
+    std::vector<Eigen::Vector3d> points(samplesOfPilot());
+    std::vector<unsigned char> collided(points.size());
+    loop_.run(
+        0, points.size(),
+        [&](std::size_t i) {
+          points[i] = densities_.back().sample(stream, i);
+          collided[i] = collider_.collides(points[i]);
+        },
+        [](std::size_t) { return true; });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (collided[i]) hits_.push_back(points[i]);
+    }
+  }
+
+  /// Weighted as if every hit had been drawn from the mean of all densities so far, which keeps the
+  /// poor first ones from dominating (adaptive multiple importance sampling, Cornuet et al. 2012).
+  std::vector<WeightedPoint> weightedHits() const {
+    std::vector<WeightedPoint> weighted;
+    for (const Eigen::Vector3d& y : hits_) {
+      double ratio = 0.0;
+      for (const ImportanceDensity& density : densities_) ratio += density.ratio(y);
+      weighted.push_back({y, 1.0 / ratio});
+    }
+    return weighted;
+  }
+
+  const WhitenedCollider& collider_;
+  const WhitenedObstacle& obstacle_;
+  const ProbabilityRequest& request_;
+  SampleLoop loop_;
+  std::vector<ImportanceDensity> densities_;
+  std::vector<Eigen::Vector3d> hits_;
+};
+
+class RareEventRun : public SamplingRun {
+ public:
+  RareEventRun(const WhitenedCollider& collider, const ImportanceDensity& density,
+               const Whitening& whitening, const ProbabilityRequest& request, std::size_t samples)
+      : SamplingRun(request, samples, 0.0),
+        collider_(collider),
+        density_(density),
+        whitening_(whitening),
+        request_(request),
+        points_(kSlots),
+        weights_(kSlots) {}
+
+  ProbabilityResult result(const Stopwatch& watch) {
+    ProbabilityResult result = run(watch);
+    const auto n = static_cast<double>(counted());
+    const double mean = hits_.sum / n;
+    // Without hits the standard error is that of half a hit of the largest weight.
+    const double second = hits_.hits > 0
+                              ? hits_.sum_squares
+                              : 0.5 * density_.largestWeight() * density_.largestWeight();
+    result.estimate = mean;
+    result.standard_error = std::sqrt(std::max(0.0, second / n - mean * mean) / n);
+    result.statistics.hits = hits_.hits;
+    result.statistics.effective_samples =
+        hits_.hits > 0 ? hits_.sum * hits_.sum / hits_.sum_squares : 0.0;
+    if (request_.gradient) gradient_.report(whitening_, counted(), result);
+    return result;
+  }
+
+ private:
+  void evaluate(std::size_t index, std::size_t slot) override {
+    points_[slot] = density_.sample({request_.seed, 0}, index);
+    weights_[slot] = collider_.collides(points_[slot]) ? 1.0 / density_.ratio(points_[slot]) : 0.0;
+  }
+
+  void count(std::size_t, std::size_t slot) override {
+    if (weights_[slot] == 0.0) return;
+    hits_.add(weights_[slot]);
+    if (request_.gradient) gradient_.add(points_[slot], weights_[slot]);
+  }
+
+  Bounds interval(double confidence) const override {
+    const auto n = static_cast<double>(counted());
+    const Bounds of_sum = gammaInterval(hits_, density_.largestWeight(), confidence);
+    return {of_sum.lower / n, std::min(1.0, of_sum.upper / n)};
+  }
+
+  const WhitenedCollider& collider_;
+  const ImportanceDensity& density_;
+  const Whitening& whitening_;
+  const ProbabilityRequest& request_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> weights_;
+  WeightedHits hits_;
+  GradientSum gradient_;
+};
+
+/// Nothing that the displacement can do collides.
+ProbabilityResult certainlyFree(const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.estimate = 0.0;
+  result.standard_error = 0.0;
+  result.confidence_interval = Bounds{0.0, 0.0};
+  result.statistics.effective_samples = 0.0;
+  result.status = ProbabilityStatus::exact;
+  if (request.threshold) {
+    result.decision = *request.threshold > 0.0 ? Decision::below : Decision::undecided;
+  }
+  result.plan.push_back("no displacement with a mass in double precision can collide");
+  return result;
+}
+
+ProbabilityResult sampleRareEvent(const DisplacedCollider& displaced,
+                                  const WhitenedObstacle& obstacle,
+                                  const ProbabilityRequest& request, const Stopwatch& watch) {
+  const WhitenedCollider collider(displaced, obstacle.whitening);
+  DensityAdaptation adaptation(collider, obstacle, request);
+  const ImportanceDensity density = adaptation.adapt();
+  RareEventRun run(collider, density, obstacle.whitening, request,
+                   request.samples - adaptation.samplesUsed());
+  ProbabilityResult result = run.result(watch);
+  result.statistics.samples += adaptation.samplesUsed();
+  const bool shell = obstacle.cover.shell_radius > 0.0;
+  result.plan.push_back(
+      "importance sampling from a mixture fitted to " + std::to_string(adaptation.samplesUsed()) +
+      " pilot samples, and from " +
+      (shell ? "everything beyond the nearest contact"
+             : std::to_string(obstacle.cover.boxes.size()) + " boxes around the obstacle") +
+      "; nothing is certified");
+  return result;
+}
+
+}  // namespace
+
+ProbabilityResult rareEventProbability(const fcl::CollisionGeometryd& a,
+                                       const fcl::Transform3d& pose_a,
+                                       const fcl::CollisionGeometryd& b,
+                                       const fcl::Transform3d& pose_b,
+                                       const GaussianDisplacement& displacement,
+                                       const ProbabilityRequest& request) {
+  validateRequest(request);
+  const Stopwatch watch;
+  const DisplacedCollider displaced(a, pose_a, b, pose_b, request.contact);
+  if (displacement.rank() == 0) {
+    throw InvalidRequest("rare-event sampling needs a displacement that is random");
+  }
+  const WhitenedObstacle obstacle = whitenedObstacle(
+      a, pose_a, b, pose_b, displacement, request.contact, displaced.collides(displacement.mean()));
+  const double obstacle_seconds = watch.seconds();
+  ProbabilityResult result = obstacle.cover.empty()
+                                 ? certainlyFree(request)
+                                 : sampleRareEvent(displaced, obstacle, request, watch);
+  result.method = ProbabilityMethod::rare_event;
+  result.statistics.seconds.emplace_back("nearest contact and cover", obstacle_seconds);
+  result.statistics.seconds.emplace_back("sampling", watch.seconds() - obstacle_seconds);
+  result.plan.insert(result.plan.begin(), displaced.plan().begin(), displaced.plan().end());
+  return result;
+}
+
+}  // namespace fcl_prob

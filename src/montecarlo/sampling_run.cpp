@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "montecarlo/sampling_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_prob::detail {
+
+SamplingRun::SamplingRun(const ProbabilityRequest& request, std::size_t samples,
+                         double absolute_tolerance)
+    : request_(request),
+      samples_(samples),
+      absolute_tolerance_(absolute_tolerance),
+      looks_(samples, request.confidence),
+      loop_(request.threads) {}
+
+ProbabilityResult SamplingRun::run(const Stopwatch& watch) {
+  ProbabilityResult result;
+  result.status = ProbabilityStatus::sampled;
+  double confidence = looks_.finalConfidence();
+  while (counted_ < samples_) {
+    const std::size_t look = looks_.next(counted_);
+    loop_.run(
+        counted_, look, [this](std::size_t index) { evaluate(index, index % kSlots); },
+        [&](std::size_t done) { return countUpTo(done, watch); });
+    if (interruption_) {
+      result.status = *interruption_;
+      break;
+    }
+    const double confidence_here = looks_.confidenceAt(look);
+    if (const auto reason = reasonToStop(interval(confidence_here))) {
+      result.status = *reason;
+      confidence = confidence_here;
+      break;
+    }
+  }
+  result.confidence_interval = interval(confidence);
+  result.decision = decisionOf(*result.confidence_interval);
+  result.statistics.samples = counted_;
+  return result;
+}
+
+bool SamplingRun::countUpTo(std::size_t done, const Stopwatch& watch) {
+  for (; counted_ < done; ++counted_) count(counted_, counted_ % kSlots);
+  if (done == samples_) return true;
+  if (request_.time_limit && watch.seconds() >= *request_.time_limit) {
+    interruption_ = ProbabilityStatus::time_limit;
+  } else if (request_.on_progress && !request_.on_progress(progress(watch))) {
+    interruption_ = ProbabilityStatus::cancelled;
+  }
+  return !interruption_;
+}
+
+ProbabilityProgress SamplingRun::progress(const Stopwatch& watch) const {
+  ProbabilityProgress progress;
+  progress.interval = interval(looks_.finalConfidence());
+  progress.seconds = watch.seconds();
+  progress.fraction = static_cast<double>(counted_) / static_cast<double>(samples_);
+  if (request_.time_limit) {
+    progress.fraction = std::max(progress.fraction, progress.seconds / *request_.time_limit);
+  }
+  return progress;
+}
+
+std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interval) const {
+  const Decision decision = decisionOf(interval);
+  if (decision == Decision::below || decision == Decision::above) {
+    return ProbabilityStatus::decided;
+  }
+  const double tolerance =
+      std::max(absolute_tolerance_, request_.relative_tolerance * interval.upper);
+  if (0.5 * interval.width() <= tolerance) return ProbabilityStatus::converged;
+  return std::nullopt;
+}
+
+Decision SamplingRun::decisionOf(const Bounds& interval) const {
+  if (!request_.threshold) return Decision::none;
+  if (interval.upper < *request_.threshold) return Decision::below;
+  if (interval.lower > *request_.threshold) return Decision::above;
+  return Decision::undecided;
+}
+
+void GradientSum::add(const Eigen::Vector3d& y, double weight) {
+  const Eigen::Vector3d weighted = weight * y;
+  sum_ += weighted;
+  sum_outer_ += weighted * weighted.transpose();
+}
+
+void GradientSum::report(const Whitening& whitening, std::size_t samples,
+                         ProbabilityResult& result) const {
+  if (whitening.rank() < 3) {
+    result.plan.push_back("no gradient: P need not be differentiable where A does not move");
+    return;
+  }
+  const auto n = static_cast<double>(samples);
+  const Eigen::Vector3d mean = sum_ / n;
+  const Eigen::Matrix3d covariance = sum_outer_ / n - mean * mean.transpose();
+  const Eigen::Matrix3d unwhiten = whitening.matrix().transpose();
+  const Eigen::Vector3d variance = (unwhiten * covariance * unwhiten.transpose()).diagonal();
+  result.gradient = unwhiten * mean;
+  result.gradient_standard_error = (variance.cwiseMax(0.0) / n).cwiseSqrt();
+}
+
+}  // namespace fcl_prob::detail

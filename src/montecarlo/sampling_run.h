@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What all sampling methods have in common: drawing samples until something says stop.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+#include "fcl_prob/whitening.h"
+#include "montecarlo/confidence.h"
+#include "montecarlo/sample_loop.h"
+
+namespace fcl_prob::detail {
+
+/// Draws samples 0, 1, 2, ... on the threads asked for and counts them in that order, so that sums
+/// do not depend on how the samples were divided among threads.
+class SamplingRun {
+ public:
+  /// \param samples  at most so many
+  /// \param absolute_tolerance  half-width of the interval at which to stop, if the relative one
+  /// does not
+  SamplingRun(const ProbabilityRequest& request, std::size_t samples, double absolute_tolerance);
+  virtual ~SamplingRun() = default;
+
+  /// Sets confidence_interval, decision and status, and statistics.samples.
+  ProbabilityResult run(const Stopwatch& watch);
+
+ protected:
+  static constexpr std::size_t kSlots = SampleLoop::kLargestChunk;
+
+  /// Evaluates a sample into its slot; called on any thread, no slot by two at once.
+  virtual void evaluate(std::size_t index, std::size_t slot) = 0;
+
+  /// Adds a sample to the sums; called in the order of the samples.
+  virtual void count(std::size_t index, std::size_t slot) = 0;
+
+  /// Confidence interval from the samples counted so far.
+  virtual Bounds interval(double confidence) const = 0;
+
+  std::size_t counted() const { return counted_; }
+
+ private:
+  bool countUpTo(std::size_t done, const Stopwatch& watch);
+  ProbabilityProgress progress(const Stopwatch& watch) const;
+  std::optional<ProbabilityStatus> reasonToStop(const Bounds& interval) const;
+  Decision decisionOf(const Bounds& interval) const;
+
+  const ProbabilityRequest& request_;
+  std::size_t samples_;
+  double absolute_tolerance_;
+  LookSchedule looks_;
+  SampleLoop loop_;
+  std::size_t counted_ = 0;
+  std::optional<ProbabilityStatus> interruption_;
+};
+
+/// The gradient of P with respect to the mean from samples `y` of the whitened frame:
+/// ∂P/∂mean = Wᵀ E[y 1_V(y)].
+class GradientSum {
+ public:
+  /// Adds a hit at `y` (standard normal coordinates along the axes of the displacement) of this
+  /// weight.
+  void add(const Eigen::Vector3d& y, double weight);
+
+  /// Sets the gradient and its standard error after `samples` samples, or says in the plan why not.
+  void report(const Whitening& whitening, std::size_t samples, ProbabilityResult& result) const;
+
+ private:
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d sum_outer_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace fcl_prob::detail
