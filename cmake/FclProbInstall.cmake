@@ -3,17 +3,18 @@ include(CMakePackageConfigHelpers)
 set(FCL_PROB_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fcl_prob)
 
 set(fcl_prob_installed fcl_prob)
+set(headers_of_io PATTERN mesh_io.h EXCLUDE PATTERN scene_io.h EXCLUDE)
 if(FCL_PROB_WITH_ASSIMP)
   list(APPEND fcl_prob_installed fcl_prob_io)
+  set(headers_of_io)
 endif()
 install(TARGETS ${fcl_prob_installed} EXPORT fcl_prob-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS fcl_prob_settings EXPORT fcl_prob-targets)
 if(FCL_PROB_BUILD_CLI)
   install(TARGETS fcl_prob_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${headers_of_io})
 install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR})
 install(FILES package.xml DESTINATION share/fcl_prob)
 
