@@ -43,8 +43,11 @@ Points pointsOnSphere(int count) {
 double inradius(const Points& points, bool disk) {
   if (disk) return std::cos(M_PI / static_cast<double>(points.size()));
   double least = std::numeric_limits<double>::infinity();
-  for (const ConvexPolytope::Face& face : convexHull(points).faces) {
-    for (int vertex : face.vertices) least = std::min(least, face.normal.dot(points[vertex]));
+  const ConvexPolytope hull = convexHull(points);
+  for (const ConvexPolytope::Face& face : hull.faces) {
+    for (int vertex : face.vertices) {
+      least = std::min(least, face.normal.dot(hull.vertices[vertex]));
+    }
   }
   return least;
 }

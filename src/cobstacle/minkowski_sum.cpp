@@ -9,34 +9,63 @@
 #include "cobstacle/perturbation.h"
 
 namespace fcl_prob::detail {
+namespace {
 
-double MinkowskiSum::Heights::compute(const ConvexMesh& faces_of, const ConvexMesh& vertices_of,
-                                      const Eigen::Vector3d& turn) {
-  const std::size_t vertex_count = vertices_of.vertices.size();
+/// An edge that climbs by less than this fraction of its length may as well descend.
+constexpr double kTie = 4e-15;
+
+/// The vertex from which no edge climbs: the farthest one, corrected by the signs of the edges
+/// where rounding hides differences of height.
+int highestVertex(const ConvexMesh& mesh, const Eigen::Vector3d& direction,
+                  const std::int8_t* sign_of_edge) {
+  int highest = 0;
+  double height = direction.dot(mesh.vertices[0]);
+  for (std::size_t i = 1; i < mesh.vertices.size(); ++i) {
+    const double candidate = direction.dot(mesh.vertices[i]);
+    if (candidate > height) {
+      height = candidate;
+      highest = static_cast<int>(i);
+    }
+  }
+  bool climbing = true;
+  for (std::size_t pass = 0; climbing && pass < mesh.edges.size(); ++pass) {
+    climbing = false;
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+      const int lower = sign_of_edge[e] > 0 ? mesh.edges[e].from : mesh.edges[e].to;
+      if (lower != highest) continue;
+      highest = sign_of_edge[e] > 0 ? mesh.edges[e].to : mesh.edges[e].from;
+      climbing = true;
+    }
+  }
+  return highest;
+}
+
+}  // namespace
+
+std::optional<double> MinkowskiSum::Heights::compute(const ConvexMesh& faces_of,
+                                                     const ConvexMesh& vertices_of,
+                                                     const Eigen::Vector3d& turn) {
   const std::size_t edge_count = vertices_of.edges.size();
-  of_vertex.resize(vertex_count);
+  edges.clear();
+  for (const ConvexMesh::Edge& edge : vertices_of.edges) {
+    edges.push_back(vertices_of.vertices[edge.to] - vertices_of.vertices[edge.from]);
+  }
   sign_of_edge.resize(faces_of.faces.size() * edge_count);
   highest.resize(faces_of.faces.size());
-  const bool turned = !turn.isZero(0.0);
   double defect = 0.0;
-
   for (std::size_t f = 0; f < faces_of.faces.size(); ++f) {
     const Eigen::Vector3d& n = faces_of.faces[f].normal;
     const Eigen::Vector3d direction = n + turn.cross(n);
-    for (std::size_t i = 0; i < vertex_count; ++i) {
-      of_vertex[i] = direction.dot(vertices_of.vertices[i]);
-    }
-    highest[f] =
-        static_cast<int>(std::max_element(of_vertex.begin(), of_vertex.end()) - of_vertex.begin());
     std::int8_t* signs = sign_of_edge.data() + f * edge_count;
     for (std::size_t e = 0; e < edge_count; ++e) {
-      const ConvexMesh::Edge& edge = vertices_of.edges[e];
-      signs[e] = of_vertex[edge.to] > of_vertex[edge.from] ? 1 : -1;
+      const double climb = direction.dot(edges[e]);
+      if (climb * climb <= kTie * kTie * edges[e].squaredNorm()) return std::nullopt;
+      signs[e] = climb > 0.0 ? 1 : -1;
     }
-    if (!turned) continue;
+    highest[f] = highestVertex(vertices_of, direction, signs);
+    if (turn.isZero(0.0)) continue;
     for (std::size_t e = 0; e < edge_count; ++e) {
-      const ConvexMesh::Edge& edge = vertices_of.edges[e];
-      const double climb = n.dot(vertices_of.vertices[edge.to] - vertices_of.vertices[edge.from]);
+      const double climb = n.dot(edges[e]);
       if ((climb > 0.0) != (signs[e] > 0)) defect = std::max(defect, std::abs(climb));
     }
   }
@@ -66,14 +95,22 @@ std::optional<double> MinkowskiSum::computePerturbed(const ConvexMesh& p, const 
     stamp_ = 1;
   }
   const Eigen::Vector3d turn = perturbation(0, attempt);
+  const auto defect_of_q = heights_of_q_.compute(p, q, -turn);
+  if (!defect_of_q) return std::nullopt;
+  const auto defect_of_p = heights_of_p_.compute(q, p, turn);
+  if (!defect_of_p) return std::nullopt;
   // A chain of edges may be in the wrong order as a whole, so the defects of all of them count.
-  const double defect = heights_of_q_.compute(p, q, -turn) * static_cast<double>(q.edges.size()) +
-                        heights_of_p_.compute(q, p, turn) * static_cast<double>(p.edges.size());
+  const double defect = *defect_of_q * static_cast<double>(q.edges.size()) +
+                        *defect_of_p * static_cast<double>(p.edges.size());
   addTranslatedFaces(p, q, sum);
   addParallelograms(p, q, sum);
-  if (p.edges.empty() && q.edges.empty()) vertex(0, 0, sum);
+  if (sum.faceCount() == 0) addVertices(p, q, sum);
   if (!sum.closed()) return std::nullopt;
-  return defect;
+  // Both the sum with Q turned and the surface, whose vertices are not moved, are within one
+  // perturbation of the boundary.
+  double size = 0.0;
+  for (const Eigen::Vector3d& v : q.vertices) size = std::max(size, v.norm());
+  return std::min(defect, 2.0 * kLargestPerturbation * size);
 }
 
 void MinkowskiSum::addTranslatedFaces(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum) {
@@ -133,6 +170,14 @@ void MinkowskiSum::addParallelogram(const ConvexMesh::Edge& edge_p, const Convex
     sum.addFace({start, plus_p, plus_both, plus_q});
   } else {
     sum.addFace({start, plus_q, plus_both, plus_p});
+  }
+}
+
+void MinkowskiSum::addVertices(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum) {
+  for (std::size_t i = 0; i < p.vertices.size(); ++i) {
+    for (std::size_t j = 0; j < q.vertices.size(); ++j) {
+      vertex(static_cast<int>(i), static_cast<int>(j), sum);
+    }
   }
 }
 

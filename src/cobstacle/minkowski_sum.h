@@ -31,13 +31,14 @@ class MinkowskiSum {
  private:
   /// How the vertices of one polytope lie along the face normals of the other.
   struct Heights {
-    std::vector<double> of_vertex;          // along one face's normal
+    std::vector<Eigen::Vector3d> edges;     // as vectors
     std::vector<std::int8_t> sign_of_edge;  // face-major: +1 if the edge climbs
     std::vector<int> highest;               // vertex, per face
 
-    /// Normals are turned by turn × normal. Returns by how much the turn has made a wrong order.
-    double compute(const ConvexMesh& faces_of, const ConvexMesh& vertices_of,
-                   const Eigen::Vector3d& turn);
+    /// Normals are turned by turn × normal. Returns by how much the turn has made a wrong order;
+    /// nothing if there is a tie.
+    std::optional<double> compute(const ConvexMesh& faces_of, const ConvexMesh& vertices_of,
+                                  const Eigen::Vector3d& turn);
   };
 
   std::optional<double> computePerturbed(const ConvexMesh& p, const ConvexMesh& q, int attempt,
@@ -46,6 +47,7 @@ class MinkowskiSum {
   void addParallelograms(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum);
   void addParallelogram(const ConvexMesh::Edge& edge_p, const ConvexMesh::Edge& edge_q, bool along,
                         FaceSet& sum);
+  void addVertices(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum);
   int vertex(int i, int j, FaceSet& sum);
 
   const ConvexMesh* p_ = nullptr;

@@ -7,7 +7,7 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kLength = 0x1p-36;
+constexpr double kLength = 0.5 * kLargestPerturbation;
 
 }  // namespace
 

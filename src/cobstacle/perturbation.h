@@ -16,4 +16,7 @@ inline constexpr int kPerturbationAttempts = 5;
 /// coplanar facets depends on it. Zero for attempt 0.
 Eigen::Vector3d perturbation(int index, int attempt);
 
+/// perturbation() is never longer than this.
+inline constexpr double kLargestPerturbation = 0x1p-35;
+
 }  // namespace fcl_prob::detail

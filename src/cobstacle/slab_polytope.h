@@ -21,9 +21,9 @@ struct Slab {
 /// 24): x, y, z, x+y, x+z, y+z, x-y, x-z, y-z, x+y-z, x+z-y, y+z-x and, missing in FCL, x+y+z.
 const std::vector<Eigen::Vector3d>& dopDirections();
 
-/// The faces of the intersection of slabs, of which the first three must be those of x, y and z.
-/// Each face is clipped on its own: vertices are not shared. The slabs are widened by `padding`
-/// (metres), so that a flat body has faces too. O(k²) for k slabs.
+/// Writes the faces of the intersection of slabs, of which the first three must be those of x, y
+/// and z: their box, cut by one plane after another. The slabs are widened by `padding` (metres),
+/// so that a flat body has faces too. O(k) faces are touched for k slabs.
 void setToSlabs(const std::vector<Slab>& slabs, double padding, FaceSet& faces);
 
 }  // namespace fcl_prob::detail

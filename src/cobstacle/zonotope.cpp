@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "cobstacle/perturbation.h"
 
@@ -13,6 +14,9 @@ namespace fcl_prob::detail {
 namespace {
 
 constexpr double kParallel = 1e-14;
+
+/// Determinants below this times the lengths of their columns may have either sign.
+constexpr double kTie = 4e-15;
 
 bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double limit = kParallel * a.norm() * b.norm();
@@ -76,8 +80,10 @@ std::optional<double> Zonotope::faces(FaceSet& faces) const {
 std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) const {
   faces.clear();
   std::array<Eigen::Vector3d, kMaxGenerators> moved;
+  std::array<double, kMaxGenerators> norms;
   for (int i = 0; i < count_; ++i) {
-    moved[i] = generators_[i] + generators_[i].norm() * perturbation(i, attempt);
+    norms[i] = generators_[i].norm();
+    moved[i] = generators_[i] + norms[i] * perturbation(i, attempt);
   }
   std::array<int, 1u << kMaxGenerators> indices;
   std::fill_n(indices.begin(), 1u << count_, -1);
@@ -89,7 +95,10 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
       const Eigen::Vector3d normal = moved[i].cross(moved[j]);
       unsigned upper = 0;  // the signs of the face's centre on the side of `normal`
       for (int k = 0; k < count_; ++k) {
-        if (k != i && k != j && normal.dot(moved[k]) > 0.0) upper |= 1u << k;
+        if (k == i || k == j) continue;
+        const double height = normal.dot(moved[k]);
+        if (std::abs(height) <= kTie * norms[i] * norms[j] * norms[k]) return std::nullopt;
+        if (height > 0.0) upper |= 1u << k;
       }
       if (attempt > 0) defect = std::max(defect, defectOf(i, j, upper));
       const unsigned gi = 1u << i;
@@ -103,7 +112,10 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
     }
   }
   if (!faces.closed()) return std::nullopt;
-  return defect;
+  // Both the moved zonotope and the surface, whose vertices are not moved, are within one
+  // perturbation of the zonotope's boundary.
+  const double size = std::accumulate(norms.begin(), norms.begin() + count_, 0.0);
+  return std::min(defect, 2.0 * kLargestPerturbation * size);
 }
 
 double Zonotope::defectOf(int i, int j, unsigned upper) const {

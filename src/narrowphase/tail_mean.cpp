@@ -13,7 +13,15 @@ namespace fcl_prob::detail {
 namespace {
 
 /// The series is used where (spread of l) · max(1, l) is below this.
-constexpr double kCloseSpread = 0.4;
+constexpr double kCloseSpread = 0.1;
+
+constexpr int kReciprocalCount = 16;
+constexpr std::array<double, kReciprocalCount> reciprocals() {
+  std::array<double, kReciprocalCount> table{};
+  for (int k = 1; k < kReciprocalCount; ++k) table[k] = 1.0 / k;
+  return table;
+}
+constexpr std::array<double, kReciprocalCount> kReciprocals = reciprocals();
 
 bool close(double least, double largest) {
   return (largest - least) * std::max(1.0, 0.5 * (least + largest)) <= kCloseSpread;
@@ -60,8 +68,8 @@ TailSeries::TailSeries(double centre) : centre_(centre) {
   coefficients_[0] = -2.0 * density;
   coefficients_[1] = -0.5 * centre * coefficients_[0];
   for (int k = 2; k < kTerms; ++k) {
-    coefficients_[k] =
-        -(centre * coefficients_[k - 1] + (k - 1.0) / k * coefficients_[k - 2]) / (k + 1.0);
+    coefficients_[k] = -(centre * kReciprocals[k + 1] * coefficients_[k - 1] +
+                         (k - 1) * kReciprocals[k] * kReciprocals[k + 1] * coefficients_[k - 2]);
   }
 }
 
@@ -83,7 +91,7 @@ double TailSeries::meanDifference(double l1, double l2, double l3) const {
     of_one *= d1;
     of_two = of_one + d2 * of_two;
     of_three = of_two + d3 * of_three;
-    sum += coefficients_[k - 1] * of_three * (2.0 / ((k + 1.0) * (k + 2.0)));
+    sum += coefficients_[k - 1] * of_three * (2.0 * kReciprocals[k + 1] * kReciprocals[k + 2]);
   }
   return sum;
 }
@@ -101,7 +109,7 @@ double TailSeries::meanSlope(double l1, double l2) const {
   for (int k = 2; k <= kTerms + 1; ++k) {
     of_one *= d1;
     of_two = of_one + d2 * of_two;
-    sum += coefficients_[k - 2] / k * of_two / (k + 1.0);
+    sum += coefficients_[k - 2] * of_two * (kReciprocals[k] * kReciprocals[k + 1]);
   }
   return sum;
 }

@@ -44,7 +44,7 @@ class TailSeries {
   double meanSlope(double l1, double l2) const;
 
  private:
-  static constexpr int kTerms = 14;
+  static constexpr int kTerms = 10;
 
   double centre_;
   double value_;                             // T(centre)
