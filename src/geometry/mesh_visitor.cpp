@@ -8,4 +8,9 @@ MeshView meshView(const fcl::CollisionGeometryd& geometry) {
   return visitMesh(geometry, [](const auto& model) { return viewOf(model); });
 }
 
+TriangleMesh triangleMesh(const MeshView& view) {
+  return {{view.vertices, view.vertices + view.vertex_count},
+          {view.triangles, view.triangles + view.triangle_count}};
+}
+
 }  // namespace fcl_prob::detail
