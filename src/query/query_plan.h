@@ -3,26 +3,31 @@
 // Choosing how a query is answered.
 #pragma once
 
-#include <fcl/geometry/collision_geometry.h>
-
 #include <string>
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/probability_request.h"
+#include "query/prepared_geometry.h"
 
 namespace fcl_prob::detail {
+
+/// The code that answers.
+enum class Route { single_collide, partition, convex_bound, general_pcd, monte_carlo, rare_event };
 
 /// What will be done: `route` says it to the program, `notes` to the reader of
 /// ProbabilityResult::plan.
 struct QueryPlan {
-  enum class Route { single_collide, monte_carlo };
   Route route;
+
+  /// Whether to look first if the bound of the root volumes is within the tolerance by itself.
+  bool try_root_bound = false;
+
   std::vector<std::string> notes;
 };
 
 /// \throws UnsupportedGeometry if the method asked for cannot handle the pair.
-QueryPlan planQuery(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b,
+QueryPlan planQuery(const PreparedGeometry& a, const PreparedGeometry& b,
                     const GaussianDisplacement& displacement, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What a query keeps of one geometry, whatever its pose.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "fcl_prob/convex_body.h"
+#include "fcl_prob/probability_request.h"
+#include "geometry/closed_mesh.h"
+#include "partition/piece_tree.h"
+
+namespace fcl_prob::detail {
+
+/// Checks a geometry once; the rest is built when a method first needs it. Const calls are safe on
+/// several threads.
+class PreparedGeometry {
+ public:
+  /// \param name  how messages call it
+  /// \throws InvalidGeometry, UnsupportedGeometry
+  PreparedGeometry(std::shared_ptr<const fcl::CollisionGeometryd> geometry, std::string name);
+
+  const fcl::CollisionGeometryd& geometry() const { return *geometry_; }
+
+  /// Whether the partition can handle it: meshes and convex polytopes.
+  bool hasPieces() const;
+  const PieceTree& pieces() const;
+
+  /// Whether it has a bounded convex body around it: itself, or the root volume of a mesh.
+  bool hasRootBody() const;
+  const ConvexBody& rootBody() const;
+
+  /// Whether it is a bounded convex shape, which rootBody() then is.
+  bool isConvex() const;
+
+  /// The solid that a mesh encloses; null where surfaces count, and for what is no mesh.
+  /// \throws OpenMesh
+  const ClosedMesh* solid(ContactMeaning contact) const;
+
+ private:
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry_;
+  std::string name_;
+  mutable std::once_flag pieces_once_;
+  mutable std::shared_ptr<const PieceTree> pieces_;
+  mutable std::once_flag root_once_;
+  mutable std::unique_ptr<const ConvexBody> root_body_;
+  mutable std::once_flag solid_once_;
+  mutable std::unique_ptr<const ClosedMesh> solid_;
+};
+
+}  // namespace fcl_prob::detail

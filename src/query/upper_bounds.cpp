@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/upper_bounds.h"
+
+#include <algorithm>
+
+#include "fcl_prob/convex_pcd.h"
+#include "fcl_prob/general_pcd.h"
+#include "query/single_collide.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+double rootBound(const PlacedPair& pair, const GaussianDisplacement& displacement) {
+  return convexPcd(pair.a.rootBody(), pair.pose_a, pair.b.rootBody(), pair.pose_b, displacement)
+      .least;
+}
+
+ProbabilityResult boundedBy(double upper, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.method = request.method;
+  result.upper = upper;
+  result.status = ProbabilityStatus::bound_only;
+  result.decision = decisionOf({0.0, upper}, request);
+  return result;
+}
+
+}  // namespace
+
+ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
+                              const ProbabilityRequest& request) {
+  ProbabilityResult result = boundedBy(rootBound(pair, displacement), request);
+  result.statistics.pairs_tested = 1;
+  return result;
+}
+
+ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
+                                  const ProbabilityRequest& request) {
+  GeneralPcdRequest pcd_request;
+  pcd_request.confidence = request.confidence;
+  pcd_request.max_pairs = request.max_cells;
+  pcd_request.variant = request.method == ProbabilityMethod::general_pcd_min
+                            ? GeneralPcdVariant::minimum
+                            : GeneralPcdVariant::sum;
+  const GeneralPcdResult pcd = generalPcd(pair.a.geometry(), pair.pose_a, pair.b.geometry(),
+                                          pair.pose_b, displacement, pcd_request);
+  ProbabilityResult result = boundedBy(pcd.upper, request);
+  if (!pcd.complete) result.status = ProbabilityStatus::cell_limit;
+  result.statistics.raw_sum = pcd.raw_sum;
+  result.statistics.pairs_tested = pcd.pairs_bounded;
+  result.statistics.leaf_pairs = pcd.leaf_pairs;
+  return result;
+}
+
+std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,
+                                                     const GaussianDisplacement& displacement,
+                                                     const ProbabilityRequest& request) {
+  const double upper = rootBound(pair, displacement);
+  const double tolerance = std::max(request.absolute_tolerance, request.relative_tolerance * upper);
+  const bool decided = request.threshold && upper < *request.threshold;
+  if (!decided && upper > tolerance) return std::nullopt;
+  ProbabilityResult result = boundedBy(upper, request);
+  result.method = ProbabilityMethod::interval;
+  result.lower = 0.0;
+  result.status = decided ? ProbabilityStatus::decided : ProbabilityStatus::converged;
+  result.statistics.pairs_tested = 1;
+  result.plan.push_back("far apart: stopped at the bound of the root volumes, trees left out");
+  return result;
+}
+
+}  // namespace fcl_prob::detail
