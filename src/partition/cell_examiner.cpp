@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "partition/covering_plane.h"
+
 namespace fcl_prob::detail {
 
 namespace {
@@ -24,6 +26,12 @@ constexpr double kWidestIntegrated = 2.5;
 // What remains of an open cell is cut back to the box of its front if that holds less than this
 // share of its mass.
 constexpr double kCutBack = 0.8;
+
+// Pairs whose plane is looked at for a cell that none covers under a single plane: how many, how
+// many planes of each may cut the cell, and the least share of the cell that is worth having.
+constexpr int kMostTried = 32;
+constexpr int kMostSides = 6;
+constexpr double kLeastShare = 0.02;
 
 // Bound on the mass of the part of a cell within `width` of a plane.
 double sliverMass(const Cell& cell, double width) {
@@ -154,11 +162,15 @@ void CellExaminer::settleAround(const Cell& box) {
   }
 }
 
+// Whether masses under a plane may be used in the cell: not where one object may be inside the
+// other, since what lies below the plane is then not simply free.
+bool CellExaminer::maySkim(const Cell& cell) const {
+  return largestWidth(cell) <= kWidestIntegrated && !(solids_ && solids_->possible(cell));
+}
+
 // The pair that covers most of the cell under a single plane; -1 if there is none.
 int CellExaminer::champion() const {
-  if (largestWidth(front_.cell()) > kWidestIntegrated) return -1;
-  // Where one object may be inside the other, what lies below the plane is not simply free.
-  if (solids_ && solids_->possible(front_.cell())) return -1;
+  if (!maySkim(front_.cell())) return -1;
   int best = -1;
   double depth = 1.0;
   for (int i = 0; i < static_cast<int>(front_.cutting().size()); ++i) {
@@ -187,8 +199,46 @@ void CellExaminer::openWithoutPlane() {
   if (open.front.empty()) return settleFree(cell);
   settleAround(box);
   open.cell = box;
+  open.within = box;
   open.upper = cellMass(box).upper;
+  open.drawn = open.upper;
+  addPlane(open);
   result_.open = std::move(open);
+}
+
+// Tightens an open cell by the plane of the pair that covers most of it beside its other planes.
+void CellExaminer::addPlane(OpenCell& open) const {
+  if (!maySkim(open.cell)) return;
+  CoveringPlane best;
+  int tried = 0;
+  for (const CuttingPair& cutting : front_.cutting()) {
+    if (cutting.sides > kMostSides) continue;
+    if (++tried > kMostTried) break;
+    const CoveringPlane plane = coveringPlane(front_.slabs(cutting.pair), open.cell);
+    if (plane.share > best.share) best = plane;
+  }
+  if (best.share < kLeastShare || best.within.empty()) return;
+  const Eigen::Vector3d& m = best.inner.m;
+  open.possible_from = best.outer;
+  for (const FrontPair& pair : open.front) {
+    double lowest = front_.lowestOfBox(pair, m);
+    if (lowest < open.possible_from && pair.obstacle >= 0) {
+      lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+    }
+    open.possible_from = std::min(open.possible_from, lowest);
+  }
+  open.has_plane = true;
+  open.covered = best.inner;
+  open.within = best.within;
+  weigh(open);
+}
+
+// The masses of an open cell with a plane.
+void CellExaminer::weigh(OpenCell& open) const {
+  const Eigen::Vector3d& m = open.covered.m;
+  open.lower = cellHalfSpaceMass(open.within, m, open.covered.s, kOpenAccuracy).lower;
+  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
+  open.drawn = open.coversToTheSides() ? open.gap() : open.upper;
 }
 
 // The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
@@ -238,8 +288,8 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
     settlePart(box, leader.inner, -1.0);
     open.cell = box;
   }
-  open.lower = cellHalfSpaceMass(open.cell, m, leader.inner.s, kOpenAccuracy).lower;
-  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
+  open.within = open.cell;
+  weigh(open);
   result_.open = std::move(open);
 }
 
@@ -247,7 +297,7 @@ SettledMass CellExaminer::coveredPart(const OpenCell& open) const {
   SettledMass part;
   if (!open.has_plane) return part;
   part.mass = {open.lower, open.lower};
-  const Moment moment = cellHalfSpaceMoment(open.cell, open.covered.m, open.covered.s);
+  const Moment moment = cellHalfSpaceMoment(open.within, open.covered.m, open.covered.s);
   part.moment = moment.value;
   part.moment_error = moment.error;
   return part;

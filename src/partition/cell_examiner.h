@@ -43,6 +43,9 @@ class CellExaminer {
   void settleAround(const Cell& box);
   int champion() const;
   void openWithoutPlane();
+  bool maySkim(const Cell& cell) const;
+  void addPlane(OpenCell& open) const;
+  void weigh(OpenCell& open) const;
   void openWithPlane(const CuttingPair& leader);
 
   CellFront front_;

@@ -96,7 +96,14 @@ void CellFront::gatherLeaf(const FrontPair& pair) {
 void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
   ordered_.clear();
   for (const FrontPair& pair : inherited) {
-    if (pair.obstacle < 0 && overlaps(pair)) ordered_.emplace_back(eccentricity(pair), pair);
+    if (pair.obstacle >= 0) continue;
+    ++statistics_.pairs_tested;
+    if (!overlaps(pair)) continue;
+    if (largerThanCell(pair, kProbeRatio)) {
+      ordered_.emplace_back(eccentricity(pair), pair);
+    } else {
+      coarse_.push_back(pair);
+    }
   }
   std::sort(ordered_.begin(), ordered_.end(),
             [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -214,15 +221,14 @@ bool CellFront::overlaps(const FrontPair& pair) const {
   return true;
 }
 
-// How far the middle of the cell is from that of the C-obstacle's box, relative to the box.
+// How far the middle of the cell is from that of the C-obstacle's box.
 double CellFront::eccentricity(const FrontPair& pair) const {
   const NodeBox box = obstacleBoxOf(pair);
-  double worst = 0.0;
+  double off = 0.0;
   for (int k = 0; k < cell_.rank; ++k) {
-    const double off = std::fabs(0.5 * (box.lo[k] + box.hi[k]) - box_.center[k]);
-    worst = std::max(worst, 2 * off / (box.hi[k] - box.lo[k]));
+    off += std::fabs(0.5 * (box.lo[k] + box.hi[k]) - box_.center[k]);
   }
-  return worst;
+  return off;
 }
 
 bool CellFront::largerThanCell(const FrontPair& pair, double ratio) const {

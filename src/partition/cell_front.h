@@ -38,6 +38,8 @@ class CellFront {
   /// Pairs with an inner node: too large to say anything of the cell but that they may meet it.
   const std::vector<FrontPair>& coarse() const { return coarse_; }
 
+  const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
+
   /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
   double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const;
 

@@ -66,7 +66,9 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const double* uniform)
   if (steepest < 0) return result;
   const double slope = open.covered.m[steepest];
   double lo = (open.possible_from - along) / slope;
-  double hi = (open.covered.s - along) / slope;
+  // To the sides of `within` the open part reaches above the plane.
+  const double end = open.coversToTheSides() ? open.covered.s : 2 * kReach;
+  double hi = (end - along) / slope;
   if (slope < 0) std::swap(lo, hi);
   lo = std::clamp(lo, cell.lo[steepest], cell.hi[steepest]);
   hi = std::clamp(hi, cell.lo[steepest], cell.hi[steepest]);
@@ -126,7 +128,8 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells) {
       double uniform[3];
       uniforms(seed_, i, static_cast<std::uint64_t>(j), uniform);
       const Draw drawn = draw(cells[i], uniform);
-      masses[j] = drawn.weight > 0.0 && collides(cells[i], drawn.point) ? drawn.weight : 0.0;
+      const bool open = drawn.weight > 0.0 && !cells[i].covers(drawn.point);
+      masses[j] = open && collides(cells[i], drawn.point) ? drawn.weight : 0.0;
       moments[j] = masses[j] * drawn.point;
     }
     const double difference = 0.5 * (masses[0] - masses[1]);

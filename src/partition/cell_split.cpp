@@ -11,6 +11,10 @@ namespace {
 // A wider cell is cut this far from its end near the origin, where its mass is.
 constexpr double kStep = 1.5;
 
+// The first axis lies along the direction of closest approach, across the boundary. Measured: 1.5
+// takes 5 to 15 % fewer cells than 1, 0.6 takes up to 45 % more.
+constexpr double kDepthWeight = 1.5;
+
 // Narrower than this a cell's planes are within rounding of each other.
 constexpr double kNarrowest = 1e-12;
 
@@ -29,7 +33,7 @@ CellSplit chooseSplit(const Cell& cell) {
   for (int i = 0; i < cell.rank; ++i) {
     // In the tail the density falls by e over 1 / |y|.
     const double nearest = std::max({cell.lo[i], -cell.hi[i], 1.0});
-    const double score = (cell.hi[i] - cell.lo[i]) * nearest;
+    const double score = (cell.hi[i] - cell.lo[i]) * nearest * (i == 0 ? kDepthWeight : 1.0);
     if (score > largest) {
       largest = score;
       axis = i;

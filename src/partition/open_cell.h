@@ -3,6 +3,7 @@
 // A cell of the partition with what is still open in it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -31,11 +32,29 @@ struct OpenCell {
   std::vector<FrontPair> front;
   bool has_plane = false;
   CellPlane covered;
+  Cell within{};
   double possible_from = 0.0;
   double lower = 0.0;  ///< certified mass that collides
   double upper = 0.0;  ///< certified mass that may collide
+  double drawn = 0.0;  ///< mass of the set from which samples of the open part are drawn
 
   double gap() const { return upper - lower; }
+
+  /// `within` is the whole cell: only what lies between the planes is open.
+  bool coversToTheSides() const { return within.lo == cell.lo && within.hi == cell.hi; }
+
+  /// Whether a point of the cell is in the covered part.
+  bool covers(const Eigen::Vector3d& y) const {
+    return has_plane && covered.m.dot(y) >= covered.s && (y.array() >= within.lo.array()).all() &&
+           (y.array() <= within.hi.array()).all();
+  }
+
+  /// Bound on the variance of the mean of two samples of the open mass: a sample is drawn from a
+  /// set of mass `drawn` and is 0 or that mass, with a mean of at most the gap.
+  double samplingVariance() const {
+    const double mean = std::min(gap(), 0.5 * drawn);
+    return 0.5 * mean * (drawn - mean);
+  }
   std::size_t memory() const { return sizeof(OpenCell) + front.capacity() * sizeof(FrontPair); }
 };
 

@@ -46,6 +46,7 @@ class PartitionEngine {
 
  private:
   void divideLargest();
+  void divide(const OpenCell& parent, double soon);
   void add(Examination&& examination);
   void remove(const OpenCell& cell);
   void recount();
@@ -61,8 +62,8 @@ class PartitionEngine {
   CellExaminer examiner_;
   std::vector<OpenCell> queue_;  ///< a heap by gap
   SettledMass settled_;
-  Bounds open_;  ///< sums over queue_
-  double open_gap_squares_ = 0.0;
+  Bounds open_;                 ///< sums over queue_
+  double open_variance_ = 0.0;  ///< of an estimate from queue_, bound on it
   double sampling_target_ = 1.0;
   bool indivisible_ = false;
   std::size_t cell_memory_ = 0;

@@ -49,7 +49,9 @@ struct SlabKernelsOver {
       const V4 below = lo + margin - (d - r);
       countSides(cut, greater(above, V4(0.0)), i, true);
       countSides(cut, greater(below, V4(0.0)), i, false);
-      worst = max(worst, max(above, below) / max(r, V4(1e-300)));
+      const V4 steepest = max(max(abs(n.x) * V4(cell.half[0]), abs(n.y) * V4(cell.half[1])),
+                              abs(n.z) * V4(cell.half[2]));
+      worst = max(worst, max(above, below) / max(steepest, V4(1e-300)));
     }
     if (cut.sides > 0) cut.relation = CellRelation::cut;
     cut.covered = 1.0 - 0.5 * worst.largest();
