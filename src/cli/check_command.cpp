@@ -3,8 +3,8 @@
 #include "cli/check_command.h"
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 
+#include "cli/output.h"
 #include "cli/prepared_scene.h"
 #include "cli/progress_bar.h"
 #include "cli/result_report.h"
@@ -17,6 +17,7 @@ namespace {
 struct CheckArguments {
   SceneArguments scene;
   bool json = false;
+  std::string output;
 };
 
 CheckReport check(Scene scene, const std::string& bounding_volume) {
@@ -39,7 +40,7 @@ CheckReport check(Scene scene, const std::string& bounding_volume) {
 
 int runCheck(const CheckArguments& arguments) {
   const CheckReport report = check(sceneFrom(arguments.scene), arguments.scene.bounding_volume);
-  std::cout << (arguments.json ? jsonOf(report).dump() + "\n" : textOf(report));
+  deliver(arguments.json ? jsonOf(report).dump() + "\n" : textOf(report), arguments.output);
   return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
 }
 
@@ -51,6 +52,7 @@ void addCheckCommand(CLI::App& app, int& exit_code) {
   addSceneOptions(command, arguments->scene);
   addRequestOptions(command, arguments->scene);
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
+  command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runCheck(*arguments); });
 }
 

@@ -9,6 +9,7 @@
 #include "cli/comparison.h"
 #include "cli/comparison_report.h"
 #include "cli/gnuplot.h"
+#include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
@@ -21,6 +22,7 @@ struct CompareArguments {
   bool csv = false;
   bool json = false;
   std::string plot;
+  std::string output;
 };
 
 std::string titleOf(const SceneArguments& arguments) {
@@ -69,9 +71,9 @@ int runCompare(const CompareArguments& arguments) {
   const Comparison comparison =
       compareWithProgress(sceneFrom(arguments.scene), arguments.scene.bounding_volume);
   if (arguments.json) {
-    std::cout << jsonOf(comparison).dump(1) << '\n';
+    deliver(jsonOf(comparison).dump(1) + "\n", arguments.output);
   } else {
-    std::cout << (arguments.csv ? csvOf(comparison) : tableOf(comparison));
+    deliver(arguments.csv ? csvOf(comparison) : tableOf(comparison), arguments.output);
   }
   if (terminal) plot(comparison, arguments, *terminal);
   return interrupted() ? kStopped : kAnswered;
@@ -89,6 +91,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
   command.add_flag("--json", arguments->json, "JSON instead of a table")->excludes(csv);
   command.add_option("--plot", arguments->plot,
                      "Also plot error and bounds against run time, to FILE.svg or FILE.png");
+  command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runCompare(*arguments); });
 }
 

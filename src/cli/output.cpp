@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 
 #include "fcl_prob/exceptions.h"
 
@@ -77,6 +78,15 @@ void flushOutput(std::ostream& stream, const std::string& name) {
   errno = 0;
   stream.flush();
   if (!stream) failToWrite(name);
+}
+
+void deliver(const std::string& content, const std::string& path) {
+  if (path.empty()) {
+    std::cout << content;
+    flushOutput(std::cout, "standard output");
+  } else {
+    writeFile(path, content);
+  }
 }
 
 void writeFile(const std::string& path, const std::string& content) {

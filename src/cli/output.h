@@ -14,6 +14,10 @@ std::string onOneLine(const std::string& text);
 /// \throws FileError if anything that was written to `stream` did not arrive.
 void flushOutput(std::ostream& stream, const std::string& name);
 
+/// Writes `content` to the file at `path`, or to standard output if `path` is empty. \throws
+/// FileError
+void deliver(const std::string& content, const std::string& path);
+
 /// Writes a file under another name beside it and renames it when it is complete and on the disk.
 /// \throws FileError; then a file that was there before is untouched.
 void writeFile(const std::string& path, const std::string& content);

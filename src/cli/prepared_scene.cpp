@@ -7,7 +7,13 @@
 namespace fcl_prob::cli {
 
 PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume)
-    : a_(loadObject(scene.a)), b_(loadObject(scene.b)), displacement_(scene.displacement) {
+    : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume) {
+}
+
+PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
+                             const GaussianDisplacement& displacement,
+                             const std::string& bounding_volume)
+    : a_(std::move(a)), b_(std::move(b)), displacement_(displacement) {
   const Stopwatch watch;
   query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
                                            buildGeometry(b_, bounding_volume));

@@ -24,6 +24,10 @@ class PreparedScene {
   /// \throws what the loader, the trees and the query throw
   PreparedScene(const Scene& scene, const std::string& bounding_volume);
 
+  /// The same for objects that are loaded already.
+  PreparedScene(LoadedObject a, LoadedObject b, const GaussianDisplacement& displacement,
+                const std::string& bounding_volume);
+
   /// The query alone, without loading and building.
   TimedResult query(const ProbabilityRequest& request) const;
 

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <iostream>
 
+#include "cli/bench_command.h"
 #include "cli/check_command.h"
 #include "cli/compare_command.h"
 #include "cli/output.h"
@@ -26,6 +27,7 @@ int parseAndRun(int argc, const char* const* argv) {
   int exit_code = kAnswered;
   addCheckCommand(app, exit_code);
   addCompareCommand(app, exit_code);
+  addBenchCommand(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/bench_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+
+#include "cli/benchmark.h"
+#include "cli/output.h"
+#include "cli/progress_bar.h"
+#include "cli/run.h"
+#include "fcl_prob/exceptions.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+struct BenchArguments {
+  std::string name;
+  BenchOptions options;
+  bool csv = false;
+  bool json = false;
+  std::string output;
+};
+
+std::string listOfBenchmarks() {
+  std::string text = "Benchmarks:\n";
+  for (const Benchmark& benchmark : benchmarks()) {
+    text += "  " + benchmark.name + ": " + benchmark.description + "\n";
+  }
+  return text;
+}
+
+const Benchmark& benchmarkNamed(const std::string& name) {
+  for (const Benchmark& benchmark : benchmarks()) {
+    if (benchmark.name == name) return benchmark;
+  }
+  throw InvalidRequest("no benchmark is called '" + name + "'; `fcl_prob bench` lists them");
+}
+
+std::string modelsFolder(const std::string& option) {
+  if (!option.empty()) return option;
+  const char* const folder = std::getenv("FCL_PROB_MODELS");
+  if (folder == nullptr) throw InvalidRequest("needs --models DIR or FCL_PROB_MODELS");
+  return folder;
+}
+
+int runBench(BenchArguments arguments) {
+  if (arguments.name.empty()) {
+    deliver(listOfBenchmarks(), arguments.output);
+    return kAnswered;
+  }
+  const Benchmark& benchmark = benchmarkNamed(arguments.name);
+  arguments.options.models_folder = modelsFolder(arguments.options.models_folder);
+  noteInterrupts();
+  BenchReport report;
+  {
+    ProgressBar bar("fcl_prob bench");
+    report = benchmark.run(arguments.options, [&bar](double fraction, const std::string& what) {
+      bar.show(fraction, what);
+      return !interrupted();
+    });
+  }
+  if (arguments.json) {
+    deliver(report.records.dump(1) + "\n", arguments.output);
+  } else {
+    deliver(arguments.csv ? report.table.csv() : report.markdown(), arguments.output);
+  }
+  return interrupted() ? kStopped : kAnswered;
+}
+
+}  // namespace
+
+void addBenchCommand(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<BenchArguments>();
+  CLI::App& command = *app.add_subcommand("bench", "The benchmark tables");
+  command.add_option("NAME", arguments->name, "Which; without it they are listed");
+  command.add_option("--models", arguments->options.models_folder,
+                     "Folder of the benchmark models; default $FCL_PROB_MODELS");
+  command.add_option("--only", arguments->options.only, "Only scenes whose name contains this");
+  command.add_option("--seed", arguments->options.seed, "Fixes all samples")
+      ->check(CLI::NonNegativeNumber);
+  auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of Markdown");
+  command.add_flag("--json", arguments->json, "JSON instead of Markdown")->excludes(csv);
+  command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
+  command.callback([arguments, &exit_code] { exit_code = runBench(*arguments); });
+}
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Named benchmarks and what they report.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/text_table.h"
+
+namespace fcl_prob::cli {
+
+struct BenchOptions {
+  std::string models_folder;
+  std::string only;  ///< run only scenes whose name contains this
+  std::uint64_t seed = 1;
+};
+
+/// A table for people and the same numbers, unrounded, for programs.
+struct BenchReport {
+  std::string title;
+  std::string notes;  ///< Markdown, under the table: what the columns mean
+  TextTable table{{}};
+  nlohmann::ordered_json records = nlohmann::ordered_json::array();
+
+  std::string markdown() const;
+};
+
+/// Told what is being run and how much is done (0 to 1); returns false to stop early.
+using BenchProgress = std::function<bool(double fraction, const std::string& what)>;
+
+struct Benchmark {
+  std::string name;
+  std::string description;
+  BenchReport (*run)(const BenchOptions& options, const BenchProgress& progress);
+};
+
+/// All of them. Deterministic for a seed, but for the times.
+const std::vector<Benchmark>& benchmarks();
+
+/// The benchmarks, one a file.
+BenchReport benchCertified(const BenchOptions& options, const BenchProgress& progress);
+
+}  // namespace fcl_prob::cli
