@@ -134,7 +134,7 @@ ComparisonRecord record(const PreparedScene& scene, const ComparisonRun& run,
     const TimedResult timed = quickest(scene, run.request);
     result.result = timed.result;
     result.time_ms = timed.time_ms;
-  } catch (const UnsupportedGeometry& error) {
+  } catch (const Exception& error) {
     result.refusal = error.what();
     return result;
   }

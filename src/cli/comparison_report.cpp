@@ -51,7 +51,7 @@ std::string tableOf(const Comparison& comparison) {
   for (const ComparisonRecord& record : comparison.records) {
     const std::string name = toString(record.method);
     if (record.refusal) {
-      const std::string line = "not for this scene: " + *record.refusal + "\n";
+      const std::string line = "no answer: " + name + ": " + *record.refusal + "\n";
       if (refusals.find(line) == std::string::npos) refusals += line;
       continue;
     }
