@@ -17,7 +17,7 @@
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
-#include "geometry/directed_edges.h"
+#include "gaussian/directed_edges.h"
 
 namespace fcl_prob {
 namespace {

@@ -3,17 +3,15 @@
 #include "fcl_prob/normal_mass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "gaussian/narrow_interval.h"
 #include "gaussian/normal_density.h"
 
 namespace fcl_prob {
 namespace {
 
-using detail::gaussianExp;
 using detail::kInverseSqrtTwo;
-using detail::kInverseSqrtTwoPi;
 using detail::normalDensity;
 
 // 1/√2 - kInverseSqrtTwo
@@ -43,50 +41,6 @@ double upperTail(double h) {
   return 0.5 * std::erfc(x) * (1 - rounding * slope);
 }
 
-// Taylor coefficients of T(u, v) = ∫₀¹ cosh(√u s) exp(-v s²/2) ds: u^i v^j / ((2i)! j! (-2)^j
-// (2i+2j+1)).
-constexpr int kTaylorDegree = 8;
-using TaylorTable = std::array<std::array<double, kTaylorDegree>, kTaylorDegree>;
-
-constexpr TaylorTable taylorTable() {
-  TaylorTable table{};
-  double cosh_coefficient = 1;
-  for (int i = 0; i < kTaylorDegree; ++i) {
-    double exp_coefficient = 1;
-    for (int j = 0; i + j < kTaylorDegree; ++j) {
-      table[i][j] = cosh_coefficient * exp_coefficient / (2 * i + 2 * j + 1);
-      exp_coefficient /= -2.0 * (j + 1);
-    }
-    cosh_coefficient /= (2.0 * i + 1) * (2.0 * i + 2);
-  }
-  return table;
-}
-
-constexpr TaylorTable kTaylor = taylorTable();
-
-template <int kDegree>
-double taylor(double u, double v) {
-  double sum = 0;
-  for (int i = kDegree - 1; i >= 0; --i) {
-    double inner = 0;
-    for (int j = kDegree - 1 - i; j >= 0; --j) inner = inner * v + kTaylor[i][j];
-    sum = sum * u + inner;
-  }
-  return sum;
-}
-
-constexpr double kNarrowHalfWidth = 0.25;
-constexpr double kNarrowSteepness = 0.35;
-
-// ∫ φ over [middle - half, middle + half] where φ changes little: 2 half φ(middle) T(middle² half²,
-// half²). `middle_low` is what rounding took from the middle.
-double narrowMass(double middle, double middle_low, double half_width) {
-  const double v = half_width * half_width;
-  const double u = middle * middle * v;
-  const double shape = u + v < 1e-4 ? taylor<4>(u, v) : taylor<kTaylorDegree>(u, v);
-  return 2 * half_width * kInverseSqrtTwoPi * gaussianExp(middle, middle_low) * shape;
-}
-
 }  // namespace
 
 double normalTailMass(double h) {
@@ -107,10 +61,10 @@ double normalIntervalMass(double lo, double hi) {
   const double half_width = 0.5 * (hi - lo);
   const double sum = lo + hi;
   const double middle = 0.5 * sum;
-  if (half_width <= kNarrowHalfWidth && std::abs(middle) * half_width <= kNarrowSteepness) {
+  if (detail::isNarrow(middle, half_width)) {
     const double hi_part = sum - lo;
     const double rounding = (lo - (sum - hi_part)) + (hi - hi_part);
-    return narrowMass(middle, 0.5 * rounding, half_width);
+    return 2 * half_width * detail::narrowMean(middle, half_width, 0.5 * rounding);
   }
   const double near = middle < 0 ? -hi : lo;  // mirrored so that |near| <= far
   const double far = middle < 0 ? -lo : hi;

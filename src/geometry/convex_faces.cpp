@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fcl_prob/exceptions.h"
-#include "geometry/directed_edges.h"
+#include "gaussian/directed_edges.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "geometry/directed_edges.h"
+#include "gaussian/directed_edges.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "gaussian/boundary_mass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_prob/normal_mass.h"
+#include "gaussian/edge_quadrature.h"
+#include "gaussian/normal_density.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// Rounding of the heights and rectangles of the slabs.
+constexpr double kSlabRounding = 1 + 1e-9;
+
+// The parts sgn(h) erfc(|h|/√2) ω of the tail form.
+void addFullAngles(const PolytopeBoundary& boundary, EdgeSum& sum) {
+  for (const FaceFrame& face : boundary.faces) {
+    if (face.angle == 0) continue;
+    const double height = std::abs(face.height);
+    const double angle = face.angle * std::erfc(height * kInverseSqrtTwo);
+    sum.value -= face.height < 0 ? -angle : angle;
+    sum.rounding_error += (16 + 4 * height * height) * kEpsilon * std::abs(angle);
+  }
+}
+
+MassWithError massOf(const EdgeSum& sum, std::size_t edges) {
+  const double summation = static_cast<double>(edges) * kEpsilon * std::abs(sum.value);
+  const double error =
+      sum.quadrature_error + 1.01 * (sum.rounding_error + sum.field_length) + summation;
+  return {sum.value / (4 * M_PI), error / (4 * M_PI)};
+}
+
+}  // namespace
+
+MassWithError boundaryMass(const PolytopeBoundary& boundary) {
+  EdgeSum sum;
+  if (!(boundary.distance >= kTailDistance)) {
+    for (const BoundaryEdge& edge : boundary.edges) sum += integrateCore(boundary, edge);
+    return massOf(sum, boundary.edges.size());
+  }
+  for (const BoundaryEdge& edge : boundary.edges) sum += integrateTail(boundary, edge);
+  addFullAngles(boundary, sum);
+  MassWithError mass = massOf(sum, boundary.edges.size());
+  if (boundary.origin_inside) mass.value += 1;
+  return mass;
+}
+
+SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*distance,
+                         double extra) {
+  SlabMass sum;
+  for (const FaceFrame& face : boundary.faces) {
+    const double reach = face.*distance + extra;
+    if (reach == 0) continue;
+    const Eigen::Vector2d lo = face.lo.array() - reach;
+    const Eigen::Vector2d hi = face.hi.array() + reach;
+    const double area =
+        kSlabRounding * normalIntervalMass(lo.x(), hi.x()) * normalIntervalMass(lo.y(), hi.y());
+    sum.gain += area * normalIntervalMass(face.height, face.height + reach);
+    sum.loss += area * normalIntervalMass(face.height - reach, face.height);
+  }
+  return sum;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/polytope_mass.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/normal_mass.h"
+#include "gaussian/boundary_mass.h"
+#include "gaussian/number_text.h"
+#include "gaussian/solid_mass.h"
+
+namespace fcl_prob {
+namespace {
+
+using detail::FaceFrame;
+using detail::MassWithError;
+using detail::PolytopeBoundary;
+
+// What denormal numbers may lose.
+constexpr double kUnderflow = 1e-312;
+
+// The wider the margin, the more pieces of a cubature it is worth.
+constexpr double kGoodRelativeWidth = 3e-12;
+constexpr double kFairRelativeWidth = 1e-11;
+constexpr double kPoorRelativeWidth = 1e-10;
+constexpr int kMaxPieces = 512;
+
+Bounds widened(const MassWithError& mass, const detail::SlabMass& slabs) {
+  const double margin =
+      mass.error + 4 * std::numeric_limits<double>::epsilon() * std::abs(mass.value) + kUnderflow;
+  return {std::clamp(mass.value - (margin + slabs.loss), 0.0, 1.0),
+          std::clamp(mass.value + (margin + slabs.gain), 0.0, 1.0)};
+}
+
+// About how many pieces a cubature takes: each spans a few standard deviations, less in the tail,
+// where the density changes by e over 1/distance.
+double expectedPieces(const ConvexPolytope& polytope, const PolytopeBoundary& boundary) {
+  double length = 0, area = 0, volume = 0;
+  const Eigen::Vector3d& apex = polytope.vertices.front();
+  for (const Eigen::Vector3d& v : polytope.vertices) length = std::max(length, (v - apex).norm());
+  for (std::size_t f = 0; f < polytope.faces.size(); ++f) {
+    const std::vector<int>& loop = polytope.faces[f].vertices;
+    const auto offset = [&](std::size_t k) -> Eigen::Vector3d {
+      return polytope.vertices[static_cast<std::size_t>(loop[k])] - apex;
+    };
+    Eigen::Vector3d area_vector = Eigen::Vector3d::Zero();
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      area_vector += 0.5 * (offset(k - 1) - offset(0)).cross(offset(k) - offset(0));
+    }
+    area += area_vector.norm();
+    volume += std::abs(area_vector.dot(offset(0))) / 3;
+  }
+  if (!(area > 0)) return 1;
+  const auto pieces = [&](double extent) {
+    return std::clamp(0.5 * (1 + boundary.distance) * extent, 1.0, 50.0);
+  };
+  return pieces(length) * pieces(0.5 * area / length) * pieces(2 * volume / area);
+}
+
+bool isWorthCubature(const ConvexPolytope& polytope, const PolytopeBoundary& boundary,
+                     const Bounds& bounds) {
+  const double relative_width = bounds.width() / bounds.upper;
+  if (!(relative_width > kGoodRelativeWidth)) return false;
+  const double limit = relative_width > kPoorRelativeWidth   ? 256
+                       : relative_width > kFairRelativeWidth ? 32
+                                                             : 2;
+  return expectedPieces(polytope, boundary) <= limit;
+}
+
+// Both are right, so their intersection is; were they to disagree, both would be kept.
+Bounds combined(const Bounds& a, const Bounds& b) {
+  const Bounds both{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+  if (both.lower <= both.upper) return both;
+  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
+
+// A point, a segment or a flat polygon: nothing, but for what the errors of its vertices may hide.
+Bounds flatMass(const ConvexPolytope& polytope, double vertex_error) {
+  if (polytope.vertices.empty() || vertex_error == 0) return {0, 0};
+  Eigen::Vector3d lo = polytope.vertices.front(), hi = lo;
+  for (const Eigen::Vector3d& v : polytope.vertices) {
+    lo = lo.cwiseMin(v);
+    hi = hi.cwiseMax(v);
+  }
+  const double mass = normalBoxMass(lo.array() - vertex_error, hi.array() + vertex_error);
+  return {0, std::min(1.0, mass * (1 + 4 * kIntervalMassRelativeError) + kUnderflow)};
+}
+
+void requireVertexError(double vertex_error) {
+  if (!(vertex_error >= 0) || !std::isfinite(vertex_error)) {
+    throw InvalidGeometry("vertex error is not a finite length >= 0: " +
+                          detail::numberText(vertex_error));
+  }
+}
+
+}  // namespace
+
+Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error) {
+  requireVertexError(vertex_error);
+  if (polytope.faces.empty()) return flatMass(polytope, vertex_error);
+  const PolytopeBoundary boundary = detail::polytopeBoundary(polytope);
+  Bounds bounds = widened(detail::boundaryMass(boundary),
+                          detail::surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error));
+  if (isWorthCubature(polytope, boundary, bounds)) {
+    const std::optional<detail::SolidMass> solid =
+        detail::solidMass(polytope, bounds.lower, kMaxPieces);
+    if (solid) {
+      const detail::SlabMass slabs = detail::surfaceSlabMass(boundary, &FaceFrame::unevenness,
+                                                             vertex_error + solid->cut_error);
+      bounds = combined(bounds, widened(solid->mass, slabs));
+    }
+  }
+  return bounds;
+}
+
+}  // namespace fcl_prob

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "gaussian/solid_mass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "gaussian/polytope_clip.h"
+#include "gaussian/tetrahedron_mass.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// Bounds of a piece's cubature and of what is left out, relative to the mass.
+constexpr double kPieceTolerance = 1e-15;
+constexpr double kNegligible = 1e-17;
+
+// Rounding of a cut vertex, in units of the size of the body.
+constexpr double kCutRounding = 4 * kEpsilon;
+
+// Part of the body, its vertices relative to the anchor.
+struct Piece {
+  ConvexPolytope body;
+  std::vector<Tetrahedron> tetrahedra;
+  double volume = 0.0;
+  double volume_error = 0.0;
+  double density_upper = 0.0;
+  double density_lower = 0.0;
+
+  Piece(const Vector3d& anchor, ConvexPolytope polytope) : body(std::move(polytope)) {
+    for (const ConvexPolytope::Face& face : body.faces) addFan(anchor, face.vertices);
+    density_lower = std::numeric_limits<double>::infinity();
+    for (const Tetrahedron& t : tetrahedra) {
+      volume += t.volume;
+      volume_error += t.volume_error;
+      density_upper = std::max(density_upper, t.densityUpper());
+      density_lower = std::min(density_lower, t.densityLower());
+    }
+  }
+
+  void addFan(const Vector3d& anchor, const std::vector<int>& loop) {
+    if (std::find(loop.begin(), loop.end(), 0) != loop.end()) return;
+    const auto at = [&](std::size_t k) { return body.vertices[static_cast<std::size_t>(loop[k])]; };
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      tetrahedra.emplace_back(anchor,
+                              std::array<Vector3d, 4>{body.vertices[0], at(0), at(k - 1), at(k)});
+    }
+  }
+};
+
+// The plane across the direction in which the density is hardest to follow.
+HalfSpace middlePlane(const Vector3d& anchor, const ConvexPolytope& body) {
+  const Vector3d& apex = body.vertices[0];
+  Vector3d hardest = Vector3d::UnitX();
+  double most = 0;
+  for (const Vector3d& vertex : body.vertices) {
+    const Vector3d step = vertex - apex;
+    const double slope =
+        std::max(std::abs((anchor + apex).dot(step)), std::abs((anchor + vertex).dot(step)));
+    const double difficulty = slope + step.squaredNorm();
+    if (difficulty > most) {
+      most = difficulty;
+      hardest = step;
+    }
+  }
+  const Vector3d normal = hardest.stableNormalized();
+  return {normal, normal.dot(apex + 0.5 * hardest)};
+}
+
+class SolidIntegral {
+ public:
+  SolidIntegral(const ConvexPolytope& polytope, double lower_bound)
+      : anchor_(polytope.vertices.front()) {
+    ConvexPolytope body = polytope;
+    for (Vector3d& vertex : body.vertices) {
+      vertex -= anchor_;
+      size_ = std::max(size_, vertex.norm());
+    }
+    open_.emplace_back(anchor_, std::move(body));
+    known_ = std::max(lower_bound, open_.back().volume * open_.back().density_lower);
+  }
+
+  std::optional<SolidMass> integrate(int max_pieces) {
+    int pieces = 0;
+    while (!open_.empty()) {
+      if (++pieces > max_pieces) return std::nullopt;
+      const Piece piece = std::move(open_.back());
+      open_.pop_back();
+      const double most = (piece.volume + piece.volume_error) * piece.density_upper;
+      if (most <= kNegligible * known_) {
+        sum_.error += most;
+      } else if (!integratePiece(piece)) {
+        cut(piece);
+      }
+    }
+    sum_.error += pieces * kEpsilon * sum_.value;
+    return SolidMass{sum_, pieces > 1 ? kCutRounding * size_ : 0.0};
+  }
+
+ private:
+  bool integratePiece(const Piece& piece) {
+    std::vector<CubaturePlan> plans;
+    for (const Tetrahedron& t : piece.tetrahedra) {
+      const double share = t.volume / piece.volume;
+      const double least = piece.volume * piece.density_lower;
+      const double tolerance = kPieceTolerance * std::max(share * least, 1e-2 * known_);
+      plans.push_back(planCubature(t, tolerance));
+      if (plans.back().points == 0) return false;
+    }
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+      const MassWithError mass = tetrahedronMass(piece.tetrahedra[k], plans[k]);
+      sum_.value += mass.value;
+      sum_.error += mass.error;
+    }
+    return true;
+  }
+
+  void cut(const Piece& piece) {
+    const HalfSpace plane = middlePlane(anchor_, piece.body);
+    double extent = 0;
+    for (const Vector3d& v : piece.body.vertices) {
+      extent = std::max(extent, std::abs(plane.normal.dot(v) - plane.offset));
+    }
+    // Later cuts of one half move the common face by rounding; its area is at most 3 volume /
+    // extent.
+    sum_.error += kCutRounding * size_ * 3 * piece.volume / extent * piece.density_upper;
+    open_.emplace_back(anchor_, clipped(piece.body, plane));
+    open_.emplace_back(anchor_, clipped(piece.body, {-plane.normal, -plane.offset}));
+  }
+
+  Vector3d anchor_;
+  std::vector<Piece> open_;
+  MassWithError sum_;
+  double known_ = 0.0;
+  double size_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<SolidMass> solidMass(const ConvexPolytope& polytope, double lower_bound,
+                                   int max_pieces) {
+  return SolidIntegral(polytope, lower_bound).integrate(max_pieces);
+}
+
+}  // namespace fcl_prob::detail
