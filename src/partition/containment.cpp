@@ -30,6 +30,7 @@ SolidContact::SolidContact(const PartitionObject& a, const PartitionObject& b,
     direction.outer_box = sign > 0 ? pair.b.boxes[0] : pair.a.boxes[0];
     direction.inner_box = sign > 0 ? pair.a.boxes[0] : pair.b.boxes[0];
     direction.sign = sign;
+    direction.rounding = 4 * (pair.a.error + pair.b.error);
     directions_.push_back(std::move(direction));
   };
   add(a, b, 1.0);
@@ -41,8 +42,10 @@ bool SolidContact::fits(const Direction& direction, const Cell& cell) {
   for (int k = 0; k < 3; ++k) {
     const double lo = direction.sign > 0 ? cell.lo[k] : -cell.hi[k];
     const double hi = direction.sign > 0 ? cell.hi[k] : -cell.lo[k];
-    if (direction.inner_box.lo[k] + hi < direction.outer_box.lo[k]) return false;
-    if (direction.inner_box.hi[k] + lo > direction.outer_box.hi[k]) return false;
+    if (direction.inner_box.lo[k] + hi < direction.outer_box.lo[k] - direction.rounding)
+      return false;
+    if (direction.inner_box.hi[k] + lo > direction.outer_box.hi[k] + direction.rounding)
+      return false;
   }
   return true;
 }

@@ -42,6 +42,7 @@ class SolidContact {
     NodeBox outer_box;      ///< whitened
     NodeBox inner_box;      ///< whitened, at y = 0
     double sign;            ///< of the whitened displacement of the inner object
+    double rounding;        ///< of the boxes, which are padded outwards
   };
 
   Containment decide(const Direction& direction, const Eigen::Vector3d& displacement) const;

@@ -12,6 +12,7 @@
 namespace fcl_prob::detail {
 
 inline constexpr double kUnbounded = 1e300;
+inline constexpr double kSmallest = 1e-300;
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 template <typename V4>
@@ -120,7 +121,7 @@ struct SlabKernelsOver {
       const V4 above = (d + r) - V4::load(slabs.lo() + i);
       const V4* axes[3] = {&n.x, &n.y, &n.z};
       for (int k = 0; k < 3; ++k) {
-        const V4 inverse = V4(1.0) / max(abs(*axes[k]), V4(1e-9));
+        const V4 inverse = V4(1.0) / max(abs(*axes[k]), V4(kSmallest));
         const V4 from_lo = select(*axes[k], below, above) * inverse;
         const V4 from_hi = select(*axes[k], above, below) * inverse;
         highest[k] = min(highest[k], V4(cell.center[k] - cell.half[k]) + from_lo);
@@ -133,9 +134,7 @@ struct SlabKernelsOver {
     }
   }
 
-  // Where a quotient is within reach its terms were below 100 / 1e-9 only if the normal is that
-  // flat, and then the quotient is not the smallest; else rounding is a few ulp of the reach over
-  // |n_k|.
+  // The slabs' own padding pays for the rounding of a slack; this for that of the sums that follow.
   static constexpr double kContractRounding = 1e-12;
 
   // A plane over which the cell sticks out by an excess is satisfied once the cell is narrowed by
@@ -152,7 +151,7 @@ struct SlabKernelsOver {
       const V4 below = max((V4::load(slabs.lo() + i) + margin) - (d - r), V4(0.0));
       const V4* axes[3] = {&n.x, &n.y, &n.z};
       for (int k = 0; k < 3; ++k) {
-        const V4 inverse = V4(1.0) / max(abs(*axes[k]), V4(1e-9));
+        const V4 inverse = V4(1.0) / max(abs(*axes[k]), V4(kSmallest));
         const V4 width_above = above * inverse;
         const V4 width_below = below * inverse;
         // n_k >= 0: the upper plane narrows from hi, the lower one from lo. An excess on the wrong

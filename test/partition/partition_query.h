@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Queries of the partition on meshes, for tests.
+#pragma once
+
+#include <memory>
+
+#include "geometry/closed_mesh.h"
+#include "mesh_shapes.h"
+#include "partition/partition.h"
+
+namespace fcl_prob_test {
+
+/// A pair of meshes with everything that the partition needs.
+class PartitionQuery {
+ public:
+  PartitionQuery(const TriangleMesh& mesh_a, const TriangleMesh& mesh_b)
+      : model_a(makeModel<fcl::OBBRSSd>(mesh_a)),
+        model_b(makeModel<fcl::OBBRSSd>(mesh_b)),
+        tree_a_(fcl_prob::detail::buildPieceTree(*model_a)),
+        tree_b_(fcl_prob::detail::buildPieceTree(*model_b)) {}
+
+  /// Both meshes must be closed.
+  void makeSolid() {
+    using fcl_prob::detail::ClosedMesh;
+    solid_a_ = std::make_unique<ClosedMesh>(fcl_prob::detail::meshView(*model_a), "A");
+    solid_b_ = std::make_unique<ClosedMesh>(fcl_prob::detail::meshView(*model_b), "B");
+  }
+
+  fcl_prob::ProbabilityResult run(const fcl_prob::GaussianDisplacement& displacement,
+                                  const fcl_prob::ProbabilityRequest& request) const {
+    return fcl_prob::detail::partitionProbability({tree_a_.get(), pose_a, solid_a_.get()},
+                                                  {tree_b_.get(), pose_b, solid_b_.get()},
+                                                  displacement, request);
+  }
+
+  std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_a;
+  std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_b;
+  fcl::Transform3d pose_a = fcl::Transform3d::Identity();
+  fcl::Transform3d pose_b = fcl::Transform3d::Identity();
+
+ private:
+  std::shared_ptr<const fcl_prob::detail::PieceTree> tree_a_;
+  std::shared_ptr<const fcl_prob::detail::PieceTree> tree_b_;
+  std::unique_ptr<fcl_prob::detail::ClosedMesh> solid_a_;
+  std::unique_ptr<fcl_prob::detail::ClosedMesh> solid_b_;
+};
+
+/// A request for a certified interval to a relative tolerance alone.
+inline fcl_prob::ProbabilityRequest intervalRequest(double relative_tolerance) {
+  fcl_prob::ProbabilityRequest request;
+  request.method = fcl_prob::ProbabilityMethod::interval;
+  request.absolute_tolerance = 0.0;
+  request.relative_tolerance = relative_tolerance;
+  return request;
+}
+
+}  // namespace fcl_prob_test

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The slab kernels: what they promise of single triangle pairs, and that all builds agree.
+#include <array>
+#include <cmath>
+
+#include "catch.h"
+#include "partition/slab_kernels.h"
+#include "random_bodies.h"
+
+namespace {
+
+using fcl_prob::detail::CellBox;
+using fcl_prob::detail::CellCut;
+using fcl_prob::detail::CellRelation;
+using fcl_prob::detail::CellSlice;
+using fcl_prob::detail::kSlabFields;
+using fcl_prob::detail::kTriangleSlabs;
+using fcl_prob::detail::SlabArrays;
+using fcl_prob::detail::slabKernels;
+
+struct TrianglePair {
+  std::array<double, 9> a, b;
+  std::array<double, kSlabFields * kTriangleSlabs> data;
+  SlabArrays slabs() const { return {data.data(), kTriangleSlabs}; }
+};
+
+TrianglePair randomPair(fcl_prob_test::RandomBodies& random, double size) {
+  TrianglePair pair;
+  const Eigen::Vector3d at = random.uniform(0.0, 3.0) * random.direction();
+  for (std::size_t i = 0; i < 9; ++i) {
+    pair.a[i] = size * random.normal();
+    pair.b[i] = size * random.normal() + at[static_cast<int>(i % 3)];
+  }
+  slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), 0.0, pair.data.data());
+  return pair;
+}
+
+// A point b - a with random weights of the corners: certainly in V.
+Eigen::Vector3d pointOf(const TrianglePair& pair, fcl_prob_test::RandomBodies& random) {
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  for (const auto* corners : {&pair.a, &pair.b}) {
+    Eigen::Vector3d weights(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    weights /= weights.sum();
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i)
+      point += weights[i] * Eigen::Map<const Eigen::Vector3d>(corners->data() + 3 * i);
+    result += corners == &pair.b ? point : Eigen::Vector3d(-point);
+  }
+  return result;
+}
+
+CellBox cellAround(const Eigen::Vector3d& centre, double half) {
+  return {{centre[0], centre[1], centre[2]}, {half, 0.7 * half, 0.4 * half}};
+}
+
+Eigen::Vector3d pointIn(const CellBox& cell, fcl_prob_test::RandomBodies& random) {
+  Eigen::Vector3d p;
+  for (int k = 0; k < 3; ++k) p[k] = cell.center[k] + cell.half[k] * random.uniform(-1, 1);
+  return p;
+}
+
+bool within(const TrianglePair& pair, const Eigen::Vector3d& y) {
+  const CellBox point{{y[0], y[1], y[2]}, {0, 0, 0}};
+  return slabKernels().classify(pair.slabs(), point).relation == CellRelation::inside;
+}
+
+bool excluded(const TrianglePair& pair, const Eigen::Vector3d& y) {
+  const CellBox point{{y[0], y[1], y[2]}, {0, 0, 0}};
+  return slabKernels().classify(pair.slabs(), point).relation == CellRelation::outside;
+}
+
+}  // namespace
+
+TEST_CASE("points of the C-obstacle of two triangles are never outside its slabs", "[slabs]") {
+  fcl_prob_test::RandomBodies random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const TrianglePair pair = randomPair(random, random.logUniform(1e-3, 10.0));
+    for (int j = 0; j < 20; ++j) CHECK_FALSE(excluded(pair, pointOf(pair, random)));
+  }
+}
+
+TEST_CASE("a cell is classified as its points are", "[slabs]") {
+  fcl_prob_test::RandomBodies random(6);
+  std::array<int, 3> seen{};
+  int slices = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const TrianglePair pair = randomPair(random, 2.0);
+    const CellBox cell = cellAround(pointOf(pair, random) + 0.5 * random.normalVector(),
+                                    random.logUniform(0.02, 2.0));
+    const CellCut cut = slabKernels().classify(pair.slabs(), cell);
+    ++seen[static_cast<std::size_t>(cut.relation)];
+    const CellSlice slice = slabKernels().coveredSlice(pair.slabs(), cell);
+    double lo[3], hi[3];
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = cell.center[k] - cell.half[k];
+      hi[k] = cell.center[k] + cell.half[k];
+    }
+    slabKernels().contract(pair.slabs(), cell, lo, hi);
+    const Eigen::Vector3d m = random.direction();
+    const double lowest = slabKernels().minimumAlong(pair.slabs(), cell, m.data());
+    for (int j = 0; j < 20; ++j) {
+      const Eigen::Vector3d y = pointIn(cell, random);
+      if (cut.relation == CellRelation::outside) CHECK(excluded(pair, y));
+      if (cut.relation == CellRelation::inside) CHECK(within(pair, y));
+      if (within(pair, y)) {
+        CHECK(m.dot(y) >= lowest);
+        for (int k = 0; k < 3; ++k) CHECK((y[k] >= lo[k] && y[k] <= hi[k]));
+      }
+      if (slice.axis < 0) continue;
+      Eigen::Vector3d inner = y;
+      const double end =
+          cell.center[slice.axis] + (slice.at_lower_end ? -1 : 1) * cell.half[slice.axis];
+      inner[slice.axis] = end + (slice.at_lower_end ? 1 : -1) * random.uniform(0, 1) * slice.width;
+      CHECK(within(pair, inner));
+      ++slices;
+    }
+  }
+  CHECK(seen[0] > 200);
+  CHECK(seen[1] > 200);
+  CHECK(seen[2] > 200);
+  CHECK(slices > 2000);
+}
+
+TEST_CASE("pairs without volume contain nothing and exclude nothing of themselves", "[slabs]") {
+  fcl_prob_test::RandomBodies random(8);
+  for (int i = 0; i < 500; ++i) {
+    TrianglePair pair = randomPair(random, 1.0);
+    // A needle, a point, or a triangle in the plane of the other one.
+    const int kind = i % 4;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (kind == 0) pair.a[6 + k] = 0.5 * (pair.a[k] + pair.a[3 + k]);
+      if (kind == 1) pair.a[6 + k] = pair.a[3 + k] = pair.a[k];
+      if (kind == 2) pair.a[3 * k + 2] = pair.b[3 * k + 2] = 0.25;
+      if (kind == 3) {
+        pair.a[6 + k] = pair.a[3 + k] = pair.a[k];
+        pair.b[6 + k] = pair.b[3 + k] = pair.b[k];
+      }
+    }
+    slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), 0.0, pair.data.data());
+    for (int j = 0; j < 10; ++j) {
+      const Eigen::Vector3d y = pointOf(pair, random);
+      CHECK_FALSE(excluded(pair, y));
+      if (kind == 1 || kind == 2 || kind == 3) CHECK_FALSE(within(pair, y));
+      const CellCut cut = slabKernels().classify(pair.slabs(), cellAround(y, 0.1));
+      if (kind != 0) CHECK(cut.relation == CellRelation::cut);
+    }
+  }
+}
