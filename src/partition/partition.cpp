@@ -30,6 +30,10 @@ class StageClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// Whitening stretches the objects by this ratio at most where the frame is turned: a long stretch
+// that is not along an axis would make their bounding boxes useless.
+constexpr double kMostStretched = 30.0;
+
 // The whitened frame with its first axis along the direction of closest approach, so that the
 // boundary of the C-obstacle lies across one axis of the cells.
 struct QueryFrame {
@@ -42,7 +46,10 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   const double unit = std::max({a.tree->radius, b.tree->radius, 1e-150});
   const Whitening plain(displacement, unit);
   WhitenedPair pair = whiten(*a.tree, a.pose, *b.tree, b.pose, plain);
-  if (displacement.rank() < 2) return {plain, std::move(pair)};
+  const Eigen::Vector3d& sigma = displacement.standardDeviations();
+  if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
+    return {plain, std::move(pair)};
+  }
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
   return {rotated, whiten(*a.tree, a.pose, *b.tree, b.pose, rotated)};
 }

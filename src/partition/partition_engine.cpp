@@ -17,6 +17,9 @@ bool smallerGap(const OpenCell& x, const OpenCell& y) { return x.gap() < y.gap()
 // 0.4 all scenes are 5 to 15 % faster than with none.
 constexpr double kSoon = 0.2;
 
+// Not deeper than this, so that limits are looked at often enough.
+constexpr int kSoonLevels = 4;
+
 // Cells between two looks at the clock and at the caller's wishes.
 constexpr std::size_t kPollEvery = 64;
 
@@ -62,12 +65,12 @@ void PartitionEngine::divideLargest() {
   const OpenCell largest = std::move(queue_.back());
   queue_.pop_back();
   remove(largest);
-  divide(largest, kSoon * largest.gap());
+  divide(largest, kSoon * largest.gap(), kSoonLevels);
 }
 
 // Children whose gap is not much smaller would soon be taken from the queue: dividing them at once,
 // as long as the data of their front are at hand, saves most of the memory traffic.
-void PartitionEngine::divide(const OpenCell& parent, double soon) {
+void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
   const CellSplit split = chooseSplit(parent.cell);
   if (split.axis < 0) {
     // Its gap stays for good.
@@ -81,11 +84,11 @@ void PartitionEngine::divide(const OpenCell& parent, double soon) {
     Cell half = parent.cell;
     (upper ? half.lo : half.hi)[split.axis] = split.at;
     Examination examination = examiner_.examine(half, parent.front);
-    if (examination.open && examination.open->gap() > soon) {
+    if (examination.open && levels > 0 && examination.open->gap() > soon) {
       const OpenCell child = std::move(*examination.open);
       examination.open.reset();
       add(std::move(examination));
-      divide(child, soon);
+      divide(child, soon, levels - 1);
     } else {
       add(std::move(examination));
     }

@@ -46,7 +46,7 @@ class PartitionEngine {
 
  private:
   void divideLargest();
-  void divide(const OpenCell& parent, double soon);
+  void divide(const OpenCell& parent, double soon, int levels);
   void add(Examination&& examination);
   void remove(const OpenCell& cell);
   void recount();

@@ -28,12 +28,13 @@ constexpr double kFiveSigma = 0.9999994;
 
 std::vector<fcl_prob::TriangleMesh> partsOrSkip() {
   std::vector<fcl_prob::TriangleMesh> parts;
-  for (const char* path : {"fetch_robot/fetch_description/meshes/gripper_link.STL",
-                           "fetch_robot/fetch_description/meshes/elbow_flex_link_collision.STL",
-                           "fetch_robot/fetch_description/meshes/l_gripper_finger_link.STL",
-                           "fetch_robot/fetch_description/meshes/bellows_link_collision.STL",
-                           "objects/coke_can_500.obj", "human/hand_lowres.obj",
-                           "human/human_arm_left_2000.obj", "cad/wingnut.obj"}) {
+  for (const char* path :
+       {"fetch_robot/fetch_description/meshes/gripper_link.STL",
+        "fetch_robot/fetch_description/meshes/elbow_flex_link_collision.STL",
+        "fetch_robot/fetch_description/meshes/l_gripper_finger_link.STL",
+        "fetch_robot/fetch_description/meshes/bellows_link_collision.STL",
+        "objects/coke_can_500.obj", "human/hand_lowres.obj", "human/human_arm_left_2000.obj",
+        "fetch_robot/fetch_description/meshes/wrist_roll_link_collision.STL"}) {
     const auto full = fcl_prob_test::modelOrSkip(path);
     if (!full) return {};
     parts.push_back(fcl_prob::normalized(fcl_prob::loadMesh(*full)));
@@ -55,10 +56,11 @@ struct Comparison {
 };
 
 // Plain sampling where it sees hits, importance sampling below that.
-Comparison compare(const PartitionQuery& query, const GaussianDisplacement& displacement) {
+Comparison compare(const PartitionQuery& query, const GaussianDisplacement& displacement,
+                   std::size_t most_cells) {
   Comparison comparison;
   ProbabilityRequest request = fcl_prob_test::intervalRequest(0.05);
-  request.max_cells = 20'000;
+  request.max_cells = most_cells;
   comparison.interval = query.run(displacement, request);
   ProbabilityRequest sampling;
   sampling.relative_tolerance = 1e-9;
@@ -81,7 +83,7 @@ Comparison compare(const PartitionQuery& query, const GaussianDisplacement& disp
   return comparison;
 }
 
-void checkScenes(int count, unsigned seed) {
+void checkScenes(int count, unsigned seed, std::size_t most_cells) {
   const auto parts = partsOrSkip();
   if (parts.empty()) return;
   RandomBodies random(seed);
@@ -94,7 +96,7 @@ void checkScenes(int count, unsigned seed) {
     query.pose_a.linear() = random.rotation();
     query.pose_b.linear() = random.rotation();
     query.pose_b.translation() = random.uniform(0.0, 1.6) * random.direction();
-    const Comparison comparison = compare(query, randomDisplacement(random));
+    const Comparison comparison = compare(query, randomDisplacement(random), most_cells);
     const ProbabilityResult& interval = comparison.interval;
     INFO("scene " << i << ": " << *interval.lower << " .. " << *interval.upper);
     REQUIRE(*interval.lower <= *interval.upper);
@@ -116,16 +118,16 @@ void checkScenes(int count, unsigned seed) {
   std::cout << "; stopped by the cell limit: " << limited << "\n";
   CHECK(decades[-1] > count / 10);
   CHECK(rare > count / 20);
-  CHECK(limited < count / 10);
+  CHECK(limited < count / 2);
 }
 
 }  // namespace
 
 TEST_CASE("intervals hold sampled probabilities on 60 random scenes", "[random]") {
-  checkScenes(60, 1);
+  checkScenes(60, 1, 1'000);
 }
 
 TEST_CASE("intervals hold sampled probabilities on 2,000 random scenes", "[random][long]") {
-  checkScenes(2'000, 2);
+  checkScenes(2'000, 2, 20'000);
 }
 #endif
