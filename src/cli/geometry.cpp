@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "cli/tree_pair.h"
+
 namespace fcl_prob::cli {
 namespace {
 
@@ -29,6 +31,8 @@ const std::vector<std::string>& boundingVolumeNames() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
     for (const auto& [name, builder] : builders()) result.push_back(name);
+    const std::vector<std::string>& own = ownVolumeNames();
+    result.insert(result.end(), own.begin(), own.end());
     return result;
   }();
   return names;

@@ -16,10 +16,10 @@ namespace fcl_prob::cli {
 
 using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-/// The names that --bv takes: "obb", "aabb", ...
+/// The names that --bv takes: FCL's "obb", "aabb", ..., and ownVolumeNames().
 const std::vector<std::string>& boundingVolumeNames();
 
-/// The tree over `mesh` with the bounding volumes of that name. \throws InvalidRequest,
+/// The tree over `mesh` with FCL's bounding volumes of that name. \throws InvalidRequest,
 /// InvalidGeometry
 Geometry buildTree(const TriangleMesh& mesh, const std::string& bounding_volume);
 

@@ -5,6 +5,31 @@
 #include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
+namespace {
+
+const TriangleMesh& meshOf(const LoadedObject& object) {
+  const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+  if (mesh == nullptr) {
+    throw InvalidRequest("--bv: sphere, kdop26 and convex are for two meshes only");
+  }
+  return *mesh;
+}
+
+ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.method = request.method;
+  result.upper = pcd.upper;
+  result.status = pcd.complete ? ProbabilityStatus::bound_only : ProbabilityStatus::cell_limit;
+  if (request.threshold) {
+    result.decision = pcd.upper < *request.threshold ? Decision::below : Decision::undecided;
+  }
+  result.statistics.raw_sum = pcd.raw_sum;
+  result.statistics.pairs_tested = pcd.pairs_bounded;
+  result.statistics.leaf_pairs = pcd.leaf_pairs;
+  return result;
+}
+
+}  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume)
     : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume) {
@@ -15,17 +40,39 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
                              const std::string& bounding_volume)
     : a_(std::move(a)), b_(std::move(b)), displacement_(displacement) {
   const Stopwatch watch;
-  query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
-                                           buildGeometry(b_, bounding_volume));
+  if (isOwnVolume(bounding_volume)) {
+    own_trees_ = makeOwnTreePair(bounding_volume, meshOf(a_), meshOf(b_));
+  } else {
+    query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
+                                             buildGeometry(b_, bounding_volume));
+  }
   build_ms_ = watch.milliseconds();
 }
 
 TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   TimedResult timed;
   const Stopwatch watch;
-  query_->collisionProbability(a_.pose, b_.pose, displacement_, request, timed.result);
+  if (own_trees_) {
+    timed.result = boundByOwnTrees(request);
+  } else {
+    query_->collisionProbability(a_.pose, b_.pose, displacement_, request, timed.result);
+  }
   timed.time_ms = watch.milliseconds();
   return timed;
+}
+
+ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& request) const {
+  const bool minimum = request.method == ProbabilityMethod::general_pcd_min;
+  if (!minimum && request.method != ProbabilityMethod::general_pcd) {
+    throw InvalidRequest("--bv: sphere, kdop26 and convex are for --method general-pcd only");
+  }
+  validateRequest(request);
+  GeneralPcdRequest pcd_request;
+  pcd_request.confidence = request.confidence;
+  pcd_request.max_pairs = request.max_cells;
+  pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
+  const GeneralPcdResult pcd = own_trees_->bound(a_.pose, b_.pose, displacement_, pcd_request);
+  return resultOf(pcd, request);
 }
 
 NominalAnswer PreparedScene::nominal() const {

@@ -8,6 +8,7 @@
 
 #include "cli/geometry.h"
 #include "cli/nominal_answer.h"
+#include "cli/tree_pair.h"
 #include "fcl_prob/collision_probability.h"
 
 namespace fcl_prob::cli {
@@ -21,6 +22,7 @@ struct TimedResult {
 /// Loads the objects of a scene, builds their trees and prepares the query.
 class PreparedScene {
  public:
+  /// \param bounding_volume  one of boundingVolumeNames()
   /// \throws what the loader, the trees and the query throw
   PreparedScene(const Scene& scene, const std::string& bounding_volume);
 
@@ -29,6 +31,7 @@ class PreparedScene {
                 const std::string& bounding_volume);
 
   /// The query alone, without loading and building.
+  /// \throws InvalidRequest if the bounding volume is not FCL's and the method not general-pcd
   TimedResult query(const ProbabilityRequest& request) const;
 
   /// Building the trees and preparing the query, milliseconds.
@@ -42,11 +45,14 @@ class PreparedScene {
   const GaussianDisplacement& displacement() const { return displacement_; }
 
  private:
+  ProbabilityResult boundByOwnTrees(const ProbabilityRequest& request) const;
+
   LoadedObject a_;
   LoadedObject b_;
   GaussianDisplacement displacement_;
   double build_ms_ = 0.0;
   std::unique_ptr<PreparedQuery> query_;
+  std::unique_ptr<TreePair> own_trees_;  ///< of bounding volumes that FCL does not have
 };
 
 /// A limit came before what was asked for; the result is valid all the same.

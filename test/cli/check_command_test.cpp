@@ -89,6 +89,23 @@ TEST_CASE("the JSON of check has every field of the contract", "[cli]") {
   CHECK(free_of_threshold.at("decision").is_null());
 }
 
+TEST_CASE("every bounding volume bounds the probability from above", "[cli]") {
+  const Cubes cubes;
+  const double expected = fcl_prob::normalTailMass(2.0);
+  for (const std::string volume : {"obb", "aabb", "rss", "obbrss", "kios", "kdop16", "kdop18",
+                                   "kdop24", "kdop26", "sphere", "convex"}) {
+    CAPTURE(volume);
+    const json answer = checkJson({cubes.file, cubes.file, "--pose-a", "1.2,0.13,0.07", "--sigma",
+                                   "0.1,0,0", "--method", "general-pcd-min", "--bv", volume},
+                                  cubes.folder);
+    CHECK(answer.at("upper").get<double>() >= expected);
+    CHECK(answer.at("upper").get<double>() <= (volume == "sphere" ? 1.0 : 0.1));
+  }
+  CHECK(runCommand({"check", cubes.file, cubes.file, "--sigma", "1,1,1", "--bv", "sphere"},
+                   cubes.folder)
+            .refused());
+}
+
 TEST_CASE("normalize, scale, poses, mean and covariance reach the query", "[cli]") {
   const Cubes cubes;
   const std::string big = cubes.folder.write(
