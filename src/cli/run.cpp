@@ -9,6 +9,7 @@
 #include "cli/bench_command.h"
 #include "cli/check_command.h"
 #include "cli/compare_command.h"
+#include "cli/export_command.h"
 #include "cli/output.h"
 #include "fcl_prob/exceptions.h"
 
@@ -28,6 +29,7 @@ int parseAndRun(int argc, const char* const* argv) {
   addCheckCommand(app, exit_code);
   addCompareCommand(app, exit_code);
   addBenchCommand(app, exit_code);
+  addExportCommand(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/drawn_shapes.h"
+
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/shape/capsule.h>
+
+namespace fcl_prob::cli {
+namespace {
+
+using Model = fcl::BVHModel<fcl::OBBRSSd>;
+
+constexpr unsigned kSegments = 32;
+constexpr unsigned kRings = 24;
+
+TriangleMesh meshOf(const Model& model) {
+  return {{model.vertices, model.vertices + model.num_vertices},
+          {model.tri_indices, model.tri_indices + model.num_tris}};
+}
+
+TriangleMesh moved(TriangleMesh mesh, const fcl::Transform3d& pose) {
+  for (fcl::Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
+  return mesh;
+}
+
+/// A sphere whose upper half is lifted: FCL has no tessellation of capsules.
+TriangleMesh capsuleMesh(const fcl::Capsuled& capsule) {
+  Model model;
+  fcl::generateBVHModel(model, fcl::Sphered(capsule.radius), fcl::Transform3d::Identity(),
+                        kSegments, kRings);
+  TriangleMesh mesh = meshOf(model);
+  for (fcl::Vector3d& vertex : mesh.vertices) {
+    vertex.z() += (vertex.z() > 0.0 ? 0.5 : -0.5) * capsule.lz;
+  }
+  return mesh;
+}
+
+TriangleMesh primitiveMesh(const fcl::CollisionGeometryd& geometry) {
+  const fcl::Transform3d identity = fcl::Transform3d::Identity();
+  Model model;
+  if (const auto* box = dynamic_cast<const fcl::Boxd*>(&geometry)) {
+    fcl::generateBVHModel(model, *box, identity);
+  } else if (const auto* sphere = dynamic_cast<const fcl::Sphered*>(&geometry)) {
+    fcl::generateBVHModel(model, *sphere, identity, kSegments, kRings);
+  } else if (const auto* ellipsoid = dynamic_cast<const fcl::Ellipsoidd*>(&geometry)) {
+    fcl::generateBVHModel(model, *ellipsoid, identity, kSegments, kRings);
+  } else if (const auto* cylinder = dynamic_cast<const fcl::Cylinderd*>(&geometry)) {
+    fcl::generateBVHModel(model, *cylinder, identity, kSegments, kRings);
+  } else if (const auto* cone = dynamic_cast<const fcl::Coned*>(&geometry)) {
+    fcl::generateBVHModel(model, *cone, identity, kSegments, kRings);
+  } else if (const auto* capsule = dynamic_cast<const fcl::Capsuled*>(&geometry)) {
+    return capsuleMesh(*capsule);
+  } else {
+    throw UnsupportedGeometry("an unbounded shape cannot be drawn");
+  }
+  return meshOf(model);
+}
+
+}  // namespace
+
+TriangleMesh drawnMesh(const LoadedObject& object) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) return moved(*mesh, object.pose);
+  return moved(primitiveMesh(*std::get<PrimitiveShape>(object.shape)), object.pose);
+}
+
+TriangleMesh drawnEllipsoid(const GaussianDisplacement& displacement, double deviations,
+                            const Eigen::Vector3d& centre) {
+  Model model;
+  fcl::generateBVHModel(model, fcl::Sphered(1.0), fcl::Transform3d::Identity(), kSegments, kRings);
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.linear() =
+      displacement.axes() * (deviations * displacement.standardDeviations()).asDiagonal();
+  pose.translation() = centre;
+  return moved(meshOf(model), pose);
+}
+
+}  // namespace fcl_prob::cli

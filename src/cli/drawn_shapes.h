@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Shapes as triangles to look at. Nothing is computed from them.
+#pragma once
+
+#include "cli/geometry.h"
+#include "fcl_prob/gaussian_displacement.h"
+
+namespace fcl_prob::cli {
+
+/// The object's own mesh, or a tessellation of the primitive, in the world frame.
+/// \throws UnsupportedGeometry for an unbounded primitive
+TriangleMesh drawnMesh(const LoadedObject& object);
+
+/// The ellipsoid of `deviations` standard deviations around `centre`, in the world frame.
+TriangleMesh drawnEllipsoid(const GaussianDisplacement& displacement, double deviations,
+                            const Eigen::Vector3d& centre);
+
+}  // namespace fcl_prob::cli
