@@ -38,7 +38,9 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
     root.lo[i] = -kReach;
     root.hi[i] = kReach;
   }
-  add(examiner_.examine(root, {{0, 0, -1}}));
+  // Two single pieces are a pair of leaves from the start: there is nothing to expand.
+  const bool leaves = pair.a.tree->nodes[0].isLeaf() && pair.b.tree->nodes[0].isLeaf();
+  add(examiner_.examine(root, {{0, 0, leaves ? obstacles_.find(0, 0) : -1}}));
 }
 
 void PartitionEngine::add(Examination&& examination) {
