@@ -26,12 +26,13 @@ Curves curvesOf(const Comparison& comparison) {
   return curves;
 }
 
-/// What the method itself says its error may be, in the units of `error`.
+/// What the method itself says its error may be, in the units of `error`; its error where it does
+/// not.
 double claimedError(const ComparisonRecord& record) {
   const ProbabilityResult& result = record.result;
   if (result.standard_error) return *result.standard_error;
   if (result.lower && result.upper) return 0.5 * (*result.upper - *result.lower);
-  return 0.0;
+  return record.error;
 }
 
 /// The range that the method gives for P: certified, of confidence, or up to a bound.
@@ -41,6 +42,9 @@ Bounds rangeOf(const ComparisonRecord& record) {
   if (result.confidence_interval) return *result.confidence_interval;
   return {record.value, record.value};
 }
+
+/// Logarithms have no zero: how far below the reference a lower end is still shown.
+constexpr double kLeastShown = 0.1;
 
 std::string blockName(ProbabilityMethod method) {
   return "$method" + std::to_string(static_cast<int>(method));
@@ -57,9 +61,10 @@ void writeData(const Curves& curves, const ComparisonReference& reference, std::
       const double claimed = claimedError(*record) / std::max(reference.value, 1e-300);
       const double error = std::max(record->relative_error, floor);
       const Bounds range = rangeOf(*record);
+      const double least = kLeastShown * reference.value;
       out << record->time_ms << ' ' << error << ' ' << std::min(error, std::max(claimed, floor))
-          << ' ' << std::max(error, claimed) << ' ' << record->value << ' ' << range.lower << ' '
-          << range.upper << '\n';
+          << ' ' << std::max(error, claimed) << ' ' << std::max(record->value, least) << ' '
+          << std::max(range.lower, least) << ' ' << range.upper << '\n';
     }
     out << "EOD\n";
   }
@@ -89,11 +94,10 @@ std::string gnuplotScriptOf(const Comparison& comparison, const std::string& tit
   std::replace(safe_title.begin(), safe_title.end(), '\'', ' ');
   out << "set terminal " << terminal << " noenhanced\nset output\n"
       << "set multiplot layout 1,2 title '" << safe_title << "'\n"
-      << "set logscale x\nset grid\nset xlabel 'run time / ms'\nset key off\n"
+      << "set logscale x\nset xtics 100\nset grid\nset xlabel 'run time / ms'\nset key off\n"
       << "set logscale y\nset format y '%.0e'\nset ylabel 'relative error'\n";
   writeCurves(curves, "1:2:3:4", out);
-  out << "\nset key on outside right\nunset logscale y\nset format y '%g'\nset ylabel 'P'\n"
-      << "set yrange [0:*<1.05]\n";
+  out << "\nset key on outside right\nset format y '%g'\nset ylabel 'P'\n";
   writeCurves(curves, "1:5:6:7", out);
   out << ", \\\n     " << comparison.reference.value
       << " with lines lc 'black' dt 2 title 'reference'\nunset multiplot\n";
