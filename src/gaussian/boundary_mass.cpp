@@ -36,6 +36,16 @@ MassWithError massOf(const EdgeSum& sum, std::size_t edges) {
   return {sum.value / (4 * M_PI), error / (4 * M_PI)};
 }
 
+// Bound on the mass, under N(0, I) in the plane, of what is within `reach` of a face: it is in a
+// rectangle, and unless the foot is on the face, beyond a line.
+double areaMass(const FaceFrame& face, double reach) {
+  const Eigen::Vector2d lo = face.lo.array() - reach;
+  const Eigen::Vector2d hi = face.hi.array() + reach;
+  const double rectangle = normalIntervalMass(lo.x(), hi.x()) * normalIntervalMass(lo.y(), hi.y());
+  if (face.angle != 0) return rectangle;
+  return std::min(rectangle, normalTailMass(face.contour_distance - 2 * reach));
+}
+
 }  // namespace
 
 MassWithError boundaryMass(const PolytopeBoundary& boundary) {
@@ -57,10 +67,7 @@ SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*di
   for (const FaceFrame& face : boundary.faces) {
     const double reach = face.*distance + extra;
     if (reach == 0) continue;
-    const Eigen::Vector2d lo = face.lo.array() - reach;
-    const Eigen::Vector2d hi = face.hi.array() + reach;
-    const double area =
-        kSlabRounding * normalIntervalMass(lo.x(), hi.x()) * normalIntervalMass(lo.y(), hi.y());
+    const double area = kSlabRounding * areaMass(face, reach + face.deviation);
     sum.gain += area * normalIntervalMass(face.height, face.height + reach);
     sum.loss += area * normalIntervalMass(face.height - reach, face.height);
   }

@@ -92,6 +92,7 @@ void setHeight(FaceFrame& frame, const ConvexPolytope& polytope, const std::vect
 
 FaceFrame faceFrame(const ConvexPolytope& polytope, const ConvexPolytope::Face& face) {
   FaceFrame frame;
+  frame.contour_distance = std::numeric_limits<double>::infinity();
   setAxes(frame, face.normal, longestSide(polytope, face.vertices));
   setHeight(frame, polytope, face.vertices);
   frame.lo = frame.hi = frame.coordinates(polytope.vertices[face.vertices[0]]);
@@ -143,9 +144,14 @@ BoundaryEdge boundaryEdge(const ConvexPolytope& polytope, const std::vector<Face
   return edge;
 }
 
+// Least t² between two positions.
+double leastSquareBetween(double from, double to) {
+  const double t = std::clamp(0.0, from, std::max(from, to));
+  return t * t;
+}
+
 double distanceToEdge(const BoundaryEdge& edge) {
-  const double t = std::clamp(0.0, edge.t_from, std::max(edge.t_from, edge.t_to));
-  return std::sqrt(edge.distance_squared + t * t);
+  return std::sqrt(edge.distance_squared + leastSquareBetween(edge.t_from, edge.t_to));
 }
 
 // In deep tails an angle that is nearly 0 must be exactly 0. It is neither 0 nor 2π only if the
@@ -160,8 +166,9 @@ void addSides(const ConvexPolytope& polytope, const EdgeMatch& match, PolytopeBo
       boundary.edges.emplace_back(boundaryEdge(polytope, boundary.faces, match));
   boundary.distance = std::min(boundary.distance, distanceToEdge(edge));
   for (const EdgeSide& side : edge.sides) {
-    boundary.faces[static_cast<std::size_t>(side.face)].angle +=
-        angleBetween(side.inset, side.t_from, side.t_to);
+    FaceFrame& face = boundary.faces[static_cast<std::size_t>(side.face)];
+    face.angle += angleBetween(side.inset, side.t_from, side.t_to);
+    face.contour_distance = std::min(face.contour_distance, footDistance(side));
   }
 }
 
@@ -180,6 +187,10 @@ double angleBetween(double inset, double t_from, double t_to) {
   // So that a side through the foot may be divided at the foot.
   const double nonzero = std::copysign(std::max(std::abs(inset), 1e-300), inset);
   return std::atan2(nonzero * (t_to - t_from), inset * inset + t_from * t_to);
+}
+
+double footDistance(const EdgeSide& side) {
+  return std::sqrt(side.inset * side.inset + leastSquareBetween(side.t_from, side.t_to));
 }
 
 PolytopeBoundary polytopeBoundary(const ConvexPolytope& polytope) {

@@ -21,6 +21,8 @@ struct FaceFrame {
   double angle = 0.0;  ///< by which the contour turns around the foot: 0 or 2π, or in between
                        ///<   if the foot is a vertex
 
+  double contour_distance = 0.0;  ///< from the foot to the contour
+
   Eigen::Vector2d coordinates(const Eigen::Vector3d& y) const { return {a.dot(y), b.dot(y)}; }
 };
 
@@ -49,6 +51,9 @@ struct BoundaryEdge {
   double t_from = 0.0, t_to = 0.0;
   std::array<EdgeSide, 2> sides;
 };
+
+/// Distance from the face's foot to a side.
+double footDistance(const EdgeSide& side);
 
 struct PolytopeBoundary {
   std::vector<FaceFrame> faces;

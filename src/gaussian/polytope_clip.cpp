@@ -3,6 +3,7 @@
 #include "gaussian/polytope_clip.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -14,8 +15,14 @@ class Clipper {
  public:
   Clipper(const ConvexPolytope& polytope, const HalfSpace& half_space)
       : polytope_(polytope), half_space_(half_space), kept_(polytope.vertices.size(), -1) {
+    double reach = 0;
+    for (const Eigen::Vector3d& v : polytope.vertices) reach = std::max(reach, v.norm());
+    // Within twice the rounding of normal·v - offset a vertex counts as on the plane, for either
+    // side; so the vertices of a face that nearly lies in the plane change sides only once.
+    const double tolerance = kClipTolerance * (reach + std::abs(half_space.offset));
     for (const Eigen::Vector3d& v : polytope.vertices) {
-      inside_.push_back(half_space.normal.dot(v) - half_space.offset);
+      const double inside = half_space.normal.dot(v) - half_space.offset;
+      inside_.push_back(std::abs(inside) <= tolerance ? 0.0 : inside);
     }
   }
 

@@ -8,9 +8,14 @@
 
 namespace fcl_prob::detail {
 
+/// Vertices within this of the plane, in units of the largest distance from the origin of a vertex
+/// or of the plane, count as on it: twice the rounding of their distance.
+inline constexpr double kClipTolerance = 4 * 2.220446049250313e-16;
+
 /// The part of the polytope in the half-space; no faces if that has no volume. Vertices that are
-/// kept keep their coordinates; one on a cut edge is within a few rounding errors of the edge's
-/// length from the edge. Both halves of a cut have the same vertices in the plane of the cut.
+/// kept keep their coordinates. A vertex on a cut edge is as near to the plane, and within two ulp
+/// of its largest coordinate on the edge. Both halves of a cut have the same vertices in the plane
+/// of the cut.
 ConvexPolytope clipped(const ConvexPolytope& polytope, const HalfSpace& half_space);
 
 }  // namespace fcl_prob::detail

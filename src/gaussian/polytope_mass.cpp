@@ -29,6 +29,7 @@ constexpr double kUnderflow = 1e-312;
 constexpr double kGoodRelativeWidth = 3e-12;
 constexpr double kFairRelativeWidth = 1e-11;
 constexpr double kPoorRelativeWidth = 1e-10;
+constexpr double kSliverRelativeWidth = 1e-3;
 constexpr int kMaxPieces = 512;
 
 Bounds widened(const MassWithError& mass, const detail::SlabMass& slabs) {
@@ -80,6 +81,24 @@ Bounds combined(const Bounds& a, const Bounds& b) {
   return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
 }
 
+// The mass between two parallel planes that hold the body, the least over the faces: what is left
+// to say of a sliver that rounding has made of nothing.
+double massBetweenPlanes(const ConvexPolytope& polytope, double vertex_error) {
+  double least = 1;
+  for (const ConvexPolytope::Face& face : polytope.faces) {
+    const Eigen::Vector3d normal = face.normal.normalized();
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo, reach = 0;
+    for (const Eigen::Vector3d& v : polytope.vertices) {
+      lo = std::min(lo, normal.dot(v));
+      hi = std::max(hi, normal.dot(v));
+      reach = std::max(reach, v.norm());
+    }
+    const double margin = vertex_error + 4 * std::numeric_limits<double>::epsilon() * reach;
+    least = std::min(least, normalIntervalMass(lo - margin, hi + margin));
+  }
+  return least * (1 + kIntervalMassRelativeError) + kUnderflow;
+}
+
 // A point, a segment or a flat polygon: nothing, but for what the errors of its vertices may hide.
 Bounds flatMass(const ConvexPolytope& polytope, double vertex_error) {
   if (polytope.vertices.empty() || vertex_error == 0) return {0, 0};
@@ -115,6 +134,10 @@ Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error) {
                                                              vertex_error + solid->cut_error);
       bounds = combined(bounds, widened(solid->mass, slabs));
     }
+  }
+  if (bounds.width() > kSliverRelativeWidth * bounds.upper) {
+    bounds.upper =
+        std::max(bounds.lower, std::min(bounds.upper, massBetweenPlanes(polytope, vertex_error)));
   }
   return bounds;
 }

@@ -21,8 +21,9 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kPieceTolerance = 1e-15;
 constexpr double kNegligible = 1e-17;
 
-// Rounding of a cut vertex, in units of the size of the body.
-constexpr double kCutRounding = 4 * kEpsilon;
+// How far a cut may move a vertex, in units of the size of the body: no plane is farther from the
+// anchor.
+constexpr double kCutRounding = 2 * kClipTolerance + 2 * kEpsilon;
 
 // Part of the body, its vertices relative to the anchor.
 struct Piece {
