@@ -6,14 +6,10 @@
 
 namespace fcl_prob::detail {
 
-CutPolytope::CutPolytope(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-  FaceSet box;
-  setToBox(lower, upper, box);
-  vertices_ = box.vertices();
-  face_count_ = box.faceCount();
-  faces_.resize(face_count_);
+CutPolytope::CutPolytope(const FaceSet& faces)
+    : vertices_(faces.vertices()), faces_(faces.faceCount()), face_count_(faces.faceCount()) {
   for (std::size_t f = 0; f < face_count_; ++f) {
-    for (int i = 0; i < box.cornerCount(f); ++i) faces_[f].push_back(box.corner(f, i));
+    for (int i = 0; i < faces.cornerCount(f); ++i) faces_[f].push_back(faces.corner(f, i));
   }
 }
 

@@ -10,11 +10,11 @@
 
 namespace fcl_prob::detail {
 
-/// Starts as a box; every cut keeps one side of a plane and closes the surface with a new face. The
+/// Every cut keeps one side of a plane and closes the surface with a new face. The
 /// surface stays closed whatever the rounding, since a vertex is kept or cut off for all its faces.
 class CutPolytope {
  public:
-  CutPolytope(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+  explicit CutPolytope(const FaceSet& faces);
 
   /// Keeps direction·x <= limit.
   void cut(const Eigen::Vector3d& direction, double limit);

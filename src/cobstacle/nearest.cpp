@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 
@@ -43,6 +44,13 @@ Eigen::Vector3d nearestOnFace(const FaceSet& faces, std::size_t face, const Eige
   return best;
 }
 
+bool isAcross(const Eigen::Vector3d& normal, int rank) {
+  for (int k = rank; k < 3; ++k) {
+    if (std::abs(normal[k]) > 0.5) return true;
+  }
+  return false;
+}
+
 void supportOfObstacle(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   const Eigen::Vector3d found = static_cast<const CObstacle*>(object)->supportPoint(
       {direction->v[0], direction->v[1], direction->v[2]});
@@ -55,7 +63,7 @@ void supportOfOrigin(const void*, const ccd_vec3_t*, ccd_vec3_t* point) {
 
 }  // namespace
 
-Separation separationOf(const FaceSet& faces) {
+Separation separationOf(const FaceSet& faces, int rank) {
   Separation separation;
   double farthest = -std::numeric_limits<double>::infinity();
   double nearest = std::numeric_limits<double>::infinity();
@@ -64,6 +72,7 @@ Separation separationOf(const FaceSet& faces) {
     const double norm = area.norm();
     if (!(norm > 0.0)) continue;
     const Eigen::Vector3d normal = area / norm;
+    if (isAcross(normal, rank)) continue;
     const double offset = normal.dot(faces.position(f, 0));
     if (-offset > farthest) {
       farthest = -offset;

@@ -17,8 +17,8 @@ struct Separation {
                                                    ///< is farthest (inside: least deep)
 };
 
-/// By looking at every face.
-Separation separationOf(const FaceSet& faces);
+/// By looking at every face. Faces across a coordinate beyond the first `rank` are left out.
+Separation separationOf(const FaceSet& faces, int rank = 3);
 
 /// By FCL's GJK on support points, for curved bodies; zero if it does not succeed.
 Eigen::Vector3d gjkDirection(const CObstacle& obstacle);

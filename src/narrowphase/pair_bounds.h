@@ -23,8 +23,9 @@ class PairBounds {
 
  private:
   /// Brings the faces of `obstacle` into scratch_, cut and extruded if the displacement has rank 1
-  /// or 2. Returns their whitened error.
-  double prepareFaces(const CObstacle& obstacle);
+  /// or
+  /// 2. The body reaches out of them by no more than the image of the unit ball under the result.
+  Eigen::Matrix3d prepareFaces(const CObstacle& obstacle);
 
   Bounds massOfSection(int rank, const Eigen::Vector3d& error);
   ConvexPcdBounds ellipsoidBounds(const CObstacle& obstacle, const Ellipsoid& ball);
