@@ -6,9 +6,12 @@
 
 namespace fcl_prob::detail {
 
-CutPolytope::CutPolytope(const FaceSet& faces)
-    : vertices_(faces.vertices()), faces_(faces.faceCount()), face_count_(faces.faceCount()) {
+void CutPolytope::start(const FaceSet& faces) {
+  vertices_ = faces.vertices();
+  face_count_ = faces.faceCount();
+  if (faces_.size() < face_count_) faces_.resize(face_count_);
   for (std::size_t f = 0; f < face_count_; ++f) {
+    faces_[f].clear();
     for (int i = 0; i < faces.cornerCount(f); ++i) faces_[f].push_back(faces.corner(f, i));
   }
 }
@@ -71,14 +74,14 @@ void CutPolytope::cut(const Eigen::Vector3d& direction, double limit) {
   }
 }
 
-void CutPolytope::writeTo(FaceSet& faces) const {
+void CutPolytope::writeTo(FaceSet& faces) {
   faces.clear();
-  std::vector<int> index(vertices_.size(), -1);
+  index_.assign(vertices_.size(), -1);
   for (std::size_t f = 0; f < face_count_; ++f) {
     faces.beginFace();
     for (const int vertex : faces_[f]) {
-      if (index[vertex] < 0) index[vertex] = faces.addVertex(vertices_[vertex]);
-      faces.addCorner(index[vertex]);
+      if (index_[vertex] < 0) index_[vertex] = faces.addVertex(vertices_[vertex]);
+      faces.addCorner(index_[vertex]);
     }
   }
 }

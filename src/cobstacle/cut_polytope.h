@@ -14,12 +14,16 @@ namespace fcl_prob::detail {
 /// surface stays closed whatever the rounding, since a vertex is kept or cut off for all its faces.
 class CutPolytope {
  public:
-  explicit CutPolytope(const FaceSet& faces);
+  CutPolytope() = default;
+  explicit CutPolytope(const FaceSet& faces) { start(faces); }
+
+  /// Begins anew, in the same memory.
+  void start(const FaceSet& faces);
 
   /// Keeps direction·x <= limit.
   void cut(const Eigen::Vector3d& direction, double limit);
 
-  void writeTo(FaceSet& faces) const;
+  void writeTo(FaceSet& faces);
 
  private:
   using Loop = std::vector<int>;
@@ -43,6 +47,7 @@ class CutPolytope {
   std::vector<Crossing> crossings_;
   std::vector<std::pair<int, int>> rim_;  // directed edges of the new face
   Loop scratch_;
+  std::vector<int> index_;
 };
 
 }  // namespace fcl_prob::detail

@@ -85,7 +85,10 @@ Separation separationOf(const FaceSet& faces, int rank) {
       separation.nearest = point.normalized();
     }
   }
-  if (farthest <= 0.0) separation.nearest.setZero();
+  if (farthest <= 0.0) {
+    separation.nearest.setZero();
+    separation.depth = -farthest;
+  }
   return separation;
 }
 
@@ -108,12 +111,17 @@ Eigen::Vector3d gjkDirection(const CObstacle& obstacle) {
 
 Eigen::Vector3d longestEdgeAcross(const FaceSet& faces, const Eigen::Vector3d& axis) {
   Eigen::Vector3d longest = Eigen::Vector3d::Zero();
-  for (std::size_t f = 0; f < faces.faceCount(); ++f) {
-    const int count = faces.cornerCount(f);
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector3d edge = faces.position(f, (i + 1) % count) - faces.position(f, i);
-      const Eigen::Vector3d across = edge - axis.dot(edge) * axis;
-      if (across.squaredNorm() > longest.squaredNorm()) longest = across;
+  const auto consider = [&](const Eigen::Vector3d& edge) {
+    const Eigen::Vector3d across = edge - axis.dot(edge) * axis;
+    if (across.squaredNorm() > longest.squaredNorm()) longest = across;
+  };
+  for (const Eigen::Vector3d& edge : faces.edgeVectors()) consider(edge);
+  if (faces.edgeVectors().empty()) {
+    for (std::size_t f = 0; f < faces.faceCount(); ++f) {
+      const int count = faces.cornerCount(f);
+      for (int i = 0; i < count; ++i) {
+        consider(faces.position(f, (i + 1) % count) - faces.position(f, i));
+      }
     }
   }
   if (!(longest.norm() > 0.0) || !longest.allFinite()) return axis.unitOrthogonal();

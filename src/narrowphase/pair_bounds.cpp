@@ -60,6 +60,12 @@ double boxBound(const Extents& extents, const Eigen::Vector3d& axis,
   return roundedUp(mass, 3);
 }
 
+/// Mass of the ball around the mean: two terms of its density's series, from below.
+double centralBallMass(double radius) {
+  const double r = std::min(radius, 1.0);
+  return std::sqrt(2.0 / M_PI) * r * r * r * (1.0 / 3.0 - r * r / 10.0);
+}
+
 /// The polytope around a curved body sticks out of it, which matters towards the mean: it is cut to
 /// the body's own extent along `n` and across.
 void cutToSupports(const Extents& extents, const Eigen::Vector3d& n, FaceSet& faces) {
@@ -108,7 +114,7 @@ Eigen::Matrix3d PairBounds::prepareFaces(const CObstacle& obstacle) {
   return errorOfMoving(frame.rank, error) * Eigen::Matrix3d::Identity();
 }
 
-ConvexPcdBounds PairBounds::bounds(const CObstacle& obstacle) {
+ConvexPcdBounds PairBounds::bounds(const CObstacle& obstacle, double enough) {
   const int rank = obstacle.frame().rank;
   const auto ball = obstacle.ellipsoid();
   if (ball && rank == 3) return ellipsoidBounds(obstacle, *ball);
@@ -120,6 +126,7 @@ ConvexPcdBounds PairBounds::bounds(const CObstacle& obstacle) {
 
   const Extents extents(rank == 3 ? &obstacle : nullptr, faces, error.norm());
   const Separation separation = separationOf(faces, rank);
+  if (rank == 3 && centralBallMass(separation.depth) >= enough) return {};
   const bool curved = rank == 3 && !obstacle.isPolytope();
   const Eigen::Vector3d gjk = curved ? gjkDirection(obstacle) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d n = farthest(extents, {separation.nearest, separation.face, gjk});
