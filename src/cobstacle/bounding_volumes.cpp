@@ -45,12 +45,11 @@ RoundedZonotope smallestSphere(const fcl::kIOSd& kios) {
   return {Zonotope(kios.spheres[best].o), kios.spheres[best].r};
 }
 
-std::vector<Slab> slabsOf(const Kdop26& dop) {
-  std::vector<Slab> slabs;
+void setToSlabsOf(const Kdop26& dop, std::vector<Slab>& slabs) {
+  slabs.clear();
   for (int k = 0; k < Kdop26::kSlabs; ++k) {
     slabs.push_back({Kdop26::direction(k), dop.lower(k), dop.upper(k)});
   }
-  return slabs;
 }
 
 void addReversed(const std::vector<Slab>& slabs_of_a, std::vector<Slab>& slabs_of_b) {

@@ -33,13 +33,18 @@ RoundedZonotope roundedZonotope(const fcl::kIOSd& kios);
 RoundedZonotope smallestSphere(const fcl::kIOSd& kios);
 
 /// The slabs of a k-DOP in its own frame.
-std::vector<Slab> slabsOf(const Kdop26& dop);
+void setToSlabsOf(const Kdop26& dop, std::vector<Slab>& slabs);
 template <std::size_t N>
-std::vector<Slab> slabsOf(const fcl::KDOP<double, N>& dop) {
-  std::vector<Slab> slabs;
+void setToSlabsOf(const fcl::KDOP<double, N>& dop, std::vector<Slab>& slabs) {
+  slabs.clear();
   for (std::size_t k = 0; k < N / 2; ++k) {
     slabs.push_back({dopDirections()[k], dop.dist(k), dop.dist(k + N / 2)});
   }
+}
+template <typename Dop>
+std::vector<Slab> slabsOf(const Dop& dop) {
+  std::vector<Slab> slabs;
+  setToSlabsOf(dop, slabs);
   return slabs;
 }
 

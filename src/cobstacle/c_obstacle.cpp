@@ -55,7 +55,7 @@ Eigen::Vector3d CObstacle::supportPoint(const Eigen::Vector3d& direction) const 
 
 double CObstacle::outerFaces(ObstacleScratch& scratch) const {
   if (const auto defect = worldFaces(scratch)) {
-    for (Eigen::Vector3d& v : scratch.faces.vertices()) v = frame_.whitening * v;
+    scratch.faces.transform(frame_.whitening, Eigen::Vector3d::Zero());
     return frame_.error + *defect;
   }
   Eigen::Vector3d lower;
@@ -114,14 +114,14 @@ std::optional<double> ConvexSetObstacle::worldFaces(ObstacleScratch& scratch) co
   const Eigen::Matrix3d& rotation_b = frame().rotation_b;
   reflect(mesh_a, rotation_b.transpose() * frame().rotation_a, scratch.reflected);
   const auto defect = scratch.sum.compute(mesh_b, scratch.reflected, scratch.faces);
-  for (Eigen::Vector3d& v : scratch.faces.vertices()) v = rotation_b * v + frame().offset;
+  scratch.faces.transform(rotation_b, frame().offset);
   return defect;
 }
 
-SlabObstacle::SlabObstacle(const PairFrame& frame, const std::vector<Slab>& slabs, FaceSet& storage)
-    : CObstacle(frame), world_faces_(storage) {
-  setToSlabs(slabs, frame.error, storage);
-  for (Eigen::Vector3d& v : storage.vertices()) v = frame.rotation_b * v + frame.offset;
+SlabObstacle::SlabObstacle(const PairFrame& frame, SlabScratch& scratch)
+    : CObstacle(frame), world_faces_(scratch.faces) {
+  setToSlabs(scratch.slabs, frame.error, scratch.work, scratch.faces);
+  scratch.faces.transform(frame.rotation_b, frame.offset);
 }
 
 Eigen::Vector3d SlabObstacle::worldSupportPoint(const Eigen::Vector3d& direction) const {

@@ -113,13 +113,22 @@ class ConvexSetObstacle final : public CObstacle {
   Faces faces_;
 };
 
+/// Memory of a SlabObstacle.
+struct SlabScratch {
+  std::vector<Slab> slabs_a;
+  std::vector<Slab> slabs;
+  CutPolytope work;
+  FaceSet faces;
+};
+
 /// The C-obstacle of two k-DOPs whose directions are the same in the world frame: their slabs
 /// added, O(k) as in the paper. (That polytope contains V; it is V itself only for k = 6.)
 class SlabObstacle final : public CObstacle {
  public:
-  /// \param slabs    of V, in the common frame of the two geometries, relative to `offset`
-  /// \param storage  for the faces; must outlive the obstacle and not be used by another one
-  SlabObstacle(const PairFrame& frame, const std::vector<Slab>& slabs, FaceSet& storage);
+  /// \param scratch  holds in `slabs` those of V in the common frame of the two geometries,
+  /// relative to
+  ///                 PairFrame::offset; must outlive the obstacle and not serve another one
+  SlabObstacle(const PairFrame& frame, SlabScratch& scratch);
 
   bool isPolytope() const override { return true; }
 

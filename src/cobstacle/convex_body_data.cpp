@@ -26,9 +26,9 @@ std::vector<Eigen::Vector3d> cornersOf(const Zonotope& zonotope) {
 std::unique_ptr<const ConvexSet> convexSetOf(const RoundedZonotope& body, int resolution) {
   const std::vector<Eigen::Vector3d> corners = cornersOf(body.core);
   if (body.radius == 0.0) {
-    FaceSet faces;
-    if (body.core.generatorCount() == 3 && body.core.faces(faces)) {
-      return std::make_unique<PolytopeSet>(makeConvexMesh(toPolytope(faces)));
+    if (FaceSet faces; body.core.generatorCount() == 3 && body.core.faces(faces)) {
+      const ConvexPolytope box = toPolytope(faces);
+      if (box.faces.size() == 6) return std::make_unique<PolytopeSet>(makeConvexMesh(box));
     }
     return std::make_unique<PolytopeSet>(makeConvexMesh(corners));
   }

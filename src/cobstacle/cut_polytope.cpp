@@ -6,14 +6,13 @@
 
 namespace fcl_prob::detail {
 
-CutPolytope::CutPolytope(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-  FaceSet box;
-  setToBox(lower, upper, box);
-  vertices_ = box.vertices();
-  face_count_ = box.faceCount();
-  faces_.resize(face_count_);
+void CutPolytope::start(const FaceSet& faces) {
+  vertices_ = faces.vertices();
+  face_count_ = faces.faceCount();
+  if (faces_.size() < face_count_) faces_.resize(face_count_);
   for (std::size_t f = 0; f < face_count_; ++f) {
-    for (int i = 0; i < box.cornerCount(f); ++i) faces_[f].push_back(box.corner(f, i));
+    faces_[f].clear();
+    for (int i = 0; i < faces.cornerCount(f); ++i) faces_[f].push_back(faces.corner(f, i));
   }
 }
 
@@ -75,14 +74,14 @@ void CutPolytope::cut(const Eigen::Vector3d& direction, double limit) {
   }
 }
 
-void CutPolytope::writeTo(FaceSet& faces) const {
+void CutPolytope::writeTo(FaceSet& faces) {
   faces.clear();
-  std::vector<int> index(vertices_.size(), -1);
+  index_.assign(vertices_.size(), -1);
   for (std::size_t f = 0; f < face_count_; ++f) {
     faces.beginFace();
     for (const int vertex : faces_[f]) {
-      if (index[vertex] < 0) index[vertex] = faces.addVertex(vertices_[vertex]);
-      faces.addCorner(index[vertex]);
+      if (index_[vertex] < 0) index_[vertex] = faces.addVertex(vertices_[vertex]);
+      faces.addCorner(index_[vertex]);
     }
   }
 }

@@ -10,16 +10,20 @@
 
 namespace fcl_prob::detail {
 
-/// Starts as a box; every cut keeps one side of a plane and closes the surface with a new face. The
+/// Every cut keeps one side of a plane and closes the surface with a new face. The
 /// surface stays closed whatever the rounding, since a vertex is kept or cut off for all its faces.
 class CutPolytope {
  public:
-  CutPolytope(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+  CutPolytope() = default;
+  explicit CutPolytope(const FaceSet& faces) { start(faces); }
+
+  /// Begins anew, in the same memory.
+  void start(const FaceSet& faces);
 
   /// Keeps direction·x <= limit.
   void cut(const Eigen::Vector3d& direction, double limit);
 
-  void writeTo(FaceSet& faces) const;
+  void writeTo(FaceSet& faces);
 
  private:
   using Loop = std::vector<int>;
@@ -43,6 +47,7 @@ class CutPolytope {
   std::vector<Crossing> crossings_;
   std::vector<std::pair<int, int>> rim_;  // directed edges of the new face
   Loop scratch_;
+  std::vector<int> index_;
 };
 
 }  // namespace fcl_prob::detail

@@ -38,6 +38,7 @@ double longestEdge(const FaceSet& faces, std::size_t face) {
 
 void FaceSet::clear() {
   vertices_.clear();
+  edge_vectors_.clear();
   first_.clear();
   corners_.clear();
 }
@@ -50,6 +51,11 @@ int FaceSet::addVertex(const Eigen::Vector3d& position) {
 void FaceSet::addFace(std::initializer_list<int> corners) {
   beginFace();
   corners_.insert(corners_.end(), corners);
+}
+
+void FaceSet::transform(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation) {
+  for (Eigen::Vector3d& v : vertices_) v = linear * v + translation;
+  for (Eigen::Vector3d& e : edge_vectors_) e = linear * e;
 }
 
 Eigen::Vector3d FaceSet::vectorArea(std::size_t face) const {

@@ -35,6 +35,14 @@ class FaceSet {
     return vertices_[corner(face, index)];
   }
 
+  /// Vectors to which every edge is parallel, as long as the longest such edge, where they are
+  /// known (a zonotope's generators); otherwise empty.
+  const std::vector<Eigen::Vector3d>& edgeVectors() const { return edge_vectors_; }
+  void addEdgeVector(const Eigen::Vector3d& edge) { edge_vectors_.push_back(edge); }
+
+  /// Maps the whole surface.
+  void transform(const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation);
+
   /// Area times the unit normal of a face.
   Eigen::Vector3d vectorArea(std::size_t face) const;
 
@@ -48,6 +56,7 @@ class FaceSet {
   }
 
   std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Eigen::Vector3d> edge_vectors_;
   std::vector<int> first_;  // of each face, into corners_
   std::vector<int> corners_;
 };

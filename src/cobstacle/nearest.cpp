@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 
@@ -43,6 +44,13 @@ Eigen::Vector3d nearestOnFace(const FaceSet& faces, std::size_t face, const Eige
   return best;
 }
 
+bool isAcross(const Eigen::Vector3d& normal, int rank) {
+  for (int k = rank; k < 3; ++k) {
+    if (std::abs(normal[k]) > 0.5) return true;
+  }
+  return false;
+}
+
 void supportOfObstacle(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   const Eigen::Vector3d found = static_cast<const CObstacle*>(object)->supportPoint(
       {direction->v[0], direction->v[1], direction->v[2]});
@@ -55,7 +63,7 @@ void supportOfOrigin(const void*, const ccd_vec3_t*, ccd_vec3_t* point) {
 
 }  // namespace
 
-Separation separationOf(const FaceSet& faces) {
+Separation separationOf(const FaceSet& faces, int rank) {
   Separation separation;
   double farthest = -std::numeric_limits<double>::infinity();
   double nearest = std::numeric_limits<double>::infinity();
@@ -64,6 +72,7 @@ Separation separationOf(const FaceSet& faces) {
     const double norm = area.norm();
     if (!(norm > 0.0)) continue;
     const Eigen::Vector3d normal = area / norm;
+    if (isAcross(normal, rank)) continue;
     const double offset = normal.dot(faces.position(f, 0));
     if (-offset > farthest) {
       farthest = -offset;
@@ -76,7 +85,10 @@ Separation separationOf(const FaceSet& faces) {
       separation.nearest = point.normalized();
     }
   }
-  if (farthest <= 0.0) separation.nearest.setZero();
+  if (farthest <= 0.0) {
+    separation.nearest.setZero();
+    separation.depth = -farthest;
+  }
   return separation;
 }
 
@@ -99,12 +111,17 @@ Eigen::Vector3d gjkDirection(const CObstacle& obstacle) {
 
 Eigen::Vector3d longestEdgeAcross(const FaceSet& faces, const Eigen::Vector3d& axis) {
   Eigen::Vector3d longest = Eigen::Vector3d::Zero();
-  for (std::size_t f = 0; f < faces.faceCount(); ++f) {
-    const int count = faces.cornerCount(f);
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector3d edge = faces.position(f, (i + 1) % count) - faces.position(f, i);
-      const Eigen::Vector3d across = edge - axis.dot(edge) * axis;
-      if (across.squaredNorm() > longest.squaredNorm()) longest = across;
+  const auto consider = [&](const Eigen::Vector3d& edge) {
+    const Eigen::Vector3d across = edge - axis.dot(edge) * axis;
+    if (across.squaredNorm() > longest.squaredNorm()) longest = across;
+  };
+  for (const Eigen::Vector3d& edge : faces.edgeVectors()) consider(edge);
+  if (faces.edgeVectors().empty()) {
+    for (std::size_t f = 0; f < faces.faceCount(); ++f) {
+      const int count = faces.cornerCount(f);
+      for (int i = 0; i < count; ++i) {
+        consider(faces.position(f, (i + 1) % count) - faces.position(f, i));
+      }
     }
   }
   if (!(longest.norm() > 0.0) || !longest.allFinite()) return axis.unitOrthogonal();

@@ -12,13 +12,18 @@ namespace fcl_prob::detail {
 /// Directions from the mean (the origin of the whitened frame) towards V; unit vectors, or zero if
 /// there is none. They are proposals: a bound must take its offset from a support value.
 struct Separation {
-  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< towards the nearest point
-  Eigen::Vector3d face = Eigen::Vector3d::Zero();  ///< against the normal of the face whose plane
-                                                   ///< is farthest (inside: least deep)
+  /// Towards the nearest point; zero if the mean is inside.
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
+
+  /// Against the normal of the face whose plane is farthest from the mean (inside: least deep).
+  Eigen::Vector3d face = Eigen::Vector3d::Zero();
+
+  /// Radius of the largest ball around the mean inside the faces; 0 outside.
+  double depth = 0.0;
 };
 
-/// By looking at every face.
-Separation separationOf(const FaceSet& faces);
+/// By looking at every face. Faces across a coordinate beyond the first `rank` are left out.
+Separation separationOf(const FaceSet& faces, int rank = 3);
 
 /// By FCL's GJK on support points, for curved bodies; zero if it does not succeed.
 Eigen::Vector3d gjkDirection(const CObstacle& obstacle);

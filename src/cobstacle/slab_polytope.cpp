@@ -13,17 +13,23 @@ const std::vector<Eigen::Vector3d>& dopDirections() {
   return directions;
 }
 
-void setToSlabs(const std::vector<Slab>& slabs, double padding, FaceSet& faces) {
+void setToSlabs(const std::vector<Slab>& slabs, double padding, CutPolytope& work, FaceSet& faces) {
   const Eigen::Vector3d lower(slabs[0].lower, slabs[1].lower, slabs[2].lower);
   const Eigen::Vector3d upper(slabs[0].upper, slabs[1].upper, slabs[2].upper);
-  CutPolytope polytope(lower - Eigen::Vector3d::Constant(padding),
-                       upper + Eigen::Vector3d::Constant(padding));
+  setToBox(lower - Eigen::Vector3d::Constant(padding), upper + Eigen::Vector3d::Constant(padding),
+           faces);
+  work.start(faces);
   for (std::size_t k = 3; k < slabs.size(); ++k) {
     const double widening = padding * slabs[k].direction.norm();
-    polytope.cut(slabs[k].direction, slabs[k].upper + widening);
-    polytope.cut(-slabs[k].direction, -(slabs[k].lower - widening));
+    work.cut(slabs[k].direction, slabs[k].upper + widening);
+    work.cut(-slabs[k].direction, -(slabs[k].lower - widening));
   }
-  polytope.writeTo(faces);
+  work.writeTo(faces);
+}
+
+void setToSlabs(const std::vector<Slab>& slabs, double padding, FaceSet& faces) {
+  CutPolytope work;
+  setToSlabs(slabs, padding, work, faces);
 }
 
 }  // namespace fcl_prob::detail

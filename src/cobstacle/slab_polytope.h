@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "cobstacle/cut_polytope.h"
 #include "cobstacle/face_set.h"
 
 namespace fcl_prob::detail {
@@ -24,6 +25,7 @@ const std::vector<Eigen::Vector3d>& dopDirections();
 /// Writes the faces of the intersection of slabs, of which the first three must be those of x, y
 /// and z: their box, cut by one plane after another. The slabs are widened by `padding` (metres),
 /// so that a flat body has faces too. O(k) faces are touched for k slabs.
+void setToSlabs(const std::vector<Slab>& slabs, double padding, CutPolytope& work, FaceSet& faces);
 void setToSlabs(const std::vector<Slab>& slabs, double padding, FaceSet& faces);
 
 }  // namespace fcl_prob::detail

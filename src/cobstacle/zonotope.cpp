@@ -90,6 +90,7 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
   const unsigned all = (1u << count_) - 1u;
   double defect = 0.0;
 
+  for (int i = 0; i < count_; ++i) faces.addEdgeVector(2.0 * generators_[i]);
   for (int i = 0; i < count_; ++i) {
     for (int j = i + 1; j < count_; ++j) {
       const Eigen::Vector3d normal = moved[i].cross(moved[j]);

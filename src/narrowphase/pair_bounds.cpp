@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cobstacle/cut_polytope.h"
 #include "fcl_prob/normal_mass.h"
 #include "narrowphase/relaxed_integral.h"
 #include "narrowphase/section.h"
@@ -59,6 +60,24 @@ double boxBound(const Extents& extents, const Eigen::Vector3d& axis,
   return roundedUp(mass, 3);
 }
 
+/// Mass of the ball around the mean: two terms of its density's series, from below.
+double centralBallMass(double radius) {
+  const double r = std::min(radius, 1.0);
+  return std::sqrt(2.0 / M_PI) * r * r * r * (1.0 / 3.0 - r * r / 10.0);
+}
+
+/// The polytope around a curved body sticks out of it, which matters towards the mean: it is cut to
+/// the body's own extent along `n` and across.
+void cutToSupports(const Extents& extents, const Eigen::Vector3d& n, FaceSet& faces) {
+  CutPolytope polytope(faces);
+  const Eigen::Vector3d u = n.unitOrthogonal();
+  for (const Eigen::Vector3d& side : {n, u, Eigen::Vector3d(n.cross(u))}) {
+    polytope.cut(side, extents.upper(side));
+    polytope.cut(-side, -extents.lower(side));
+  }
+  polytope.writeTo(faces);
+}
+
 ConvexPcdBounds withLeast(ConvexPcdBounds bounds) {
   bounds.least = std::min({1.0, bounds.half_space, bounds.whitened_box, bounds.divergence});
   return bounds;
@@ -86,28 +105,33 @@ ConvexPcdBounds scaled(ConvexPcdBounds bounds, double factor) {
 
 }  // namespace
 
-double PairBounds::prepareFaces(const CObstacle& obstacle) {
+Eigen::Matrix3d PairBounds::prepareFaces(const CObstacle& obstacle) {
   const PairFrame& frame = obstacle.frame();
-  const Eigen::Vector3d error = frame.whitened(obstacle.outerFaces(scratch_));
-  if (frame.rank < 3) replaceBySection(frame.rank, error, scratch_.faces);
-  return errorOfMoving(frame.rank, error);
+  const double error_in_metres = obstacle.outerFaces(scratch_);
+  if (frame.rank == 3) return error_in_metres * frame.whitening;
+  const Eigen::Vector3d error = frame.whitened(error_in_metres);
+  replaceBySection(frame.rank, error, scratch_.faces);
+  return errorOfMoving(frame.rank, error) * Eigen::Matrix3d::Identity();
 }
 
-ConvexPcdBounds PairBounds::bounds(const CObstacle& obstacle) {
+ConvexPcdBounds PairBounds::bounds(const CObstacle& obstacle, double enough) {
   const int rank = obstacle.frame().rank;
   const auto ball = obstacle.ellipsoid();
   if (ball && rank == 3) return ellipsoidBounds(obstacle, *ball);
 
-  const double error = prepareFaces(obstacle);
+  const Eigen::Matrix3d error = prepareFaces(obstacle);
   const FaceSet& faces = scratch_.faces;
   if (rank < 3 && faces.vertices().empty()) return scaled({}, 0.0);
   if (rank == 0) return {};
 
-  const Extents extents(rank == 3 ? &obstacle : nullptr, faces, error);
-  const Separation separation = separationOf(faces);
+  const Extents extents(rank == 3 ? &obstacle : nullptr, faces, error.norm());
+  const Separation separation = separationOf(faces, rank);
+  if (rank == 3 && centralBallMass(separation.depth) >= enough) return {};
   const bool curved = rank == 3 && !obstacle.isPolytope();
   const Eigen::Vector3d gjk = curved ? gjkDirection(obstacle) : Eigen::Vector3d::Zero();
   const Eigen::Vector3d n = farthest(extents, {separation.nearest, separation.face, gjk});
+
+  if (curved) cutToSupports(extents, n, scratch_.faces);
 
   ConvexPcdBounds result;
   result.direction = n;
@@ -141,14 +165,14 @@ ConvexPcdBounds PairBounds::ellipsoidBounds(const CObstacle& obstacle, const Ell
 
 ConvexPcdBaselines PairBounds::baselines(const CObstacle& obstacle) {
   const int rank = obstacle.frame().rank;
-  const double error = prepareFaces(obstacle);
+  const Eigen::Matrix3d error = prepareFaces(obstacle);
   if (rank == 0 || scratch_.faces.vertices().empty()) return {};
-  const Extents extents(rank == 3 ? &obstacle : nullptr, scratch_.faces, error);
-  const Separation separation = separationOf(scratch_.faces);
+  const Extents extents(rank == 3 ? &obstacle : nullptr, scratch_.faces, error.norm());
+  const Separation separation = separationOf(scratch_.faces, rank);
   const Eigen::Vector3d n = farthest(extents, {separation.nearest, separation.face});
   const double factor = rank == 3 ? 1.0 : 1.0 / prismMass(rank);
   ConvexPcdBaselines result;
-  result.printed_field = 2.0 * factor * relaxedIntegral(scratch_.faces, 0.0, n, work_).value;
+  result.printed_field = 2.0 * factor * relaxedIntegral(scratch_.faces, error, n, work_).value;
   result.printed_field_vertex_maximum =
       factor * vertexMaximumBound(scratch_.faces, n, 1.0 / (2.0 * M_PI));
   result.vertex_maximum = factor * vertexMaximumBound(scratch_.faces, n, 1.0 / (4.0 * M_PI));

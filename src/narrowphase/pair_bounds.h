@@ -3,6 +3,7 @@
 // The bounds of one C-obstacle after another, without new memory for each.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "cobstacle/c_obstacle.h"
@@ -15,7 +16,10 @@ namespace fcl_prob::detail {
 /// Not for concurrent use.
 class PairBounds {
  public:
-  ConvexPcdBounds bounds(const CObstacle& obstacle);
+  static constexpr double kNeverEnough = std::numeric_limits<double>::infinity();
+
+  /// \param enough  all bounds may be 1 if it is seen early that the least would be at least this
+  ConvexPcdBounds bounds(const CObstacle& obstacle, double enough = kNeverEnough);
   ConvexPcdBaselines baselines(const CObstacle& obstacle);
 
   /// Certified mass of the polytope whose faces the C-obstacle gives.
@@ -23,8 +27,9 @@ class PairBounds {
 
  private:
   /// Brings the faces of `obstacle` into scratch_, cut and extruded if the displacement has rank 1
-  /// or 2. Returns their whitened error.
-  double prepareFaces(const CObstacle& obstacle);
+  /// or
+  /// 2. The body reaches out of them by no more than the image of the unit ball under the result.
+  Eigen::Matrix3d prepareFaces(const CObstacle& obstacle);
 
   Bounds massOfSection(int rank, const Eigen::Vector3d& error);
   ConvexPcdBounds ellipsoidBounds(const CObstacle& obstacle, const Ellipsoid& ball);

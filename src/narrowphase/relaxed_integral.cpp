@@ -41,18 +41,36 @@ Extent extentOf(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vecto
   return extent;
 }
 
-/// The integral over what may be between V and the faces: Steiner's formula for the volume, the
-/// least n·y for the density.
-double shellIntegral(double surface, const Extent& extent, double error) {
-  const double volume = error * (surface + 4.0 * M_PI * error * (extent.radius + error));
+constexpr double kDensityFactor = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
+
+/// The integral over what may be between V and the faces, by Steiner's formula for the volume.
+/// \param over_faces  integral over the faces of the thickness times (an upper bound of) the
+/// density \param error       no thickness is larger than this
+double shellIntegral(double over_faces, const Extent& extent, double error) {
+  // Off the faces n·y is nearer to 0 by up to the error, so the density is higher by this factor
+  // (where it is not 0 altogether, below 40).
+  const double higher = std::exp(40.0 * error);
   const double nearest = std::max(0.0, extent.least - error);
-  return volume * kInverseSqrtTwoPi * kInverseSqrtTwoPi * normalDensity(nearest);
+  const double at_edges = 4.0 * M_PI * error * error * (extent.radius + error);
+  return kDensityFactor * (over_faces * higher + at_edges * normalDensity(nearest));
 }
 
-/// Calls function(projected area along n, product of the edges, corners) for every triangle of a
-/// fan over every face.
+/// Upper bound on the mean density of a triangle: the largest, or what the values of n·y, whose own
+/// density is a hat of height 2 / spread, can have of it.
+double meanDensityBound(const TailValue& a, const TailValue& b, const TailValue& c) {
+  const TailValue& nearest = a.l < b.l ? (a.l < c.l ? a : c) : (b.l < c.l ? b : c);
+  const double largest = std::max({a.l, b.l, c.l});
+  const double by_spread = 2.0 * nearest.tail / (largest - nearest.l);
+  if (nearest.l <= 0.0) {
+    return std::min(largest < 0.0 ? normalDensity(largest) : kInverseSqrtTwoPi, by_spread);
+  }
+  return std::min(nearest.density, by_spread);
+}
+
+/// Calls function(vector area, product of the edges / 2, corners) for every triangle of a fan over
+/// every face.
 template <typename Function>
-void forEachTriangle(const FaceSet& faces, const Eigen::Vector3d& n, Function&& function) {
+void forEachTriangle(const FaceSet& faces, Function&& function) {
   for (std::size_t face = 0; face < faces.faceCount(); ++face) {
     const int a = faces.corner(face, 0);
     const Eigen::Vector3d& origin = faces.vertices()[a];
@@ -62,7 +80,7 @@ void forEachTriangle(const FaceSet& faces, const Eigen::Vector3d& n, Function&& 
       const int c = faces.corner(face, i);
       const Eigen::Vector3d to_c = faces.vertices()[c] - origin;
       const double edges = std::sqrt(to_b.squaredNorm() * to_c.squaredNorm());
-      function(0.5 * n.dot(to_b.cross(to_c)), 0.5 * edges, a, b, c);
+      function(Eigen::Vector3d(0.5 * to_b.cross(to_c)), 0.5 * edges, a, b, c);
       b = c;
       to_b = to_c;
     }
@@ -71,8 +89,8 @@ void forEachTriangle(const FaceSet& faces, const Eigen::Vector3d& n, Function&& 
 
 }  // namespace
 
-RelaxedIntegral relaxedIntegral(const FaceSet& faces, double error, const Eigen::Vector3d& n,
-                                std::vector<TailValue>& work) {
+RelaxedIntegral relaxedIntegral(const FaceSet& faces, const Eigen::Matrix3d& error,
+                                const Eigen::Vector3d& n, std::vector<TailValue>& work) {
   if (faces.vertices().empty()) return {};
   const Extent extent = extentOf(faces.vertices(), n);
   const double middle = 0.5 * (extent.least + extent.largest);
@@ -84,21 +102,23 @@ RelaxedIntegral relaxedIntegral(const FaceSet& faces, double error, const Eigen:
     work.back().l = n.dot(v);
   }
   const TailSeries series(middle);
+  const double largest_density = normalDensity(std::max(0.0, extent.least));
   double sum = 0.0;
   double sum_of_sizes = 0.0;
-  double surface = 0.0;
-  forEachTriangle(faces, n, [&](double area, double size, int a, int b, int c) {
+  double shell = 0.0;
+  forEachTriangle(faces, [&](const Eigen::Vector3d& area, double size, int a, int b, int c) {
     // A constant may be added to the field: in a narrow body the differences are all that is left.
     const double mean = narrow ? series.meanDifference(work[a].l, work[b].l, work[c].l)
                                : tailMean(work[a], work[b], work[c]);
-    sum -= area * mean;
+    sum -= n.dot(area) * mean;
     sum_of_sizes += size * std::abs(mean);
-    surface += size;
+    shell += (error.transpose() * area).norm() *
+             (narrow ? largest_density : meanDensityBound(work[a], work[b], work[c]));
   });
   RelaxedIntegral result;
   result.value = kFieldFactor * sum;
   result.margin = kFieldFactor * sum_of_sizes * (kAreaRoundings + tailMeanError(extent.least)) +
-                  shellIntegral(surface, extent, error);
+                  shellIntegral(1.001 * shell, extent, error.norm());
   return result;
 }
 
@@ -139,14 +159,15 @@ RelaxedIntegral relaxedIntegral(const Ellipsoid& ball, const PairFrame& frame,
 
 double vertexMaximumBound(const FaceSet& faces, const Eigen::Vector3d& n, double field_factor) {
   double sum = 0.0;
-  forEachTriangle(faces, n, [&](double area, double, int a, int b, int c) {
+  forEachTriangle(faces, [&](const Eigen::Vector3d& area, double, int a, int b, int c) {
     const double la = n.dot(faces.vertices()[a]);
     const double lb = n.dot(faces.vertices()[b]);
     const double lc = n.dot(faces.vertices()[c]);
     // The field is -T(l) n up to its factor, and T decreases: towards the front the maximum is
     // where l is least, on the faces that look along n where it is largest.
-    const double l = area < 0.0 ? std::min({la, lb, lc}) : std::max({la, lb, lc});
-    sum -= area * 2.0 * normalTailMass(l);
+    const double seen = n.dot(area);
+    const double l = seen < 0.0 ? std::min({la, lb, lc}) : std::max({la, lb, lc});
+    sum -= seen * 2.0 * normalTailMass(l);
   });
   return field_factor * sum;
 }

@@ -26,11 +26,11 @@ struct RelaxedIntegral {
 };
 
 /// \param faces  of V, whitened
-/// \param error  V reaches out of the faces by no more than this
+/// \param error  V reaches out of the faces by no more than the image of the unit ball under this
 /// \param n      unit; most accurate if n·y >= 0 on V
 /// \param work   memory, reused
-RelaxedIntegral relaxedIntegral(const FaceSet& faces, double error, const Eigen::Vector3d& n,
-                                std::vector<TailValue>& work);
+RelaxedIntegral relaxedIntegral(const FaceSet& faces, const Eigen::Matrix3d& error,
+                                const Eigen::Vector3d& n, std::vector<TailValue>& work);
 
 /// The same for the image of a ball, by quadrature over its elliptic sections.
 RelaxedIntegral relaxedIntegral(const Ellipsoid& ball, const PairFrame& frame,

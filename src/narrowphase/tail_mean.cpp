@@ -13,7 +13,7 @@ namespace fcl_prob::detail {
 namespace {
 
 /// The series is used where (spread of l) · max(1, l) is below this.
-constexpr double kCloseSpread = 0.1;
+constexpr double kCloseSpread = 0.2;
 
 constexpr int kReciprocalCount = 16;
 constexpr std::array<double, kReciprocalCount> reciprocals() {
@@ -41,7 +41,9 @@ double meanOfNegative(const TailValue& a, const TailValue& b, const TailValue& c
 }  // namespace
 
 TailValue::TailValue(double value) : l(value) {
-  antiderivative = (1.0 + l * l) * normalTailMass(l) - l * normalDensity(l);
+  tail = normalTailMass(l);
+  density = normalDensity(l);
+  antiderivative = (1.0 + l * l) * tail - l * density;
   if (l > 0.0) antiderivative = std::max(antiderivative, 0.0);
 }
 
@@ -56,7 +58,7 @@ double tailMean(TailValue a, TailValue b, TailValue c) {
 
 double tailMeanError(double least_l) {
   const double l = std::max(least_l, 0.0);
-  return 1e-14 * (2.0 + l * l) * (2.0 + l * l);
+  return 1e-13 * (2.0 + l * l) * (2.0 + l * l);
 }
 
 TailSeries::TailSeries(double centre) : centre_(centre) {

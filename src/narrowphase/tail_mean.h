@@ -16,6 +16,8 @@ struct TailValue {
 
   double l = 0.0;
   double antiderivative = 0.0;  ///< G(l)
+  double tail = 0.0;            ///< Φ(-l)
+  double density = 0.0;         ///< φ(l)
 };
 
 /// Mean of T over a triangle on which l is linear, from its values at the three corners:
@@ -44,7 +46,7 @@ class TailSeries {
   double meanSlope(double l1, double l2) const;
 
  private:
-  static constexpr int kTerms = 10;
+  static constexpr int kTerms = 12;
 
   double centre_;
   double value_;                             // T(centre)

@@ -45,7 +45,7 @@ struct Query {
 GeneralPcdResult minimumOver(NodePairs& pairs, const GeneralPcdRequest& request) {
   PairSum sum(pairs, request);
   const double root = sum.bound(0, 0);
-  sum.add(0, 0, minimumRecursively(sum, 0, 0, root));
+  sum.set(minimumRecursively(sum, 0, 0, root));
   return sum.result();
 }
 

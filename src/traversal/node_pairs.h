@@ -3,8 +3,6 @@
 // ConvexPCD for the pairs of nodes of two bounding volume trees.
 #pragma once
 
-#include <vector>
-
 #include "cobstacle/pair_frame.h"
 #include "narrowphase/pair_bounds.h"
 #include "traversal/bounding_tree.h"
@@ -21,8 +19,12 @@ class NodePairs {
   const BoundingTree& a() const { return a_; }
   const BoundingTree& b() const { return b_; }
 
-  /// Upper bound on the probability that what two nodes contain touches.
+  /// Upper bound on the probability that what two nodes contain touches; 1 if it is seen early that
+  /// the bound would be at least enough().
   virtual double bound(int node_a, int node_b);
+
+  /// A bound of at least this need not be exact (pairs that will be refined anyway).
+  void setEnough(double bound) { enough_ = bound; }
 
   /// The same for two leaves by the pieces themselves.
   double pieceBound(int leaf_a, int leaf_b);
@@ -32,12 +34,13 @@ class NodePairs {
 
  protected:
   const PairFrame& frame() const { return frame_; }
-  double least(const CObstacle& obstacle) { return pair_bounds_.bounds(obstacle).least; }
+  double least(const CObstacle& obstacle) { return pair_bounds_.bounds(obstacle, enough_).least; }
 
  private:
   const BoundingTree& a_;
   const BoundingTree& b_;
   const PairFrame& frame_;
+  double enough_ = PairBounds::kNeverEnough;
   PairBounds pair_bounds_;
 };
 
@@ -84,15 +87,16 @@ class SlabNodePairs final : public NodePairs {
       : NodePairs(a, b, frame), model_a_(a.model()), model_b_(b.model()) {}
 
   double bound(int node_a, int node_b) override {
-    std::vector<Slab> slabs = slabsOf(model_b_.getBV(node_b).bv);
-    addReversed(slabsOf(model_a_.getBV(node_a).bv), slabs);
-    return least(SlabObstacle(frame(), slabs, storage_));
+    setToSlabsOf(model_a_.getBV(node_a).bv, scratch_.slabs_a);
+    setToSlabsOf(model_b_.getBV(node_b).bv, scratch_.slabs);
+    addReversed(scratch_.slabs_a, scratch_.slabs);
+    return least(SlabObstacle(frame(), scratch_));
   }
 
  private:
   const fcl::BVHModel<BV>& model_a_;
   const fcl::BVHModel<BV>& model_b_;
-  FaceSet storage_;
+  SlabScratch scratch_;
 };
 
 }  // namespace fcl_prob::detail

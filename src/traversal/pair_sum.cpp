@@ -33,8 +33,12 @@ double addedUp(double a, double b) { return (a + b) * (1.0 + 0x1p-52); }
 
 double PairSum::bound(int node_a, int node_b) {
   ++result_.pairs_bounded;
+  const bool root = node_a == 0 && node_b == 0;
+  const bool exact = root || request_.variant == GeneralPcdVariant::minimum || mayNotRefine() ||
+                     leaves(node_a, node_b);
+  pairs_.setEnough(exact ? PairBounds::kNeverEnough : threshold_);
   double bound = pairs_.bound(node_a, node_b);
-  if (node_a == 0 && node_b == 0) result_.root = bound;
+  if (root) result_.root = bound;
   if (request_.leaf_bound == LeafBound::triangles && leaves(node_a, node_b) &&
       bound >= threshold_) {
     bound = std::min(bound, pairs_.pieceBound(node_a, node_b));
@@ -44,9 +48,13 @@ double PairSum::bound(int node_a, int node_b) {
 
 bool PairSum::refines(int node_a, int node_b, double bound) {
   if (bound < threshold_ || leaves(node_a, node_b)) return false;
-  if (result_.pairs_bounded < request_.max_pairs && !finished()) return true;
+  if (!mayNotRefine()) return true;
   result_.complete = false;
   return false;
+}
+
+bool PairSum::mayNotRefine() const {
+  return result_.pairs_bounded >= request_.max_pairs || finished();
 }
 
 void PairSum::add(int node_a, int node_b, double bound) {
@@ -55,9 +63,15 @@ void PairSum::add(int node_a, int node_b, double bound) {
   if (leaves(node_a, node_b)) ++result_.leaf_pairs;
 }
 
+void PairSum::set(double bound) {
+  result_.raw_sum = bound;
+  result_.pairs_summed = 1;
+}
+
 GeneralPcdResult PairSum::result() const {
   GeneralPcdResult result = result_;
   result.upper = std::min(1.0, result.raw_sum);
+  if (finished()) result.complete = false;
   return result;
 }
 

@@ -23,11 +23,17 @@ class PairSum {
   bool refines(int node_a, int node_b, double bound);
 
   void add(int node_a, int node_b, double bound);
+
+  /// Replaces the sum.
+  void set(double bound);
   bool finished() const { return request_.stop_at_one && result_.raw_sum >= 1.0; }
 
   GeneralPcdResult result() const;
 
  private:
+  /// Whether the limits of the request are reached.
+  bool mayNotRefine() const;
+
   bool leaves(int node_a, int node_b) const {
     return pairs_.a().isLeaf(node_a) && pairs_.b().isLeaf(node_b);
   }
