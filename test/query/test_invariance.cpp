@@ -145,6 +145,25 @@ TEST_CASE("bounds of convex shapes do not change with the frame, the order and t
   CHECK(rare > 40);
 }
 
+TEST_CASE("P of convex shapes does not change with the frame, the order and the unit") {
+  std::mt19937_64 generator(23);
+  int likely = 0;
+  int rare = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Scene scene = randomScene(i % 2 ? kBox : kHull, kBox, generator);
+    const double p = answer(scene, ProbabilityMethod::exact, 0.01).probability();
+    if (p < 1e-290) continue;
+    likely += p > 0.1;
+    rare += p < 1e-3;
+    for (const Scene& variant : variantsOf(scene, generator)) {
+      REQUIRE(answer(variant, ProbabilityMethod::exact, 0.01).probability() ==
+              Approx(p).epsilon(1e-9).margin(0.0));
+    }
+  }
+  CHECK(likely > 15);
+  CHECK(rare > 15);
+}
+
 TEST_CASE("intervals of meshes agree in every frame, order and unit") {
   std::mt19937_64 generator(22);
   int between = 0;
