@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/edge_quadrature.h"
@@ -36,6 +37,26 @@ MassWithError massOf(const EdgeSum& sum, std::size_t edges) {
   return {sum.value / (4 * M_PI), error / (4 * M_PI)};
 }
 
+// Distance of every face, within its plane, from the foot of the origin.
+std::vector<double> distancesFromFoot(const PolytopeBoundary& boundary) {
+  std::vector<double> distances(boundary.faces.size(), std::numeric_limits<double>::infinity());
+  for (const BoundaryEdge& edge : boundary.edges) {
+    for (const EdgeSide& side : edge.sides) {
+      const bool beside = (side.t_from < 0) == (side.t_to < 0);
+      const double along = beside ? std::min(std::abs(side.t_from), std::abs(side.t_to)) : 0.0;
+      double& distance = distances[static_cast<std::size_t>(side.face)];
+      distance = std::min(distance, std::hypot(side.inset, along));
+    }
+  }
+  for (std::size_t f = 0; f < distances.size(); ++f) {
+    if (boundary.faces[f].angle != 0) distances[f] = 0.0;
+  }
+  return distances;
+}
+
+// Mass under N(0, I) in the plane of what is at least so far from its origin.
+double massBeyond(double distance) { return std::exp(-0.5 * distance * distance); }
+
 }  // namespace
 
 MassWithError boundaryMass(const PolytopeBoundary& boundary) {
@@ -54,13 +75,18 @@ MassWithError boundaryMass(const PolytopeBoundary& boundary) {
 SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*distance,
                          double extra) {
   SlabMass sum;
-  for (const FaceFrame& face : boundary.faces) {
+  const std::vector<double> distances = distancesFromFoot(boundary);
+  for (std::size_t f = 0; f < boundary.faces.size(); ++f) {
+    const FaceFrame& face = boundary.faces[f];
     const double reach = face.*distance + extra;
     if (reach == 0) continue;
     const Eigen::Vector2d lo = face.lo.array() - reach;
     const Eigen::Vector2d hi = face.hi.array() + reach;
-    const double area =
-        kSlabRounding * normalIntervalMass(lo.x(), hi.x()) * normalIntervalMass(lo.y(), hi.y());
+    // A face that lies obliquely to its frame comes less close than its rectangle does.
+    const double nearest = std::max(0.0, (1 - 1e-12) * distances[f] - 2 * reach);
+    const double area = kSlabRounding * std::min(normalIntervalMass(lo.x(), hi.x()) *
+                                                     normalIntervalMass(lo.y(), hi.y()),
+                                                 massBeyond(nearest));
     sum.gain += area * normalIntervalMass(face.height, face.height + reach);
     sum.loss += area * normalIntervalMass(face.height - reach, face.height);
   }
