@@ -11,7 +11,8 @@
 namespace fcl_prob::detail {
 
 /// The mass of the C-obstacle. Flat sides leave a rounding margin only; curved ones are enclosed
-/// between polytopes, which are refined until the tolerance is reached or the threshold decided.
+/// between polytopes, which are refined once if the tolerance asks for it. Where that does not
+/// reach it, the automatic method adds what Monte Carlo estimates within the interval.
 ProbabilityResult exactMass(const PlacedPair& pair, const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request);
 
