@@ -82,24 +82,50 @@ bool FaceSet::closed() const {
   return sum == 0;
 }
 
-ConvexPolytope toPolytope(const FaceSet& faces) {
+namespace {
+
+ConvexPolytope::Face faceOf(const FaceSet& faces, std::size_t f, const Eigen::Vector3d& normal) {
+  ConvexPolytope::Face face;
+  face.normal = normal;
+  face.offset = normal.dot(faces.position(f, 0));
+  for (int i = 0; i < faces.cornerCount(f); ++i) {
+    face.vertices.push_back(faces.corner(f, i));
+    face.offset = std::max(face.offset, normal.dot(faces.position(f, i)));
+  }
+  return face;
+}
+
+// Some unit vector across the longest edge of a face that has no other direction.
+Eigen::Vector3d normalOfSliver(const FaceSet& faces, std::size_t f) {
+  const int count = faces.cornerCount(f);
+  Eigen::Vector3d longest = Eigen::Vector3d::Zero();
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d edge = faces.position(f, (i + 1) % count) - faces.position(f, i);
+    if (edge.norm() > longest.norm()) longest = edge;
+  }
+  return longest.norm() > 0.0 ? longest.unitOrthogonal() : Eigen::Vector3d::UnitX();
+}
+
+ConvexPolytope polytopeOf(const FaceSet& faces, bool with_slivers) {
   ConvexPolytope polytope;
   polytope.vertices = faces.vertices();
   for (std::size_t f = 0; f < faces.faceCount(); ++f) {
     const Eigen::Vector3d area = faces.vectorArea(f);
     const double longest = longestEdge(faces, f);
-    if (!(area.norm() > kSliver * longest * longest)) continue;
-    ConvexPolytope::Face face;
-    face.normal = area.normalized();
-    face.offset = face.normal.dot(faces.position(f, 0));
-    for (int i = 0; i < faces.cornerCount(f); ++i) {
-      face.vertices.push_back(faces.corner(f, i));
-      face.offset = std::max(face.offset, face.normal.dot(faces.position(f, i)));
+    if (area.norm() > kSliver * longest * longest) {
+      polytope.faces.push_back(faceOf(faces, f, area.normalized()));
+    } else if (with_slivers) {
+      polytope.faces.push_back(faceOf(faces, f, normalOfSliver(faces, f)));
     }
-    polytope.faces.push_back(std::move(face));
   }
   return polytope;
 }
+
+}  // namespace
+
+ConvexPolytope toPolytope(const FaceSet& faces) { return polytopeOf(faces, false); }
+
+ConvexPolytope toClosedPolytope(const FaceSet& faces) { return polytopeOf(faces, true); }
 
 void setToBox(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, FaceSet& faces) {
   faces.clear();

@@ -64,6 +64,9 @@ class FaceSet {
 /// The same surface as a ConvexPolytope; faces whose area is within rounding of zero are left out.
 ConvexPolytope toPolytope(const FaceSet& faces);
 
+/// With them, so that every edge is still shared by two faces; their normals mean nothing.
+ConvexPolytope toClosedPolytope(const FaceSet& faces);
+
 /// The axis-aligned box [lower, upper].
 void setToBox(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, FaceSet& faces);
 

@@ -35,7 +35,7 @@ void shrink(double error, FaceSet& faces) {
 Bounds massOfPrism(int rank, double error, const FaceSet& faces) {
   if (faces.vertices().empty()) return {0.0, 0.0};
   if (rank == 0) return {1.0, 1.0};
-  Bounds mass = polytopeMass(toPolytope(faces), error);
+  Bounds mass = polytopeMass(toClosedPolytope(faces), error);
   mass.lower /= prismMass(rank) * (1.0 + 8.0 * kIntervalMassRelativeError);
   mass.upper /= prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError);
   return mass;
@@ -57,7 +57,7 @@ Bounds PairBounds::mass(const CObstacle& obstacle) {
   const PairFrame& frame = obstacle.frame();
   const Eigen::Vector3d error = frame.whitened(obstacle.outerFaces(scratch_));
   Bounds mass = frame.rank < 3 ? massOfSection(frame.rank, error)
-                               : polytopeMass(toPolytope(scratch_.faces), error.norm());
+                               : polytopeMass(toClosedPolytope(scratch_.faces), error.norm());
   mass.lower = std::max(mass.lower, 0.0);
   mass.upper = std::min(mass.upper, 1.0);
   return mass;

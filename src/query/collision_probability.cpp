@@ -6,6 +6,7 @@
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
+#include "query/exact_mass.h"
 #include "query/prepared_geometry.h"
 #include "query/query_plan.h"
 #include "query/single_collide.h"
@@ -50,6 +51,8 @@ ProbabilityResult PreparedQuery::Implementation::follow(const detail::QueryPlan&
                                    displacement.mean(), request);
     case Route::partition:
       return partition(plan, pair, displacement, request);
+    case Route::exact_mass:
+      return detail::exactMass(pair, displacement, request);
     case Route::convex_bound:
       return detail::convexBound(pair, displacement, request);
     case Route::general_pcd:

@@ -16,6 +16,7 @@ struct QueryPair {
   bool inFcl() const { return fclSupportsPair(a.geometry(), b.geometry()); }
   bool havePieces() const { return a.hasPieces() && b.hasPieces(); }
   bool haveRootBodies() const { return a.hasRootBody() && b.hasRootBody(); }
+  bool areConvex() const { return a.isConvex() && b.isConvex(); }
   bool anyMesh() const { return isMesh(a) || isMesh(b); }
 
   std::string name() const {
@@ -60,8 +61,22 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   return plan;
 }
 
+QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacement,
+                    const ProbabilityRequest& request) {
+  if (!pair.areConvex()) refuse(request.method, pair, "it needs two bounded convex shapes");
+  QueryPlan plan{Route::exact_mass, false, {}};
+  plan.notes.push_back("both shapes are convex: exact mass of their C-obstacle, no tree");
+  if (displacement.isotropic()) {
+    plan.notes.push_back("isotropic covariance: whitening is a scaling");
+  }
+  if (request.gradient) plan.notes.push_back("no gradient: the interval method has one");
+  return plan;
+}
+
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
+  const bool gradient_by_partition = request.gradient && pair.havePieces();
+  if (pair.areConvex() && !gradient_by_partition) return planExact(pair, displacement, request);
   if (pair.havePieces()) return planPartition(pair, displacement, request);
   if (!pair.inFcl()) refuse(request.method, pair, "neither the partition nor fcl::collide does");
   return {Route::monte_carlo, false, {"partition left out: it has no pieces of " + pair.name()}};
@@ -106,9 +121,9 @@ QueryPlan planQuery(const PreparedGeometry& a, const PreparedGeometry& b,
     case ProbabilityMethod::rare_event:
       return {Route::rare_event, false, {}};
     case ProbabilityMethod::exact:
-      break;
+      return planExact(pair, displacement, request);
   }
-  refuse(request.method, pair, "it needs two convex shapes");
+  throw InvalidRequest("not one of ProbabilityMethod");
 }
 
 }  // namespace fcl_prob::detail

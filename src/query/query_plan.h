@@ -13,7 +13,15 @@
 namespace fcl_prob::detail {
 
 /// The code that answers.
-enum class Route { single_collide, partition, convex_bound, general_pcd, monte_carlo, rare_event };
+enum class Route {
+  single_collide,
+  partition,
+  exact_mass,
+  convex_bound,
+  general_pcd,
+  monte_carlo,
+  rare_event
+};
 
 /// What will be done: `route` says it to the program, `notes` to the reader of
 /// ProbabilityResult::plan.

@@ -31,6 +31,8 @@ ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement
                               const ProbabilityRequest& request) {
   ProbabilityResult result = boundedBy(rootBound(pair, displacement), request);
   result.statistics.pairs_tested = 1;
+  result.plan.push_back(
+      "ConvexPCD: the least of the bounds by half-space, box and divergence theorem");
   return result;
 }
 
@@ -49,6 +51,9 @@ ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplace
   result.statistics.raw_sum = pcd.raw_sum;
   result.statistics.pairs_tested = pcd.pairs_bounded;
   result.statistics.leaf_pairs = pcd.leaf_pairs;
+  result.plan.push_back(
+      "GeneralPCD over the bounding volume trees: " + std::to_string(pcd.pairs_bounded) +
+      " pairs bounded, their sum clipped at 1");
   return result;
 }
 

@@ -77,3 +77,55 @@ TEST_CASE("no covariance: the threshold is decided and the plan says why") {
                        GaussianDisplacement(), request, result);
   CHECK(result.decision == Decision::above);
 }
+
+TEST_CASE("vanishing covariance: the certified interval closes around what fcl::collide answers") {
+  const auto a = makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 8, 12, 1));
+  const auto b = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 12, 8));
+  const PreparedQuery query(a, b);
+  std::mt19937_64 generator(4);
+  int hits = 0;
+  int open = 0;
+  const int count = 10000;
+  for (int i = 0; i < count; ++i) {
+    const fcl::Transform3d pose_a = randomPose(generator, 0.75);
+    const fcl::Transform3d pose_b = randomPose(generator, 0.75);
+    const auto displacement = GaussianDisplacement::fromStandardDeviations(
+        {1e-9, 2e-9, 3e-9}, Eigen::Quaterniond(pose_b.linear()));
+    ProbabilityResult result;
+    query.collisionProbability(pose_a, pose_b, displacement, {}, result);
+    const bool expected = fclCollides(*a, pose_a, *b, pose_b);
+    hits += expected;
+    // A pose within nanometres of touching may be anything in between.
+    open += *result.upper > 0.01 && *result.lower < 0.99;
+    if (*result.upper <= 0.01) REQUIRE_FALSE(expected);
+    if (*result.lower >= 0.99) REQUIRE(expected);
+  }
+  CHECK(open <= 2);
+  CHECK(hits > 0.3 * count);
+  CHECK(hits < 0.7 * count);
+}
+
+TEST_CASE("no covariance: meshes of different bounding volumes are answered without FCL") {
+  const TriangleMesh mesh_a = bumpyMesh(0.5, 8, 12, 1);
+  const TriangleMesh mesh_b = torusMesh(0.5, 0.2, 12, 8);
+  const auto obb = makeModel<fcl::OBBd>(mesh_a);
+  const auto kdop = makeModel<fcl::KDOPd<24>>(mesh_b);
+  const auto obb_b = makeModel<fcl::OBBd>(mesh_b);
+  const PreparedQuery query(obb, kdop);
+  std::mt19937_64 generator(5);
+  int hits = 0;
+  const int count = 500;
+  for (int i = 0; i < count; ++i) {
+    const fcl::Transform3d pose_a = randomPose(generator, 0.75);
+    const fcl::Transform3d pose_b = randomPose(generator, 0.75);
+    ProbabilityResult result;
+    query.collisionProbability(pose_a, pose_b, GaussianDisplacement(), {}, result);
+    const bool expected = fclCollides(*obb, pose_a, *obb_b, pose_b);
+    // The partition widens even masses of 0 and 1 for rounding.
+    REQUIRE(*result.lower >= (expected ? 1.0 - 1e-12 : 0.0));
+    REQUIRE(*result.upper <= (expected ? 1.0 : 1e-290));
+    hits += expected;
+  }
+  CHECK(hits > 0.3 * count);
+  CHECK(hits < 0.7 * count);
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The probability of two convex shapes, without any tree.
+#pragma once
+
+#include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+#include "query/upper_bounds.h"
+
+namespace fcl_prob::detail {
+
+/// The mass of the C-obstacle. Flat sides leave a rounding margin only; curved ones are enclosed
+/// between polytopes, which are refined once if the tolerance asks for it. Where that does not
+/// reach it, the automatic method adds what Monte Carlo estimates within the interval.
+ProbabilityResult exactMass(const PlacedPair& pair, const GaussianDisplacement& displacement,
+                            const ProbabilityRequest& request);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Pairs of convex shapes: exact, and what the automatic method makes of them.
+#include <fcl/geometry/octree/octree.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <random>
+
+#include "catch.h"
+#include "fcl_prob/fcl_prob.h"
+#include "fcl_prob/monte_carlo.h"
+#include "fcl_prob/normal_mass.h"
+#include "mesh_shapes.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob_test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
+
+fcl::Transform3d at(const Eigen::Vector3d& p) { return fcl::Transform3d(Eigen::Translation3d(p)); }
+
+ProbabilityResult answer(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
+                         const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
+                         const GaussianDisplacement& displacement,
+                         const ProbabilityRequest& request = {}) {
+  ProbabilityResult result;
+  collisionProbability(&a, pose_a, &b, pose_b, displacement, request, result);
+  return result;
+}
+
+bool planMentions(const ProbabilityResult& result, const std::string& text) {
+  for (const std::string& note : result.plan) {
+    if (note.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("two boxes are answered exactly, from certain to 1e-200") {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.8, Eigen::Vector3d(2, -1, 1).normalized()));
+  const fcl::Transform3d world(turn);
+  std::mt19937_64 generator(31);
+  std::uniform_real_distribution<double> side(0.2, 1.5), offset(-1.5, 1.5), exponent(-1.5, 0.3);
+  int likely = 0;
+  int rare = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto three = [&](auto& distribution) {
+      return Eigen::Vector3d(distribution(generator), distribution(generator),
+                             distribution(generator));
+    };
+    const Eigen::Vector3d sides_a = three(side), sides_b = three(side), move = three(offset);
+    Eigen::Vector3d sigma;
+    for (double& s : sigma) s = std::pow(10.0, exponent(generator));
+    const Eigen::Vector3d half = 0.5 * (sides_a + sides_b);
+    const double expected =
+        normalBoxMass((move - half).cwiseQuotient(sigma), (move + half).cwiseQuotient(sigma));
+    if (expected < 1e-200) continue;
+    likely += expected > 0.1;
+    rare += expected < 1e-6;
+    const ProbabilityResult result =
+        answer(fcl::Boxd(sides_a), world, fcl::Boxd(sides_b), world * at(move),
+               GaussianDisplacement::fromStandardDeviations(sigma, turn));
+    REQUIRE(result.method == ProbabilityMethod::exact);
+    REQUIRE(result.status == ProbabilityStatus::exact);
+    REQUIRE(*result.lower <= expected * (1 + 1e-12));
+    REQUIRE(*result.upper >= expected * (1 - 1e-12));
+    REQUIRE(result.probability() == Approx(expected).epsilon(1e-9));
+  }
+  CHECK(likely > 20);
+  CHECK(rare > 30);
+}
+
+TEST_CASE("the plan says that no tree was needed") {
+  const fcl::Boxd box(1, 1, 1);
+  const auto isotropic = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  const auto result = answer(box, kIdentity, box, at({1.2, 0, 0}), isotropic);
+  CHECK(planMentions(result, "no tree"));
+  CHECK(planMentions(result, "isotropic"));
+  const auto stretched = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.2});
+  CHECK_FALSE(planMentions(answer(box, kIdentity, box, at({1.2, 0, 0}), stretched), "isotropic"));
+}
+
+TEST_CASE("with a gradient asked for, two polytopes go to the partition") {
+  const fcl::Boxd box(1, 1, 1);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  ProbabilityRequest request;
+  request.gradient = true;
+  const auto result = answer(box, kIdentity, box, at({1.1, 0, 0}), displacement, request);
+  CHECK(result.method == ProbabilityMethod::interval);
+  REQUIRE(result.gradient);
+  const double slope = 0.39894228040143268 * std::exp(-0.5) / 0.1;
+  CHECK((*result.gradient)[0] == Approx(slope).epsilon(0.02));
+}
+
+TEST_CASE("two spheres agree with the closed form of a ball") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  const auto result =
+      answer(fcl::Sphered(0.3), kIdentity, fcl::Sphered(0.2), at({0.9, 0, 0}), displacement);
+  // Φ(-4) - Φ(-14) - (φ(4) - φ(14)) / 9: a ball of radius 5 in a distance of 9.
+  const double ball = normalTailMass(4) - normalTailMass(14) -
+                      0.39894228040143268 * (std::exp(-8.0) - std::exp(-98.0)) / 9;
+  CHECK(result.probability() == Approx(ball).epsilon(1e-9));
+  CHECK(result.status == ProbabilityStatus::exact);
+}
+
+TEST_CASE("curved shapes are enclosed, and estimated where the enclosure is wide") {
+  const fcl::Sphered sphere(0.4);
+  const fcl::Ellipsoidd ellipsoid(0.5, 0.3, 0.4);
+  const fcl::Capsuled capsule(0.3, 0.6);
+  const fcl::Cylinderd cylinder(0.4, 0.7);
+  const fcl::Coned cone(0.5, 0.8);
+  const fcl::Boxd box(0.6, 0.7, 0.8);
+  const std::vector<const fcl::CollisionGeometryd*> shapes = {&sphere,   &ellipsoid, &capsule,
+                                                              &cylinder, &cone,      &box};
+  const auto displacement = GaussianDisplacement::fromStandardDeviations(
+      {0.3, 0.1, 0.2}, Eigen::Quaterniond(1, 0.3, 0.2, 0.5).normalized());
+  const fcl::Transform3d pose_b =
+      at({0.9, 0.4, 0.3}) * Eigen::Quaterniond(1, 0.2, 0.7, 0.1).normalized();
+  int estimated = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const fcl::CollisionGeometryd& a = *shapes[i];
+    const fcl::CollisionGeometryd& b = *shapes[(i + 2) % shapes.size()];
+    INFO("shapes " << i << " and " << (i + 2) % shapes.size());
+    const auto result = answer(a, kIdentity, b, pose_b, displacement);
+    CHECK(result.method == ProbabilityMethod::exact);
+    CHECK(result.probability() >= *result.lower);
+    CHECK(result.probability() <= *result.upper);
+    const bool narrow = *result.upper - *result.lower <= 0.01 * *result.upper;
+    CHECK((result.status == ProbabilityStatus::converged) == narrow);
+    CHECK(result.estimate.has_value() == !narrow);
+    estimated += result.estimate.has_value();
+
+    ProbabilityRequest request;
+    request.samples = 20000;
+    request.seed = 2;
+    const auto sampled = monteCarloProbability(a, kIdentity, b, pose_b, displacement, request);
+    CHECK(*sampled.estimate > 0.02);
+    CHECK(*sampled.estimate < 0.98);
+    CHECK(*sampled.estimate >= *result.lower - 4 * *sampled.standard_error);
+    CHECK(*sampled.estimate <= *result.upper + 4 * *sampled.standard_error);
+    if (result.estimate) {
+      const double error = std::hypot(*result.standard_error, *sampled.standard_error);
+      CHECK(std::abs(*result.estimate - *sampled.estimate) <= 4 * error);
+    }
+  }
+  CHECK(estimated > 0);
+}
+
+TEST_CASE("asked for by name, the exact method refines instead of sampling") {
+  const fcl::Capsuled capsule(0.3, 0.5);
+  const fcl::Boxd box(0.5, 0.4, 0.3);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.05});
+  ProbabilityRequest request;
+  const auto coarse = answer(capsule, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  request.method = ProbabilityMethod::exact;
+  const auto fine = answer(capsule, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  CHECK_FALSE(fine.estimate);
+  CHECK(*fine.upper - *fine.lower < 0.5 * (*coarse.upper - *coarse.lower));
+  CHECK(*fine.lower >= *coarse.lower);
+  CHECK(*fine.upper <= *coarse.upper);
+}
+
+TEST_CASE("displacements of rank 1 and 2 between boxes") {
+  const fcl::Boxd box(1, 1, 1);
+  const auto line = GaussianDisplacement::fromStandardDeviations({0.5, 0, 0});
+  CHECK(answer(box, kIdentity, box, at({1.5, 0.2, 0.3}), line).probability() ==
+        Approx(normalTailMass(1) - normalTailMass(5)).epsilon(1e-9));
+  CHECK(answer(box, kIdentity, box, at({1.5, 1.2, 0.3}), line).probability() < 1e-12);
+  const auto plane = GaussianDisplacement::fromStandardDeviations({0.5, 0.25, 0});
+  CHECK(answer(box, kIdentity, box, at({1.5, 1.25, 0.3}), plane).probability() ==
+        Approx((normalTailMass(1) - normalTailMass(5)) * (normalTailMass(1) - normalTailMass(9)))
+            .epsilon(1e-9));
+}
+
+TEST_CASE("pairs beyond reach stop at the root") {
+  const auto a = makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 8, 12, 1));
+  const auto b = makeModel<fcl::KDOPd<18>>(torusMesh(0.5, 0.2, 12, 8));
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  const auto far = answer(*a, kIdentity, *b, at({2.4, 0, 0}), displacement);
+  CHECK(planMentions(far, "root"));
+  CHECK(*far.lower == 0.0);
+  CHECK(*far.upper <= 1e-6);
+  CHECK(*far.upper > 0.0);
+  CHECK(far.status == ProbabilityStatus::converged);
+  CHECK(far.statistics.cells == 0);
+  ProbabilityRequest request;
+  request.threshold = 0.05;
+  const auto decided = answer(*a, kIdentity, *b, at({1.9, 0, 0}), displacement, request);
+  CHECK(decided.decision == Decision::below);
+  CHECK(planMentions(decided, "root"));
+  const auto near = answer(*a, kIdentity, *b, at({1.1, 0, 0}), displacement);
+  CHECK_FALSE(planMentions(near, "root"));
+  CHECK(near.statistics.cells > 0);
+}
+
+TEST_CASE("methods refuse the pairs that they cannot handle, by name") {
+  const auto mesh = makeModel<fcl::OBBRSSd>(boxMesh({1, 1, 1}));
+  const auto other = makeModel<fcl::AABBd>(boxMesh({1, 1, 1}));
+  const fcl::Sphered sphere(1);
+  const fcl::Halfspaced halfspace(0, 0, 1, 0);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  const auto refusal = [&](const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b,
+                           ProbabilityMethod method, ContactMeaning contact) -> std::string {
+    ProbabilityRequest request;
+    request.method = method;
+    request.contact = contact;
+    try {
+      answer(a, kIdentity, b, kIdentity, displacement, request);
+    } catch (const UnsupportedGeometry& exception) {
+      return exception.what();
+    }
+    return "";
+  };
+  using Method = ProbabilityMethod;
+  const auto fcl_contact = ContactMeaning::fcl;
+  CHECK_THAT(refusal(*mesh, sphere, Method::exact, fcl_contact),
+             Contains("exact") && Contains("Sphere"));
+  CHECK_THAT(refusal(halfspace, sphere, Method::convex_pcd, fcl_contact),
+             Contains("convex-pcd") && Contains("Halfspace"));
+  CHECK_THAT(refusal(*mesh, *other, Method::monte_carlo, fcl_contact), Contains("BVHModel<AABB>"));
+  CHECK_THAT(refusal(*mesh, *other, Method::rare_event, fcl_contact), Contains("BVHModel<AABB>"));
+  CHECK_THAT(refusal(*mesh, *mesh, Method::general_pcd, ContactMeaning::solid),
+             Contains("general-pcd"));
+  CHECK(refusal(*mesh, *other, Method::automatic, fcl_contact).empty());
+  CHECK(refusal(*mesh, *mesh, Method::automatic, ContactMeaning::solid).empty());
+}
+
+TEST_CASE("solids: containment in closed meshes counts if asked for") {
+  const auto outer = makeModel<fcl::OBBRSSd>(sphereMesh(2, 12, 16));
+  const auto inner = makeModel<fcl::OBBRSSd>(sphereMesh(0.2, 6, 8));
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  ProbabilityRequest request;
+  CHECK(answer(*inner, kIdentity, *outer, kIdentity, displacement, request).probability() < 1e-6);
+  request.contact = ContactMeaning::solid;
+  CHECK(answer(*inner, kIdentity, *outer, kIdentity, displacement, request).probability() ==
+        Approx(1.0).epsilon(0.01));
+}
