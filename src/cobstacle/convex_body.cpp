@@ -4,10 +4,7 @@
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 
 #include "cobstacle/bounding_volumes.h"
@@ -44,12 +41,6 @@ Data sharedDop(const std::vector<detail::Slab>& slabs) {
       std::make_unique<const PolytopeSet>(detail::meshOfSlabs(slabs)));
 }
 
-Data sharedSwept(std::vector<SweptSet::Centre> centres, const Eigen::Vector3d& semi_axes,
-                 int resolution) {
-  return std::make_shared<const ConvexBodyData>(std::make_unique<const SweptSet>(
-      std::move(centres), Eigen::Matrix3d(semi_axes.asDiagonal()), resolution));
-}
-
 void requireResolution(int resolution) {
   if (resolution < kLeastResolution) {
     throw InvalidRequest("resolution of a convex body is " + std::to_string(resolution) +
@@ -82,19 +73,10 @@ Data dataOf(const fcl::CollisionGeometryd& shape, int resolution) {
     case fcl::GEOM_CAPSULE:
       return sharedZonotope(capsule(static_cast<const fcl::Capsuled&>(shape)), resolution);
     case fcl::GEOM_ELLIPSOID:
-      return sharedSwept({{origin, true}}, static_cast<const fcl::Ellipsoidd&>(shape).radii,
-                         resolution);
-    case fcl::GEOM_CYLINDER: {
-      const auto& cylinder = static_cast<const fcl::Cylinderd&>(shape);
-      const Eigen::Vector3d up(0.0, 0.0, 0.5 * cylinder.lz);
-      return sharedSwept({{-up, true}, {up, true}}, {cylinder.radius, cylinder.radius, 0.0},
-                         resolution);
-    }
-    case fcl::GEOM_CONE: {
-      const auto& cone = static_cast<const fcl::Coned&>(shape);
-      const Eigen::Vector3d up(0.0, 0.0, 0.5 * cone.lz);
-      return sharedSwept({{-up, true}, {up, false}}, {cone.radius, cone.radius, 0.0}, resolution);
-    }
+    case fcl::GEOM_CYLINDER:
+    case fcl::GEOM_CONE:
+      return std::make_shared<const ConvexBodyData>(
+          std::make_unique<const SweptSet>(detail::supportShape(shape), resolution));
     default:
       if (const auto vertices = detail::polytopeVertices(shape)) return sharedHull(*vertices);
       throw UnsupportedGeometry("not a bounded convex shape: " +

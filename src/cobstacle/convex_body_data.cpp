@@ -32,10 +32,9 @@ std::unique_ptr<const ConvexSet> convexSetOf(const RoundedZonotope& body, int re
     }
     return std::make_unique<PolytopeSet>(makeConvexMesh(corners));
   }
-  std::vector<SweptSet::Centre> centres;
-  for (const Eigen::Vector3d& corner : corners) centres.push_back({corner, true});
-  return std::make_unique<SweptSet>(std::move(centres), body.radius * Eigen::Matrix3d::Identity(),
-                                    resolution);
+  const SupportShape shape{corners, static_cast<int>(corners.size()),
+                           body.radius * Eigen::Matrix3d::Identity()};
+  return std::make_unique<SweptSet>(shape, resolution);
 }
 
 }  // namespace

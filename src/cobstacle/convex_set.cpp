@@ -60,42 +60,18 @@ double ConvexSet::size() const {
   return largest;
 }
 
-SweptSet::SweptSet(std::vector<Centre> centres, const Eigen::Matrix3d& semi_axes, int resolution)
-    : centres_(std::move(centres)), semi_axes_(semi_axes) {
-  const bool disk = semi_axes_.col(2).isZero(0.0);
+SweptSet::SweptSet(SupportShape shape, int resolution) : shape_(std::move(shape)) {
+  const bool disk = shape_.semi_axes.col(2).isZero(0.0);
   const Points ball = disk ? pointsOnCircle(resolution) : pointsOnSphere(resolution);
   outer_ = hullOf(ball, (1.0 + kOuterSlack) / inradius(ball, disk));
   inner_ = hullOf(ball, 1.0);
 }
 
-Eigen::Vector3d SweptSet::supportPoint(const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3d on_ball = semi_axes_.transpose() * direction;
-  const double length = on_ball.norm();
-  const Eigen::Vector3d swept =
-      length > 0.0 ? Eigen::Vector3d(semi_axes_ * (on_ball / length)) : Eigen::Vector3d::Zero();
-  double highest = -std::numeric_limits<double>::infinity();
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  for (const Centre& centre : centres_) {
-    const Eigen::Vector3d point =
-        centre.swept ? Eigen::Vector3d(centre.position + swept) : centre.position;
-    const double height = direction.dot(point);
-    if (height > highest) {
-      highest = height;
-      best = point;
-    }
-  }
-  return best;
-}
-
 ConvexMesh SweptSet::hullOf(const Points& ball, double scale) const {
-  Points points;
-  for (const Centre& centre : centres_) {
-    if (!centre.swept) {
-      points.push_back(centre.position);
-      continue;
-    }
+  Points points(shape_.points.begin() + shape_.swept, shape_.points.end());
+  for (int i = 0; i < shape_.swept; ++i) {
     for (const Eigen::Vector3d& p : ball) {
-      points.push_back(centre.position + semi_axes_ * (scale * p));
+      points.push_back(shape_.points[i] + shape_.semi_axes * (scale * p));
     }
   }
   return makeConvexMesh(points);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cobstacle/convex_mesh.h"
+#include "cobstacle/support_shape.h"
 
 namespace fcl_prob::detail {
 
@@ -45,29 +46,22 @@ class PolytopeSet final : public ConvexSet {
   ConvexMesh mesh_;
 };
 
-/// The convex hull of points and ellipsoids: conv ∪ (v_i ⊕ s_i E·ball) with s_i either 0 or 1. All
-/// of FCL's shapes with curved sides are of this form: a cone is the hull of its apex and the disk
-/// (flat ellipsoid) around the centre of its base.
+/// A curved shape.
 class SweptSet final : public ConvexSet {
  public:
-  struct Centre {
-    Eigen::Vector3d position;
-    bool swept;
-  };
-
-  /// \param semi_axes   columns are the semi-axes of the ellipsoid; the third may be zero (a disk)
   /// \param resolution  how many points on the ball (disk: on its circle) the polytopes are made of
-  SweptSet(std::vector<Centre> centres, const Eigen::Matrix3d& semi_axes, int resolution);
+  SweptSet(SupportShape shape, int resolution);
 
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const override;
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const override {
+    return shape_.supportPoint(direction);
+  }
   const ConvexMesh& outerMesh() const override { return outer_; }
   const ConvexMesh& innerMesh() const override { return inner_; }
 
  private:
   ConvexMesh hullOf(const std::vector<Eigen::Vector3d>& ball, double scale) const;
 
-  std::vector<Centre> centres_;
-  Eigen::Matrix3d semi_axes_;
+  SupportShape shape_;
   ConvexMesh outer_;
   ConvexMesh inner_;
 };

@@ -63,6 +63,30 @@ Eigen::Vector3d lowestCorner(const Cell& cell, const Eigen::Vector3d& m) {
   return (m.array() > 0).select(cell.lo, cell.hi);
 }
 
+// A box around the part of a cell with from <= m·y <= to; the cell must have such a part.
+Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to) {
+  Cell box = cell;
+  const double least = m.dot(lowestCorner(cell, m));
+  const double most = m.dot(lowestCorner(cell, -m));
+  for (int k = 0; k < cell.rank; ++k) {
+    const double slope = std::fabs(m[k]);
+    // Starting at either end of the cell along m, the planes are met after at least so much of k.
+    const double after_least = std::max(from - least - kSliver, 0.0);
+    const double before_most = std::max(most - to - kSliver, 0.0);
+    const double own = slope * (cell.hi[k] - cell.lo[k]);
+    const double others = most - least - own;
+    const double from_least = std::max(after_least - others, 0.0);
+    const double from_most = std::max(before_most - others, 0.0);
+    if (!(from_least + from_most < own)) continue;
+    double& near = m[k] > 0 ? box.lo[k] : box.hi[k];
+    double& far = m[k] > 0 ? box.hi[k] : box.lo[k];
+    const double sign = m[k] > 0 ? 1.0 : -1.0;
+    near += sign * from_least / slope;
+    far -= sign * from_most / slope;
+  }
+  return box;
+}
+
 double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
   return m.dot(lowestCorner(part, m)) - 1e-13;  // less its rounding
 }
@@ -242,17 +266,20 @@ void CellExaminer::weigh(OpenCell& open) const {
 }
 
 // The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
-// of the other pairs; pairs without such a part leave the front.
+// of the other pairs (pairs without such a part leave the front), and, if it is curved, in the
+// layer between the leader's own planes.
 void CellExaminer::openWithPlane(const CuttingPair& leader) {
   const Cell& cell = front_.cell();
   const Eigen::Vector3d& m = leader.inner.m;
-  const double enough = leader.outer - kSliver;
-  double settled_from = leader.outer;
+  const double level = leader.layered ? leader.inner.s : leader.outer;
+  const double enough = level - kSliver;
+  double settled_from = level;
   OpenCell open;
   open.possible_from = leader.outer;
   open.front.push_back(leader.pair);
   Cell box{cell.hi, cell.lo, cell.rank};
   Cell part;
+  if (leader.layered) include(layerBox(cell, m, leader.outer, leader.inner.s), box);
   const auto consider = [&](const FrontPair& pair) {
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < enough && pair.obstacle >= 0) {
@@ -278,7 +305,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   const double sliver = sliverMass(cell, leader.inner.s - settled_from);
   result_.settled.mass.upper += sliver;
   result_.settled.moment_error += sliver * (1.0 + kReach);
-  if (open.front.size() == 1) return settlePart(cell, leader.inner, 1.0);
+  if (open.front.size() == 1 && !leader.layered) return settlePart(cell, leader.inner, 1.0);
 
   open.cell = cell;
   open.has_plane = true;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cobstacle/cell_section.h"
+
 namespace fcl_prob::detail {
 
 namespace {
@@ -26,6 +28,12 @@ constexpr double kLeastShare = 0.05;
 constexpr double kImmediateShare = 0.3;
 constexpr int kCarveRounds = 8;
 
+// The planes of a curved obstacle closer than this count as one.
+constexpr double kThinLayer = 1e-11;
+
+// Depth of a plane that covers nothing of the cell.
+constexpr double kDeepest = 0.9999;
+
 }  // namespace
 
 CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
@@ -42,6 +50,7 @@ void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) 
   box_ = cell.box();
   covered_.clear();
   cutting_.clear();
+  least_depth_ = kDeepest;
   coarse_.clear();
   stack_.clear();
   gather(inherited);
@@ -68,12 +77,8 @@ void CellFront::gatherLeaf(const FrontPair& pair) {
   const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
   const CellCut cut = kernels_.classify(slabs, box_);
   if (cut.relation == CellRelation::outside) return;
-  if (cut.relation == CellRelation::inside) {
-    covered_.push_back(cell_);
-    cell_.hi = cell_.lo;
-    cell_.settled = true;
-    return;
-  }
+  if (slabs.outer_only) return gatherSection(pair);
+  if (cut.relation == CellRelation::inside) return coverAll();
   CuttingPair cutting{pair, cut.sides, cut.covered, {}, 0.0, 2.0};
   if (cut.sides == 1) {
     const double sign = cut.upper_side ? -1.0 : 1.0;
@@ -81,15 +86,55 @@ void CellFront::gatherLeaf(const FrontPair& pair) {
     cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
     cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
     cutting.inner.s = cutting.outer + slabs.margin()[i];
-    double middle = 0.0;
-    double radius = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      middle += cutting.inner.m[k] * box_.center[k];
-      radius += std::fabs(cutting.inner.m[k]) * box_.half[k];
-    }
-    cutting.depth = (cutting.inner.s - middle) / std::max(radius, 1e-300);
+    cutting.depth = depthOf(cutting.inner);
   }
   cutting_.push_back(cutting);
+}
+
+void CellFront::coverAll() {
+  covered_.push_back(cell_);
+  cell_.hi = cell_.lo;
+  cell_.settled = true;
+}
+
+// A pair that is known by its support function. It is examined closely only if it reaches out of
+// what the best plane so far covers.
+void CellFront::gatherSection(const FrontPair& pair) {
+  const SupportObstacle obstacle = obstacles_.support(pair.a, pair.b);
+  CuttingPair cutting{pair, 2, -1.0, {}, 0.0, 2.0};
+  if (least_depth_ < kDeepest && -obstacle.supportUpper(-deepest_.m) >= deepest_.s) {
+    cutting_.push_back(cutting);
+    return;
+  }
+  const CellSection section = sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  if (section.relation == CellSection::Relation::outside) return;
+  if (section.relation == CellSection::Relation::inside) return coverAll();
+  if (!section.normal.isZero(0.0)) {
+    cutting.sides = 1;
+    cutting.inner = {-section.normal, -section.inner};
+    cutting.outer = -section.outer;
+    cutting.layered = section.outer - section.inner > 64 * obstacle.error() + kThinLayer;
+    // Even a plane that covers nothing bounds what may collide.
+    cutting.depth = std::min(depthOf(cutting.inner), kDeepest);
+    noteDepth(cutting);
+  }
+  cutting_.push_back(cutting);
+}
+
+double CellFront::depthOf(const CellPlane& plane) const {
+  double middle = 0.0;
+  double radius = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    middle += plane.m[k] * box_.center[k];
+    radius += std::fabs(plane.m[k]) * box_.half[k];
+  }
+  return (plane.s - middle) / std::max(radius, 1e-300);
+}
+
+void CellFront::noteDepth(const CuttingPair& cutting) {
+  if (cutting.depth >= least_depth_) return;
+  least_depth_ = cutting.depth;
+  deepest_ = cutting.inner;
 }
 
 // Most central pairs first: they are the most likely to cover the cell.
@@ -203,6 +248,7 @@ void CellFront::cover(const CellSlice& covered) {
 void CellFront::classifyAgain() {
   previous_.swap(cutting_);
   cutting_.clear();
+  least_depth_ = kDeepest;
   for (const CuttingPair& cutting : previous_) {
     if (overlaps(cutting.pair)) gatherLeaf(cutting.pair);
     if (cell_.empty()) return;
@@ -251,7 +297,10 @@ double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) c
 }
 
 double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const {
-  return kernels_.minimumAlong(obstacles_.slabs(pair.obstacle), box_, m.data());
+  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
+  const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
+  if (!slabs.outer_only) return lowest;
+  return std::max(lowest, -obstacles_.support(pair.a, pair.b).supportUpper(-m));
 }
 
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {

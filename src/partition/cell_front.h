@@ -19,6 +19,7 @@ struct CuttingPair {
   CellPlane inner;  ///< for sides == 1: {m·y >= s} of the cell is within the obstacle
   double outer;     ///< for sides == 1: the obstacle lies in {m·y >= outer}
   double depth;  ///< for sides == 1: signed distance of the plane from the cell's middle, -1 to 1
+  bool layered = false;  ///< dividing the cell brings the planes closer to each other
 };
 
 /// Works on one cell at a time: sorts its pairs, and cuts off the slices of it that a pair covers.
@@ -52,6 +53,10 @@ class CellFront {
  private:
   void gather(const std::vector<FrontPair>& inherited);
   void gatherLeaf(const FrontPair& pair);
+  void gatherSection(const FrontPair& pair);
+  void coverAll();
+  double depthOf(const CellPlane& plane) const;
+  void noteDepth(const CuttingPair& cutting);
   void gatherCoarse(const std::vector<FrontPair>& inherited);
   void refine(const FrontPair& coarse, int& probes);
   void expand(const FrontPair& pair);
@@ -73,6 +78,8 @@ class CellFront {
   CellBox box_;
   std::vector<Cell> covered_;
   std::vector<CuttingPair> cutting_;
+  double least_depth_ = 1.0;  ///< among the pairs with sections
+  CellPlane deepest_;         ///< inner plane of the cutting pair of least depth
   std::vector<FrontPair> coarse_;
   std::vector<FrontPair> stack_;
   std::vector<CuttingPair> previous_;

@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "cobstacle/cell_section.h"
 #include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
@@ -92,8 +93,11 @@ bool CellSampler::collides(const FrontPair& first, const CellBox& point) {
     const PieceTree::Node& b = pair_.b.tree->nodes[pair.b];
     if (a.isLeaf() && b.isLeaf()) {
       const int obstacle = pair.obstacle >= 0 ? pair.obstacle : obstacles_.find(pair.a, pair.b);
-      const CellCut cut = slabKernels().classify(obstacles_.slabs(obstacle), point);
-      if (cut.relation != CellRelation::outside) return true;
+      const SlabArrays& slabs = obstacles_.slabs(obstacle);
+      if (slabKernels().classify(slabs, point).relation == CellRelation::outside) continue;
+      if (!slabs.outer_only) return true;
+      const Eigen::Vector3d y(point.center[0], point.center[1], point.center[2]);
+      if (contains(obstacles_.support(pair.a, pair.b), y)) return true;
     } else if (b.isLeaf() ||
                (!a.isLeaf() && pair_.a.boxes[pair.a].size() >= pair_.b.boxes[pair.b].size())) {
       stack_.push_back({a.left, pair.b, -1});

@@ -11,7 +11,14 @@ namespace {
 // Points, one in every connected part of the object's surface, geometry's frame.
 std::vector<Eigen::Vector3d> partPoints(const PartitionObject& object) {
   if (object.solid) return object.solid->partPoints();
-  return {object.tree->origin + object.tree->vertices.front()};
+  const PieceTree& tree = *object.tree;
+  if (tree.isMesh()) return {tree.origin + tree.vertices.front()};
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < tree.pieces.size(); ++i) {
+    points.push_back(tree.origin + tree.vertices[i] +
+                     tree.shapes[tree.pieces[i]].body.points.front());
+  }
+  return points;
 }
 
 }  // namespace

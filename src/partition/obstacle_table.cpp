@@ -3,14 +3,42 @@
 #include "partition/obstacle_table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "partition/piece_slabs.h"
+#include "partition/support_slabs.h"
 
 namespace fcl_prob::detail {
 
 namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t kBlockDoubles = 1 << 16;
+
+// With more slabs than this two polytopes are quicker examined by their support functions.
+constexpr std::size_t kMostSlabs = 128;
+
+const PieceShape& shapeAt(const WhitenedTree& tree, int node) {
+  return tree.shapes[tree.tree->pieces[tree.tree->nodes[node].piece]].shape;
 }
+
+SupportBody bodyAt(const WhitenedTree& tree, int node) {
+  const int piece = tree.tree->nodes[node].piece;
+  if (!tree.tree->isMesh()) return {shapeAt(tree, node).body, tree.vertices[piece]};
+  const Eigen::Vector3i& t = tree.tree->triangles[piece];
+  return {tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]};
+}
+
+double largestCoordinate(const NodeBox& box) {
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
+  }
+  return largest;
+}
+
+}  // namespace
 
 ObstacleTable::ObstacleTable(const WhitenedPair& pair) : pair_(pair) {}
 
@@ -52,11 +80,38 @@ SlabArrays ObstacleTable::buildTriangles(int a, int b) {
 }
 
 SlabArrays ObstacleTable::buildPieces(int a, int b) {
+  const bool few = hasFewSlabs(a, b);
   const PieceSlabs slabs =
-      pieceSlabs(pair_.a, pair_.a.tree->nodes[a].piece, pair_.b, pair_.b.tree->nodes[b].piece);
+      few ? pieceSlabs(pair_.a, pair_.a.tree->nodes[a].piece, pair_.b, pair_.b.tree->nodes[b].piece)
+          : supportSlabs(support(a, b));
   double* data = allocate(slabs.count);
   std::copy(slabs.data.begin(), slabs.data.end(), data);
-  return {data, slabs.count};
+  return {data, slabs.count, !few};
+}
+
+bool ObstacleTable::hasFewSlabs(int a, int b) const {
+  struct Counts {
+    std::size_t faces = 1;
+    std::size_t edges = 3;
+    bool curved = false;
+  };
+  const auto count = [](const WhitenedTree& tree, int node) -> Counts {
+    if (tree.tree->isMesh()) return {};
+    const PieceShape& shape = shapeAt(tree, node);
+    return {shape.faces.size(), shape.edges.size(), shape.body.curved()};
+  };
+  const Counts of_a = count(pair_.a, a);
+  const Counts of_b = count(pair_.b, b);
+  if (of_a.curved || of_b.curved) return false;
+  return of_a.faces + of_b.faces + of_a.edges * of_b.edges <= kMostSlabs;
+}
+
+SupportObstacle ObstacleTable::support(int a, int b) const {
+  const double reach =
+      3 * (largestCoordinate(pair_.a.boxes[a]) + largestCoordinate(pair_.b.boxes[b])) +
+      1.8 * kReach;
+  const double error = 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
+  return {bodyAt(pair_.a, a), bodyAt(pair_.b, b), error};
 }
 
 std::size_t ObstacleTable::memory() const {

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cobstacle/support_obstacle.h"
 #include "partition/whitened_tree.h"
 
 namespace fcl_prob::detail {
@@ -23,6 +24,9 @@ class ObstacleTable {
 
   const SlabArrays& slabs(int obstacle) const { return obstacles_[obstacle]; }
 
+  /// The same C-obstacle by its support function: what its slabs leave open if they are outer_only.
+  SupportObstacle support(int a, int b) const;
+
   std::size_t size() const { return obstacles_.size(); }
   std::size_t memory() const;
 
@@ -30,6 +34,7 @@ class ObstacleTable {
   double* allocate(int count);
   SlabArrays buildTriangles(int a, int b);
   SlabArrays buildPieces(int a, int b);
+  bool hasFewSlabs(int a, int b) const;
 
   const WhitenedPair& pair_;
   std::vector<SlabArrays> obstacles_;

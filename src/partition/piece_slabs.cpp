@@ -31,12 +31,9 @@ WhitenedPiece whitenedTriangle(const WhitenedTree& tree, int triangle) {
 
 WhitenedPiece whitenedPiece(const WhitenedTree& tree, int index) {
   if (tree.tree->isMesh()) return whitenedTriangle(tree, index);
-  const ConvexPiece& piece = tree.tree->pieces[index];
-  WhitenedPiece result;
-  for (const int v : piece.vertices) result.vertices.push_back(tree.vertices[v]);
-  for (const auto& [p, q] : piece.faces)
-    result.faces.emplace_back(tree.linear * p, tree.linear * q);
-  for (const Eigen::Vector3d& edge : piece.edges) result.edges.push_back(tree.linear * edge);
+  const PieceShape& shape = tree.shapes[tree.tree->pieces[index]].shape;
+  WhitenedPiece result{shape.body.points, shape.faces, shape.edges};
+  for (Eigen::Vector3d& point : result.vertices) point += tree.vertices[index];
   return result;
 }
 

@@ -6,7 +6,6 @@
 
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
-#include "geometry/convex_vertices.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
 
@@ -24,9 +23,13 @@ void centre(PieceTree& tree) {
     hi = hi.cwiseMax(v);
   }
   tree.origin = lo + 0.5 * (hi - lo);
+  double shape_radius = 0.0;
+  for (const PieceShape& shape : tree.shapes) {
+    shape_radius = std::max(shape_radius, shape.body.radius());
+  }
   for (Eigen::Vector3d& v : tree.vertices) {
     v -= tree.origin;
-    tree.radius = std::max(tree.radius, v.norm());
+    tree.radius = std::max(tree.radius, v.norm() + shape_radius);
   }
 }
 
@@ -63,9 +66,8 @@ void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
 }
 
 // Faces and edges of the hull; parallel ones once, since a slab has two sides.
-ConvexPiece pieceOfHull(const ConvexPolytope& hull) {
-  ConvexPiece piece;
-  for (int i = 0; i < static_cast<int>(hull.vertices.size()); ++i) piece.vertices.push_back(i);
+PieceShape shapeOfHull(const ConvexPolytope& hull) {
+  PieceShape piece{{hull.vertices, 0}, {}, {}};
   const auto isNew = [](const std::vector<Eigen::Vector3d>& known, const Eigen::Vector3d& unit) {
     return std::none_of(known.begin(), known.end(), [&unit](const Eigen::Vector3d& other) {
       return other.cross(unit).norm() < 1e-14;
@@ -93,11 +95,10 @@ ConvexPiece pieceOfHull(const ConvexPolytope& hull) {
 
 // A hull without volume: every pair of vertices may be an edge, which gives more slabs than needed
 // and none too few.
-ConvexPiece pieceOfFlatHull(const ConvexPolytope& hull) {
-  ConvexPiece piece;
+PieceShape shapeOfFlatHull(const ConvexPolytope& hull) {
+  PieceShape piece{{hull.vertices, 0}, {}, {}};
   const int count = static_cast<int>(hull.vertices.size());
   for (int i = 0; i < count; ++i) {
-    piece.vertices.push_back(i);
     for (int j = 0; j < i; ++j) piece.edges.push_back(hull.vertices[i] - hull.vertices[j]);
   }
   for (std::size_t i = 1; i < piece.edges.size(); ++i) {
@@ -106,15 +107,21 @@ ConvexPiece pieceOfFlatHull(const ConvexPolytope& hull) {
   return piece;
 }
 
+PieceShape shapeOfPolytope(const std::vector<Eigen::Vector3d>& vertices) {
+  const ConvexPolytope hull = convexHull(vertices);
+  return hull.faces.empty() ? shapeOfFlatHull(hull) : shapeOfHull(hull);
+}
+
+// The middle of the body is its position, so that a body far from its frame's origin loses nothing
+// to rounding.
 void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
-  const auto vertices = polytopeVertices(geometry);
-  if (!vertices) {
-    throw UnsupportedGeometry("the partition does not handle " +
-                              nodeTypeName(geometry.getNodeType()));
-  }
-  const ConvexPolytope hull = convexHull(*vertices);
-  tree.vertices = hull.vertices;
-  tree.pieces.push_back(hull.faces.empty() ? pieceOfFlatHull(hull) : pieceOfHull(hull));
+  SupportShape body = supportShape(geometry);
+  const Eigen::Vector3d position = body.centre();
+  for (Eigen::Vector3d& point : body.points) point -= position;
+  tree.shapes.push_back(body.curved() ? PieceShape{std::move(body), {}, {}}
+                                      : shapeOfPolytope(body.points));
+  tree.vertices.push_back(position);
+  tree.pieces.push_back(0);
   tree.nodes.resize(1);
   tree.nodes[0].piece = 0;
 }

@@ -9,13 +9,15 @@
 #include <memory>
 #include <vector>
 
+#include "cobstacle/support_shape.h"
+
 namespace fcl_prob::detail {
 
-/// A convex piece as the hull of a few of the tree's vertices, with what its C-obstacles need:
-/// every face as a pair of spanning vectors, and the directions of the edges. Both transform
+/// A convex piece relative to its position, with what its C-obstacles need: if it is a polytope,
+/// every face as a pair of spanning vectors, and the directions of the edges. All of it transforms
 /// linearly.
-struct ConvexPiece {
-  std::vector<int> vertices;
+struct PieceShape {
+  SupportShape body;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> faces;
   std::vector<Eigen::Vector3d> edges;
 };
@@ -26,20 +28,22 @@ struct PieceTree {
   struct Node {
     int left = -1;   ///< index of the first child, always greater than the node's own; -1 at a leaf
     int right = -1;  ///< index of the second child; -1 at a leaf
-    int piece = -1;  ///< at a leaf: its triangle, or its index in `pieces`
+    int piece = -1;  ///< at a leaf: its triangle, or its piece
     bool isLeaf() const { return left < 0; }
   };
 
-  std::vector<Node> nodes;                 ///< nodes[0] is the root
-  Eigen::Vector3d origin;                  ///< metres, geometry's frame
-  std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to `origin`
+  std::vector<Node> nodes;  ///< nodes[0] is the root
+  Eigen::Vector3d origin;   ///< metres, geometry's frame
+  /// Metres, relative to `origin`: of a mesh its vertices, of anything else where the pieces are.
+  std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;  ///< of a mesh
-  std::vector<ConvexPiece> pieces;         ///< of anything else
-  double radius = 0.0;                     ///< metres: of a ball around `origin` with all vertices
-  bool isMesh() const { return !triangles.empty(); }
+  std::vector<int> pieces;                 ///< of anything else: which of the shapes each piece has
+  std::vector<PieceShape> shapes;          ///< in the geometry's axes
+  double radius = 0.0;                     ///< metres: of a ball around `origin` with everything
+  bool isMesh() const { return shapes.empty(); }
 };
 
-/// \throws UnsupportedGeometry for shapes that are not polyhedra, InvalidGeometry for broken ones.
+/// \throws UnsupportedGeometry for unbounded shapes, InvalidGeometry for broken ones.
 std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry);
 
 }  // namespace fcl_prob::detail

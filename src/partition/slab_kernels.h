@@ -13,6 +13,7 @@ namespace fcl_prob::detail {
 struct SlabArrays {
   const double* data;
   int count;
+  bool outer_only = false;  ///< the margins are without end: nothing is said of the inside
 
   const double* nx() const { return data; }
   const double* ny() const { return data + count; }

@@ -53,7 +53,9 @@ void fitBoxes(WhitenedTree& whitened) {
     if (tree.isMesh()) {
       for (int corner = 0; corner < 3; ++corner) include(tree.triangles[node.piece][corner]);
     } else {
-      for (const int vertex : tree.pieces[node.piece].vertices) include(vertex);
+      const WhitenedShape& shape = whitened.shapes[tree.pieces[node.piece]];
+      lo = whitened.vertices[node.piece] + shape.lo;
+      hi = whitened.vertices[node.piece] + shape.hi;
     }
     for (int k = 0; k < 3; ++k) {
       box.lo[k] = lo[k] - whitened.error;
@@ -62,14 +64,26 @@ void fitBoxes(WhitenedTree& whitened) {
   }
 }
 
+WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear) {
+  WhitenedShape result{{shape.body.transformed(linear), {}, {}}, {}, {}};
+  for (const auto& [p, q] : shape.faces) result.shape.faces.emplace_back(linear * p, linear * q);
+  for (const Eigen::Vector3d& edge : shape.edges) result.shape.edges.push_back(linear * edge);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    result.lo[k] = -result.shape.body.supportValue(-axis);
+    result.hi[k] = result.shape.body.supportValue(axis);
+  }
+  return result;
+}
+
 WhitenedTree whitenOne(const PieceTree& tree, const fcl::Transform3d& pose,
                        const Whitening& whitening, const Eigen::Vector3d& offset) {
   WhitenedTree result;
   result.tree = &tree;
-  result.linear = whitening.matrix() * pose.linear();
+  const Eigen::Matrix3d linear = whitening.matrix() * pose.linear();
   result.vertices.reserve(tree.vertices.size());
-  for (const Eigen::Vector3d& v : tree.vertices)
-    result.vertices.push_back(result.linear * v + offset);
+  for (const Eigen::Vector3d& v : tree.vertices) result.vertices.push_back(linear * v + offset);
+  for (const PieceShape& shape : tree.shapes) result.shapes.push_back(whitenShape(shape, linear));
   const double size = largestRowSum(whitening.matrix()) * 1.8 * tree.radius;
   result.error = 16 * kEpsilon * (2 * size + offset.cwiseAbs().maxCoeff()) +
                  std::numeric_limits<double>::min();

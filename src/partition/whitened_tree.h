@@ -21,15 +21,22 @@ struct NodeBox {
   double size() const { return hi[0] - lo[0] + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
 };
 
+/// A shape of the pieces and its extent, relative to the position of a piece.
+struct WhitenedShape {
+  PieceShape shape;
+  Eigen::Vector3d lo;
+  Eigen::Vector3d hi;
+};
+
 /// Vertices and node boxes of one object in the whitened frame. With A's and B's trees of one
 /// query, `b - a` over their points is the C-obstacle: the constant part of both poses is in B's
 /// vertices.
 struct WhitenedTree {
   const PieceTree* tree = nullptr;
   std::vector<Eigen::Vector3d> vertices;
+  std::vector<WhitenedShape> shapes;
   std::vector<NodeBox> boxes;  ///< of tree->nodes, padded by `error`
-  Eigen::Matrix3d linear;      ///< geometry's frame to whitened frame, linear part
-  double error = 0.0;          ///< bound on the error of every coordinate of `vertices`
+  double error = 0.0;  ///< bound on the error of every coordinate of a vertex or point of a piece
 };
 
 struct WhitenedPair {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The C-obstacle of two convex bodies that are known by their support functions.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "cobstacle/support_shape.h"
+
+namespace fcl_prob::detail {
+
+/// A body in the whitened frame: a shape moved to a position, or a triangle.
+class SupportBody {
+ public:
+  /// Keeps a reference to `shape`.
+  SupportBody(const SupportShape& shape, const Eigen::Vector3d& position)
+      : shape_(&shape), position_(position) {}
+
+  SupportBody(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+      : corners_{a, b, c} {}
+
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
+  double supportValue(const Eigen::Vector3d& direction) const;
+  Eigen::Matrix3d supportDerivative(const Eigen::Vector3d& direction) const;
+  Eigen::Vector3d centre() const;
+  Eigen::Matrix3d spread() const;
+  std::vector<Eigen::Vector3d> sideNormals() const;
+
+ private:
+  const Eigen::Vector3d& farthestCorner(const Eigen::Vector3d& direction) const;
+
+  const SupportShape* shape_ = nullptr;
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, 3> corners_;
+};
+
+/// V = B ⊕ (−A) in the whitened frame.
+class SupportObstacle {
+ public:
+  /// \param error  no computed support point or value is farther from the true one than this
+  SupportObstacle(const SupportBody& a, const SupportBody& b, double error);
+
+  /// A point of V, within error(), that lies farthest in a direction (any length).
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const {
+    return b_.supportPoint(direction) - a_.supportPoint(-direction);
+  }
+
+  /// Derivative of supportPoint(): the inverse of the curvature of the boundary.
+  Eigen::Matrix3d supportDerivative(const Eigen::Vector3d& direction) const {
+    return b_.supportDerivative(direction) + a_.supportDerivative(-direction);
+  }
+
+  /// Certainly not below direction·y on V, for a unit direction.
+  double supportUpper(const Eigen::Vector3d& direction) const {
+    return b_.supportValue(direction) + a_.supportValue(-direction) + error_;
+  }
+
+  /// A point of V, within error(), that is inside unless V has no inside.
+  const Eigen::Vector3d& centre() const { return centre_; }
+
+  double error() const { return error_; }
+
+  /// Second moments of the two bodies, added: how wide V is in which direction, roughly.
+  Eigen::Matrix3d spread() const { return a_.spread() + b_.spread(); }
+
+  /// Unit normals of flat sides that V certainly has, up to their signs; not all of them.
+  std::vector<Eigen::Vector3d> sideNormals() const;
+
+ private:
+  SupportBody a_;
+  SupportBody b_;
+  double error_;
+  Eigen::Vector3d centre_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "shapes.h"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "fcl_prob/convex_polytope.h"
+#include "mesh_shapes.h"
+
+namespace fcl_prob_test {
+
+std::vector<NamedGeometry> boundedShapes() {
+  return {{"Box", std::make_shared<fcl::Boxd>(0.5, 0.7, 0.9)},
+          {"Sphere", std::make_shared<fcl::Sphered>(0.5)},
+          {"Ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.3, 0.4, 0.6)},
+          {"Capsule", std::make_shared<fcl::Capsuled>(0.25, 0.6)},
+          {"Cone", std::make_shared<fcl::Coned>(0.4, 0.9)},
+          {"Cylinder", std::make_shared<fcl::Cylinderd>(0.3, 0.8)},
+          {"Convex", randomConvex(12, 0.6, 7)},
+          {"TriangleP", std::make_shared<fcl::TrianglePd>(Eigen::Vector3d(0.5, 0.1, 0.0),
+                                                          Eigen::Vector3d(-0.4, 0.4, 0.1),
+                                                          Eigen::Vector3d(-0.2, -0.5, -0.1))}};
+}
+
+std::vector<NamedGeometry> meshes() {
+  return {{"BVHModel<OBBRSS>", makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 5, 8, 3))},
+          {"BVHModel<AABB>", makeModel<fcl::AABBd>(torusMesh(0.4, 0.15, 8, 5))}};
+}
+
+std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius,
+                                                      std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> share(0.6, 1.0);
+  std::vector<Eigen::Vector3d> cloud;
+  for (int i = 0; i < points; ++i) {
+    cloud.push_back(radius * share(generator) * randomDirection(generator));
+  }
+  const fcl_prob::ConvexPolytope hull = fcl_prob::convexHull(cloud);
+  std::vector<int> faces;
+  for (const fcl_prob::ConvexPolytope::Face& face : hull.faces) {
+    faces.push_back(static_cast<int>(face.vertices.size()));
+    faces.insert(faces.end(), face.vertices.begin(), face.vertices.end());
+  }
+  return std::make_shared<fcl::Convexd>(
+      std::make_shared<const std::vector<Eigen::Vector3d>>(hull.vertices),
+      static_cast<int>(hull.faces.size()), std::make_shared<const std::vector<int>>(faces));
+}
+
+Eigen::Matrix3d randomRotation(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  const double w = normal(generator), x = normal(generator);
+  const double y = normal(generator), z = normal(generator);
+  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+}
+
+Eigen::Vector3d randomDirection(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  const double x = normal(generator), y = normal(generator), z = normal(generator);
+  return Eigen::Vector3d(x, y, z).normalized();
+}
+
+fcl_prob::GaussianDisplacement randomDisplacement(std::mt19937_64& generator, double least,
+                                                  double most) {
+  std::uniform_real_distribution<double> log_sigma(std::log(least), std::log(most));
+  const double x = log_sigma(generator), y = log_sigma(generator), z = log_sigma(generator);
+  return fcl_prob::GaussianDisplacement::fromStandardDeviations(
+      {std::exp(x), std::exp(y), std::exp(z)}, Eigen::Quaterniond(randomRotation(generator)));
+}
+
+}  // namespace fcl_prob_test
