@@ -104,11 +104,31 @@ void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
   if (solids) result.plan.push_back("containment decided once for every free cell");
 }
 
+ProbabilityResult withoutContact(const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  const bool estimate = request.method == ProbabilityMethod::estimate;
+  result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
+  result.status = ProbabilityStatus::exact;
+  result.lower = 0.0;
+  result.upper = 0.0;
+  if (estimate) {
+    result.estimate = 0.0;
+    result.standard_error = 0.0;
+  }
+  if (request.gradient) {
+    result.gradient = result.gradient_lower = result.gradient_upper = Eigen::Vector3d::Zero();
+  }
+  decide(request, result);
+  result.plan.push_back("an octree without occupied cells collides with nothing");
+  return result;
+}
+
 }  // namespace
 
 ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request) {
+  if (a.tree->isEmpty() || b.tree->isEmpty()) return withoutContact(request);
   ProbabilityResult result;
   StageClock clock(result.statistics);
   const QueryFrame frame = queryFrame(a, b, displacement);

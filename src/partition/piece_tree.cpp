@@ -8,6 +8,7 @@
 #include "fcl_prob/exceptions.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
+#include "partition/octree_pieces.h"
 
 namespace fcl_prob::detail {
 
@@ -16,6 +17,7 @@ namespace {
 // Moves the origin to the middle of the vertices, so that a geometry far from its own frame's
 // origin loses nothing to rounding in the products that follow.
 void centre(PieceTree& tree) {
+  if (tree.vertices.empty()) return;
   Eigen::Vector3d lo = tree.vertices.front();
   Eigen::Vector3d hi = lo;
   for (const Eigen::Vector3d& v : tree.vertices) {
@@ -130,10 +132,15 @@ void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
 
 std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry) {
   auto tree = std::make_shared<PieceTree>();
-  if (kindOf(geometry) == GeometryKind::mesh) {
-    fillMesh(geometry, *tree);
-  } else {
-    fillConvex(geometry, *tree);
+  switch (kindOf(geometry)) {
+    case GeometryKind::mesh:
+      fillMesh(geometry, *tree);
+      break;
+    case GeometryKind::octree:
+      fillOcTree(static_cast<const fcl::OcTreed&>(geometry), *tree);
+      break;
+    default:
+      fillConvex(geometry, *tree);
   }
   centre(*tree);
   return tree;

@@ -23,7 +23,8 @@ struct PieceShape {
 };
 
 /// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
-/// refits axis-aligned boxes in the whitened frame of each query.
+/// refits axis-aligned boxes in the whitened frame of each query. An octree without occupied cells
+/// has no nodes.
 struct PieceTree {
   struct Node {
     int left = -1;   ///< index of the first child, always greater than the node's own; -1 at a leaf
@@ -32,8 +33,8 @@ struct PieceTree {
     bool isLeaf() const { return left < 0; }
   };
 
-  std::vector<Node> nodes;  ///< nodes[0] is the root
-  Eigen::Vector3d origin;   ///< metres, geometry's frame
+  std::vector<Node> nodes;                           ///< nodes[0] is the root
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, geometry's frame
   /// Metres, relative to `origin`: of a mesh its vertices, of anything else where the pieces are.
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;  ///< of a mesh
@@ -41,6 +42,7 @@ struct PieceTree {
   std::vector<PieceShape> shapes;          ///< in the geometry's axes
   double radius = 0.0;                     ///< metres: of a ball around `origin` with everything
   bool isMesh() const { return shapes.empty(); }
+  bool isEmpty() const { return nodes.empty(); }
 };
 
 /// \throws UnsupportedGeometry for unbounded shapes, InvalidGeometry for broken ones.
