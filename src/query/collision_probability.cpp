@@ -10,6 +10,7 @@
 #include "query/prepared_geometry.h"
 #include "query/query_plan.h"
 #include "query/single_collide.h"
+#include "query/unbounded_pair.h"
 #include "query/upper_bounds.h"
 
 namespace fcl_prob {
@@ -51,6 +52,8 @@ ProbabilityResult PreparedQuery::Implementation::follow(const detail::QueryPlan&
                                    displacement.mean(), request);
     case Route::partition:
       return partition(plan, pair, displacement, request);
+    case Route::unbounded_pair:
+      return detail::unboundedPairProbability(pair, displacement, request);
     case Route::exact_mass:
       return detail::exactMass(pair, displacement, request);
     case Route::convex_bound:

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "fcl_prob/convex_pcd.h"
-#include "fcl_prob/monte_carlo.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob::detail {
@@ -29,9 +28,7 @@ class ExactMass {
         mass_(massOf(pair.a.rootBody(), pair.b.rootBody())) {}
 
   ProbabilityResult answer() {
-    const bool automatic = request_.method == ProbabilityMethod::automatic;
-    const bool samples = automatic && fclSupportsPair(pair_.a.geometry(), pair_.b.geometry());
-    if (status() == ProbabilityStatus::resolution_limit && !samples) refine();
+    if (status() == ProbabilityStatus::resolution_limit) refine();
     ProbabilityResult result;
     result.method = ProbabilityMethod::exact;
     result.status = status();
@@ -42,7 +39,6 @@ class ExactMass {
     if (status() != ProbabilityStatus::exact) {
       result.plan.push_back("curved sides enclosed between polytopes");
     }
-    if (status() == ProbabilityStatus::resolution_limit && samples) addEstimate(result);
     return result;
   }
 
@@ -67,19 +63,6 @@ class ExactMass {
         std::max(request_.absolute_tolerance, request_.relative_tolerance * mass_.upper);
     return mass_.width() <= tolerance ? ProbabilityStatus::converged
                                       : ProbabilityStatus::resolution_limit;
-  }
-
-  void addEstimate(ProbabilityResult& result) const {
-    const ProbabilityResult sampled =
-        monteCarloProbability(pair_.a.geometry(), pair_.pose_a, pair_.b.geometry(), pair_.pose_b,
-                              displacement_, request_);
-    result.estimate = std::clamp(*sampled.estimate, mass_.lower, mass_.upper);
-    result.standard_error = sampled.standard_error;
-    result.confidence_interval = sampled.confidence_interval;
-    result.statistics.samples = sampled.statistics.samples;
-    result.statistics.hits = sampled.statistics.hits;
-    if (sampled.status == ProbabilityStatus::cancelled) result.status = sampled.status;
-    result.plan.push_back("wider than the tolerance: an estimate by Monte Carlo added");
   }
 
   const PlacedPair& pair_;

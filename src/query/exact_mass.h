@@ -11,8 +11,7 @@
 namespace fcl_prob::detail {
 
 /// The mass of the C-obstacle. Flat sides leave a rounding margin only; curved ones are enclosed
-/// between polytopes, which are refined once if the tolerance asks for it. Where that does not
-/// reach it, the automatic method adds what Monte Carlo estimates within the interval.
+/// between polytopes, which are refined once if the tolerance asks for it.
 ProbabilityResult exactMass(const PlacedPair& pair, const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request);
 

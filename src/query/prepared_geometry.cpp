@@ -13,11 +13,7 @@ PreparedGeometry::PreparedGeometry(std::shared_ptr<const fcl::CollisionGeometryd
   validateGeometry(geometry_.get(), name_);
 }
 
-bool PreparedGeometry::hasPieces() const {
-  const fcl::NODE_TYPE type = geometry_->getNodeType();
-  return kindOf(*geometry_) == GeometryKind::mesh || type == fcl::GEOM_BOX ||
-         type == fcl::GEOM_CONVEX || type == fcl::GEOM_TRIANGLE;
-}
+bool PreparedGeometry::hasPieces() const { return kindOf(*geometry_) != GeometryKind::unbounded; }
 
 const PieceTree& PreparedGeometry::pieces() const {
   std::call_once(pieces_once_, [this] { pieces_ = buildPieceTree(*geometry_); });

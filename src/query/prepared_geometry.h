@@ -26,7 +26,7 @@ class PreparedGeometry {
 
   const fcl::CollisionGeometryd& geometry() const { return *geometry_; }
 
-  /// Whether the partition can handle it: meshes and convex polytopes.
+  /// Whether the partition can handle it: whatever is bounded.
   bool hasPieces() const;
   const PieceTree& pieces() const;
 

@@ -14,10 +14,21 @@ struct QueryPair {
   const PreparedGeometry& b;
 
   bool inFcl() const { return fclSupportsPair(a.geometry(), b.geometry()); }
-  bool havePieces() const { return a.hasPieces() && b.hasPieces(); }
   bool haveRootBodies() const { return a.hasRootBody() && b.hasRootBody(); }
   bool areConvex() const { return a.isConvex() && b.isConvex(); }
   bool anyMesh() const { return isMesh(a) || isMesh(b); }
+
+  /// A Halfspace or Plane is one of them.
+  bool anyUnbounded() const { return !a.hasPieces() || !b.hasPieces(); }
+
+  /// Convex shapes whose C-obstacle has an exact mass.
+  bool haveExactMass(const GaussianDisplacement& displacement) const {
+    if (!areConvex()) return false;
+    const auto type_a = a.geometry().getNodeType();
+    const auto type_b = b.geometry().getNodeType();
+    if (isPolytope(type_a) && isPolytope(type_b)) return true;
+    return type_a == fcl::GEOM_SPHERE && type_b == fcl::GEOM_SPHERE && displacement.isotropic();
+  }
 
   std::string name() const {
     return nodeTypeName(a.geometry().getNodeType()) + " and " +
@@ -25,6 +36,9 @@ struct QueryPair {
   }
 
  private:
+  static bool isPolytope(fcl::NODE_TYPE type) {
+    return type == fcl::GEOM_BOX || type == fcl::GEOM_CONVEX || type == fcl::GEOM_TRIANGLE;
+  }
   static bool isMesh(const PreparedGeometry& geometry) {
     return kindOf(geometry.geometry()) == GeometryKind::mesh;
   }
@@ -37,21 +51,25 @@ struct QueryPair {
 
 QueryPlan planWithoutMotion(const QueryPair& pair) {
   const std::string reason = "the covariance is 0: nothing is random";
+  if (pair.anyUnbounded()) return {Route::unbounded_pair, false, {reason}};
   if (pair.inFcl()) return {Route::single_collide, false, {reason + ", one fcl::collide"}};
-  if (pair.havePieces()) {
-    return {Route::partition,
-            false,
-            {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
-  }
-  throw UnsupportedGeometry("nothing can collide the pair " + pair.name());
+  return {
+      Route::partition, false, {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
+}
+
+QueryPlan planUnbounded() {
+  return {Route::unbounded_pair,
+          false,
+          {"a half-space or plane: only the displacement along its normal matters, closed form"}};
 }
 
 QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
-  if (!pair.havePieces()) refuse(request.method, pair, "it partitions meshes and convex polytopes");
+  if (pair.anyUnbounded()) return planUnbounded();
   QueryPlan plan{Route::partition, false, {}};
   // A bound from above has no gradient, and an estimate was asked for by name.
-  plan.try_root_bound = !request.gradient && request.method != ProbabilityMethod::estimate;
+  plan.try_root_bound =
+      pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
@@ -63,7 +81,8 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
 
 QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacement,
                     const ProbabilityRequest& request) {
-  if (!pair.areConvex()) refuse(request.method, pair, "it needs two bounded convex shapes");
+  if (pair.anyUnbounded()) return planUnbounded();
+  if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
   QueryPlan plan{Route::exact_mass, false, {}};
   plan.notes.push_back("both shapes are convex: exact mass of their C-obstacle, no tree");
   if (displacement.isotropic()) {
@@ -75,11 +94,9 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
 
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
-  const bool gradient_by_partition = request.gradient && pair.havePieces();
-  if (pair.areConvex() && !gradient_by_partition) return planExact(pair, displacement, request);
-  if (pair.havePieces()) return planPartition(pair, displacement, request);
-  if (!pair.inFcl()) refuse(request.method, pair, "neither the partition nor fcl::collide does");
-  return {Route::monte_carlo, false, {"partition left out: it has no pieces of " + pair.name()}};
+  const bool exact = !request.gradient && pair.haveExactMass(displacement);
+  return exact ? planExact(pair, displacement, request)
+               : planPartition(pair, displacement, request);
 }
 
 QueryPlan planConvexBound(const QueryPair& pair, const ProbabilityRequest& request) {

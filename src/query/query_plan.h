@@ -16,6 +16,7 @@ namespace fcl_prob::detail {
 enum class Route {
   single_collide,
   partition,
+  unbounded_pair,
   exact_mass,
   convex_bound,
   general_pcd,
