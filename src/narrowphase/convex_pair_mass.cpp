@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
+#include <algorithm>
+
 #include "cobstacle/convex_body_data.h"
 #include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/normal_mass.h"
 #include "narrowphase/pair_bounds.h"
 
 namespace fcl_prob {
+namespace {
+
+/// Mass of a ball whose centre is known to within `error` (metres); the deviations differ by
+/// rounding only. The mass falls with the distance and grows with the radius.
+Bounds ballMass(const detail::Ellipsoid& ball, double error, const Eigen::Vector3d& deviations) {
+  const double distance = ball.centre.norm();
+  const double most = deviations.maxCoeff();
+  const double least = deviations.minCoeff();
+  const double inner_radius = std::max(ball.radius - error, 0.0);
+  return {
+      normalBallMass((distance + error) / least, inner_radius / most).lower,
+      normalBallMass(std::max(distance - error, 0.0) / most, (ball.radius + error) / least).upper};
+}
+
+}  // namespace
 
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement) {
@@ -15,8 +32,7 @@ Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const
   if (obstacle->isPolytope()) return pair.mass(*obstacle);
   const auto ball = obstacle->ellipsoid();
   if (ball && displacement.isotropic()) {
-    const double scale = displacement.standardDeviations()[0];
-    return normalBallMass(ball->centre.norm() / scale, ball->radius / scale);
+    return ballMass(*ball, frame.error, displacement.standardDeviations());
   }
   using detail::ConvexSetObstacle;
   using Faces = ConvexSetObstacle::Faces;
