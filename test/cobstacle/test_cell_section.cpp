@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "catch.h"
+#include "random_bodies.h"
 #include "shapes.h"
 
 using namespace fcl_prob::detail;
@@ -17,14 +18,13 @@ namespace {
 
 // A direction in which a point is outside of V by the most, found by random search: max over n of
 // n·y - h(n). Independent of portals. Positive: certainly outside.
-double excess(const SupportObstacle& obstacle, const Eigen::Vector3d& y,
-              std::mt19937_64& generator) {
+double excess(const SupportObstacle& obstacle, const Eigen::Vector3d& y, RandomBodies& random) {
   Eigen::Vector3d best = (y - obstacle.centre()).normalized();
   const auto value = [&](const Eigen::Vector3d& n) { return n.dot(y) - obstacle.supportUpper(n); };
   double highest = value(best);
   double step = 1.0;
   for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector3d n = (best + step * randomDirection(generator)).normalized();
+    const Eigen::Vector3d n = (best + step * random.direction()).normalized();
     if (value(n) > highest) {
       highest = value(n);
       best = n;
@@ -33,6 +33,13 @@ double excess(const SupportObstacle& obstacle, const Eigen::Vector3d& y,
     }
   }
   return highest;
+}
+
+// A point of the cube from -1 to 1.
+Eigen::Vector3d insideCube(RandomBodies& random) {
+  const double x = random.uniform(-1.0, 1.0);
+  const double y = random.uniform(-1.0, 1.0);
+  return {x, y, random.uniform(-1.0, 1.0)};
 }
 
 struct Counts {
@@ -45,9 +52,8 @@ struct Counts {
 
 // Checks the section of one cell on random points of it; returns whether it has an inner plane.
 void checkSection(const SupportObstacle& obstacle, const Eigen::Vector3d& middle,
-                  const Eigen::Vector3d& half, std::mt19937_64& generator, Counts& counts) {
+                  const Eigen::Vector3d& half, RandomBodies& random, Counts& counts) {
   const CellSection section = sectionOf(obstacle, middle - half, middle + half, 3);
-  std::uniform_real_distribution<double> share(-1.0, 1.0);
   ++counts.cells;
   counts.outside += section.relation == CellSection::Relation::outside;
   counts.inside += section.relation == CellSection::Relation::inside;
@@ -56,8 +62,7 @@ void checkSection(const SupportObstacle& obstacle, const Eigen::Vector3d& middle
   counts.with_inner += has_inner;
   if (has_inner) counts.gap += (section.outer - section.inner) / half.maxCoeff();
   for (int i = 0; i < 20; ++i) {
-    const double x = share(generator), y = share(generator), z = share(generator);
-    const Eigen::Vector3d point = middle + half.cwiseProduct(Eigen::Vector3d(x, y, z));
+    const Eigen::Vector3d point = middle + half.cwiseProduct(insideCube(random));
     const double along = section.normal.dot(point);
     const bool claimed_inside =
         section.relation == CellSection::Relation::inside || (has_inner && along <= section.inner);
@@ -65,7 +70,7 @@ void checkSection(const SupportObstacle& obstacle, const Eigen::Vector3d& middle
         section.relation == CellSection::Relation::outside ||
         (!section.normal.isZero(0.0) && section.relation == CellSection::Relation::cut &&
          along > section.outer);
-    const double out = excess(obstacle, point, generator);
+    const double out = excess(obstacle, point, random);
     if (claimed_inside) REQUIRE(out <= 0.0);
     if (claimed_outside) REQUIRE_FALSE(contains(obstacle, point));
     // contains() itself, away from the boundary that the search finds only roughly.
@@ -76,9 +81,7 @@ void checkSection(const SupportObstacle& obstacle, const Eigen::Vector3d& middle
 }  // namespace
 
 TEST_CASE("what a section claims holds at random points of the cell, for every pair of shapes") {
-  std::mt19937_64 generator(11);
-  std::uniform_real_distribution<double> log_width(std::log(1e-3), std::log(0.5));
-  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  RandomBodies random(11);
   Counts counts;
   const auto shapes = boundedShapes();
   for (const NamedGeometry& a : shapes) {
@@ -86,18 +89,16 @@ TEST_CASE("what a section claims holds at random points of the cell, for every p
       INFO(a.name << " and " << b.name);
       const Eigen::Matrix3d whitening = Eigen::Vector3d(3, 10, 30).asDiagonal();
       const SupportShape of_a =
-          supportShape(*a.geometry).transformed(whitening * randomRotation(generator));
+          supportShape(*a.geometry).transformed(whitening * random.rotation());
       const SupportShape of_b =
-          supportShape(*b.geometry).transformed(whitening * randomRotation(generator));
-      const SupportObstacle obstacle({of_a, randomDirection(generator)},
-                                     {of_b, randomDirection(generator)}, 1e-13);
+          supportShape(*b.geometry).transformed(whitening * random.rotation());
+      const SupportObstacle obstacle({of_a, random.direction()}, {of_b, random.direction()}, 1e-13);
       for (int i = 0; i < 12; ++i) {
-        const double width = std::exp(log_width(generator));
-        const Eigen::Vector3d half(width * (1.2 + share(generator)), width, width);
-        const Eigen::Vector3d touching = obstacle.supportPoint(randomDirection(generator));
-        const double x = share(generator), y = share(generator), z = share(generator);
-        const Eigen::Vector3d middle = touching + 1.5 * half.cwiseProduct(Eigen::Vector3d(x, y, z));
-        checkSection(obstacle, middle, half, generator, counts);
+        const double width = random.logUniform(1e-3, 0.5);
+        const Eigen::Vector3d half(width * (1.2 + random.uniform(-1.0, 1.0)), width, width);
+        const Eigen::Vector3d touching = obstacle.supportPoint(random.direction());
+        const Eigen::Vector3d middle = touching + 1.5 * half.cwiseProduct(insideCube(random));
+        checkSection(obstacle, middle, half, random, counts);
       }
     }
   }
@@ -107,14 +108,14 @@ TEST_CASE("what a section claims holds at random points of the cell, for every p
 }
 
 TEST_CASE("on a smooth boundary the planes close up with the square of the cell's width") {
-  std::mt19937_64 generator(12);
+  RandomBodies random(12);
   const auto shapes = boundedShapes();
   const Eigen::Matrix3d whitening = Eigen::Vector3d(3, 10, 30).asDiagonal();
   const SupportShape sphere = supportShape(*shapes[1].geometry).transformed(whitening);
   const SupportShape ellipsoid =
-      supportShape(*shapes[2].geometry).transformed(whitening * randomRotation(generator));
+      supportShape(*shapes[2].geometry).transformed(whitening * random.rotation());
   const SupportShape capsule =
-      supportShape(*shapes[3].geometry).transformed(whitening * randomRotation(generator));
+      supportShape(*shapes[3].geometry).transformed(whitening * random.rotation());
   for (const SupportShape* second : {&sphere, &ellipsoid, &capsule}) {
     const SupportObstacle obstacle({sphere, Eigen::Vector3d::Zero()},
                                    {*second, Eigen::Vector3d(3, 2, 1)}, 1e-13);
@@ -123,8 +124,8 @@ TEST_CASE("on a smooth boundary the planes close up with the square of the cell'
       Counts counts;
       for (int i = 0; i < 100; ++i) {
         const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * width);
-        const Eigen::Vector3d middle = obstacle.supportPoint(randomDirection(generator));
-        checkSection(obstacle, middle, half, generator, counts);
+        const Eigen::Vector3d middle = obstacle.supportPoint(random.direction());
+        checkSection(obstacle, middle, half, random, counts);
       }
       const double gap = counts.gap / counts.with_inner;
       INFO("width " << width << " gap " << gap);
@@ -136,7 +137,7 @@ TEST_CASE("on a smooth boundary the planes close up with the square of the cell'
 }
 
 TEST_CASE("cells of lower rank have sections too") {
-  std::mt19937_64 generator(13);
+  RandomBodies random(13);
   const auto shapes = boundedShapes();
   const SupportShape sphere = supportShape(*shapes[1].geometry);
   const SupportObstacle ball({sphere, Eigen::Vector3d::Zero()},

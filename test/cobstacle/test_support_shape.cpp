@@ -16,6 +16,7 @@
 #include "cobstacle/support_obstacle.h"
 #include "cobstacle/support_shape.h"
 #include "fcl_prob/exceptions.h"
+#include "random_bodies.h"
 #include "shapes.h"
 
 using fcl_prob::detail::SupportObstacle;
@@ -63,20 +64,20 @@ std::vector<Defined> definedShapes() {
 }  // namespace
 
 TEST_CASE("support points are points of the shape, and none of it lies farther") {
-  std::mt19937_64 generator(1);
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  RandomBodies random(1);
   for (const Defined& defined : definedShapes()) {
     const SupportShape shape = supportShape(*defined.geometry);
     std::vector<Eigen::Vector3d> inside;
     int tried = 0;
     while (inside.size() < 20000 && ++tried < 10000000) {
-      const double x = coordinate(generator), y = coordinate(generator), z = coordinate(generator);
+      const double x = random.uniform(-1.0, 1.0), y = random.uniform(-1.0, 1.0),
+                   z = random.uniform(-1.0, 1.0);
       const Eigen::Vector3d p(x, y, z);
       if (defined.excess(p) <= 0) inside.push_back(p);
     }
     REQUIRE(inside.size() == 20000);
     for (int i = 0; i < 200; ++i) {
-      const Eigen::Vector3d direction = randomDirection(generator);
+      const Eigen::Vector3d direction = random.direction();
       const Eigen::Vector3d point = shape.supportPoint(direction);
       const double value = shape.supportValue(direction);
       CHECK(std::fabs(defined.excess(point)) < 1e-12);
@@ -103,13 +104,13 @@ TEST_CASE("support points across the axis of a disk and along the axis") {
 }
 
 TEST_CASE("the derivative of the support point is that of its difference quotients") {
-  std::mt19937_64 generator(2);
+  RandomBodies random(2);
   int smooth = 0;
   for (const Defined& defined : definedShapes()) {
     const SupportShape shape = supportShape(*defined.geometry);
     for (int i = 0; i < 50; ++i) {
-      const Eigen::Vector3d direction = randomDirection(generator);
-      const Eigen::Vector3d step = 1e-6 * randomDirection(generator);
+      const Eigen::Vector3d direction = random.direction();
+      const Eigen::Vector3d step = 1e-6 * random.direction();
       const Eigen::Vector3d change =
           shape.supportPoint(direction + step) - shape.supportPoint(direction - step);
       const Eigen::Vector3d expected = 2 * shape.supportDerivative(direction) * step;
@@ -121,15 +122,14 @@ TEST_CASE("the derivative of the support point is that of its difference quotien
 }
 
 TEST_CASE("an image under a linear map has the support function of the image") {
-  std::mt19937_64 generator(3);
+  RandomBodies random(3);
   for (const NamedGeometry& named : boundedShapes()) {
     INFO(named.name);
     const SupportShape shape = supportShape(*named.geometry);
-    const Eigen::Matrix3d linear =
-        randomRotation(generator) * Eigen::Vector3d(0.1, 2, 30).asDiagonal();
+    const Eigen::Matrix3d linear = random.rotation() * Eigen::Vector3d(0.1, 2, 30).asDiagonal();
     const SupportShape image = shape.transformed(linear);
     for (int i = 0; i < 50; ++i) {
-      const Eigen::Vector3d direction = randomDirection(generator);
+      const Eigen::Vector3d direction = random.direction();
       CHECK(image.supportValue(direction) ==
             Approx(shape.supportValue(linear.transpose() * direction)).epsilon(1e-12));
     }
@@ -137,15 +137,15 @@ TEST_CASE("an image under a linear map has the support function of the image") {
 }
 
 TEST_CASE("the C-obstacle of two bodies contains differences of their points only") {
-  std::mt19937_64 generator(4);
+  RandomBodies random(4);
   const auto shapes = boundedShapes();
   for (const NamedGeometry& a : shapes) {
     for (const NamedGeometry& b : shapes) {
       const SupportShape shape_a = supportShape(*a.geometry), shape_b = supportShape(*b.geometry);
-      const Eigen::Vector3d at_a = randomDirection(generator), at_b = randomDirection(generator);
+      const Eigen::Vector3d at_a = random.direction(), at_b = random.direction();
       const SupportObstacle obstacle({shape_a, at_a}, {shape_b, at_b}, 0.0);
       for (int i = 0; i < 5; ++i) {
-        const Eigen::Vector3d direction = randomDirection(generator);
+        const Eigen::Vector3d direction = random.direction();
         const Eigen::Vector3d expected =
             shape_b.supportPoint(direction) + at_b - shape_a.supportPoint(-direction) - at_a;
         CHECK((obstacle.supportPoint(direction) - expected).norm() < 1e-14);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "shapes.h"
 
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -37,15 +38,9 @@ std::vector<NamedGeometry> meshes() {
           {"BVHModel<AABB>", makeModel<fcl::AABBd>(torusMesh(0.4, 0.15, 8, 5))}};
 }
 
-std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius,
-                                                      std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  std::uniform_real_distribution<double> share(0.6, 1.0);
-  std::vector<Eigen::Vector3d> cloud;
-  for (int i = 0; i < points; ++i) {
-    cloud.push_back(radius * share(generator) * randomDirection(generator));
-  }
-  const fcl_prob::ConvexPolytope hull = fcl_prob::convexHull(cloud);
+std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius, unsigned seed) {
+  RandomBodies random(seed);
+  const fcl_prob::ConvexPolytope hull = fcl_prob::convexHull(random.onSphere(points, radius));
   std::vector<int> faces;
   for (const fcl_prob::ConvexPolytope::Face& face : hull.faces) {
     faces.push_back(static_cast<int>(face.vertices.size()));
@@ -56,25 +51,22 @@ std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius,
       static_cast<int>(hull.faces.size()), std::make_shared<const std::vector<int>>(faces));
 }
 
-Eigen::Matrix3d randomRotation(std::mt19937_64& generator) {
-  std::normal_distribution<double> normal;
-  const double w = normal(generator), x = normal(generator);
-  const double y = normal(generator), z = normal(generator);
-  return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+std::shared_ptr<fcl::CollisionGeometryd> randomOcTree(int cells, double resolution, double radius,
+                                                      unsigned seed) {
+  RandomBodies random(seed);
+  const auto tree = std::make_shared<octomap::OcTree>(resolution);
+  for (int i = 0; i < cells; ++i) {
+    const Eigen::Vector3d p = radius * std::cbrt(random.uniform(0.0, 1.0)) * random.direction();
+    tree->updateNode(p.x(), p.y(), p.z(), i % 3 != 0);
+  }
+  return std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree));
 }
 
-Eigen::Vector3d randomDirection(std::mt19937_64& generator) {
-  std::normal_distribution<double> normal;
-  const double x = normal(generator), y = normal(generator), z = normal(generator);
-  return Eigen::Vector3d(x, y, z).normalized();
-}
-
-fcl_prob::GaussianDisplacement randomDisplacement(std::mt19937_64& generator, double least,
-                                                  double most) {
-  std::uniform_real_distribution<double> log_sigma(std::log(least), std::log(most));
-  const double x = log_sigma(generator), y = log_sigma(generator), z = log_sigma(generator);
-  return fcl_prob::GaussianDisplacement::fromStandardDeviations(
-      {std::exp(x), std::exp(y), std::exp(z)}, Eigen::Quaterniond(randomRotation(generator)));
+fcl_prob::GaussianDisplacement randomDisplacement(RandomBodies& random, double least, double most) {
+  const double x = random.logUniform(least, most);
+  const double y = random.logUniform(least, most);
+  const double z = random.logUniform(least, most);
+  return fcl_prob::GaussianDisplacement::fromStandardDeviations({x, y, z}, random.quaternion());
 }
 
 }  // namespace fcl_prob_test

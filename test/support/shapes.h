@@ -7,11 +7,11 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
+#include "random_bodies.h"
 
 namespace fcl_prob_test {
 
@@ -26,16 +26,14 @@ std::vector<NamedGeometry> boundedShapes();
 /// Two small meshes (not convex), in trees of different bounding volumes.
 std::vector<NamedGeometry> meshes();
 
-/// A Convex that is the hull of random points in a ball.
-std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius,
-                                                      std::uint64_t seed);
+/// A Convex that is the hull of random points on a sphere.
+std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius, unsigned seed);
 
-Eigen::Matrix3d randomRotation(std::mt19937_64& generator);
-
-Eigen::Vector3d randomDirection(std::mt19937_64& generator);
+/// An OcTree with random occupied and free cells in a ball.
+std::shared_ptr<fcl::CollisionGeometryd> randomOcTree(int cells, double resolution, double radius,
+                                                      unsigned seed);
 
 /// Standard deviations between `least` and `most` (metres, log-uniform), random axes, zero mean.
-fcl_prob::GaussianDisplacement randomDisplacement(std::mt19937_64& generator, double least,
-                                                  double most);
+fcl_prob::GaussianDisplacement randomDisplacement(RandomBodies& random, double least, double most);
 
 }  // namespace fcl_prob_test
