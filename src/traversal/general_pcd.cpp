@@ -2,16 +2,15 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/general_pcd.h"
 
-#include <memory>
 #include <string>
 #include <type_traits>
 
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
 #include "traversal/general_pcd_node.h"
+#include "traversal/geometry_tree.h"
 #include "traversal/hull_tree.h"
 
 namespace fcl_prob {
@@ -28,11 +27,7 @@ struct Query {
   void validate() const {
     validatePose(pose_a, "pose of A");
     validatePose(pose_b, "pose of B");
-    if (!(request.confidence >= 0.0 && request.confidence <= 1.0)) {
-      throw InvalidRequest("confidence is " + numberText(request.confidence) +
-                           ", must be in [0, 1]");
-    }
-    if (request.max_pairs == 0) throw InvalidRequest("max_pairs is 0, must be at least 1");
+    validateGeneralPcdRequest(request);
   }
 
   PairFrame frame(const BoundingTree& a, const BoundingTree& b) const {
@@ -42,24 +37,10 @@ struct Query {
   }
 };
 
-GeneralPcdResult minimumOver(NodePairs& pairs, const GeneralPcdRequest& request) {
-  PairSum sum(pairs, request);
-  const double root = sum.bound(0, 0);
-  sum.set(minimumRecursively(sum, 0, 0, root));
-  return sum.result();
-}
-
-GeneralPcdResult runOnTrees(NodePairs& pairs, const GeneralPcdRequest& request) {
-  if (request.variant == GeneralPcdVariant::minimum) return minimumOver(pairs, request);
-  PairSum sum(pairs, request);
-  sumRecursively(sum, 0, 0);
-  return sum.result();
-}
-
 template <typename BV>
 GeneralPcdResult runOnModels(NodePairs& pairs, const ModelTree<BV>& a, const ModelTree<BV>& b,
                              const GeneralPcdRequest& request) {
-  if (request.variant == GeneralPcdVariant::minimum) return minimumOver(pairs, request);
+  if (request.variant == GeneralPcdVariant::minimum) return generalPcdOver(pairs, request);
   PairSum sum(pairs, request);
   GeneralPcdTraversalNode<BV> node(a.model(), b.model(), sum);
   fcl::detail::collide(&node);
@@ -100,20 +81,10 @@ GeneralPcdResult pairOfModels(const fcl::BVHModel<BV>& a, const fcl::BVHModel<BV
   return runOnModels(pairs, tree_a, tree_b, query.request);
 }
 
-template <typename BV>
-std::unique_ptr<const BoundingTree> modelTree(const fcl::BVHModel<BV>& model) {
-  return std::make_unique<const ModelTree<BV>>(model);
-}
-
-std::unique_ptr<const BoundingTree> makeTree(const fcl::CollisionGeometryd& geometry) {
-  if (kindOf(geometry) != GeometryKind::mesh) return std::make_unique<const ShapeTree>(geometry);
-  return visitMesh(geometry, [](const auto& model) { return modelTree(model); });
-}
-
 GeneralPcdResult pairOfTrees(const BoundingTree& a, const BoundingTree& b, const Query& query) {
   const PairFrame frame = query.frame(a, b);
   NodePairs pairs(a, b, frame);
-  return runOnTrees(pairs, query.request);
+  return generalPcdOver(pairs, query.request);
 }
 
 template <typename BV>
@@ -125,13 +96,6 @@ GeneralPcdResult pairOfOwnModels(const fcl::BVHModel<BV>& a, const fcl::BVHModel
   return pairOfModels(a, b, query);
 }
 
-void requireSupported(const fcl::CollisionGeometryd& geometry, const std::string& name) {
-  const GeometryKind kind = kindOf(geometry);
-  if (kind == GeometryKind::mesh || kind == GeometryKind::convex) return;
-  throw UnsupportedGeometry(name + ": GeneralPCD needs a mesh or a bounded convex shape, not a " +
-                            nodeTypeName(geometry.getNodeType()));
-}
-
 }  // namespace
 
 GeneralPcdResult generalPcd(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
@@ -139,10 +103,8 @@ GeneralPcdResult generalPcd(const fcl::CollisionGeometryd& a, const fcl::Transfo
                             const GaussianDisplacement& displacement,
                             const GeneralPcdRequest& request) {
   const Query query{pose_a, pose_b, displacement, request};
-  validateGeometry(&a, "object A");
-  validateGeometry(&b, "object B");
-  requireSupported(a, "object A");
-  requireSupported(b, "object B");
+  requireTree(a, "object A", "GeneralPCD");
+  requireTree(b, "object B", "GeneralPCD");
   query.validate();
   const bool meshes = kindOf(a) == GeometryKind::mesh && kindOf(b) == GeometryKind::mesh;
   if (!meshes) return pairOfTrees(*makeTree(a), *makeTree(b), query);

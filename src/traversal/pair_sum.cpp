@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -95,6 +98,24 @@ double minimumRecursively(PairSum& sum, int node_a, int node_b, double bound) {
   const double second_bound = sum.bound(children.second.a, children.second.b);
   const double second = minimumRecursively(sum, children.second.a, children.second.b, second_bound);
   return std::min(bound, addedUp(first, second));
+}
+
+GeneralPcdResult generalPcdOver(NodePairs& pairs, const GeneralPcdRequest& request) {
+  PairSum sum(pairs, request);
+  if (request.variant == GeneralPcdVariant::sum) {
+    sumRecursively(sum, 0, 0);
+  } else {
+    const double root = sum.bound(0, 0);
+    sum.set(minimumRecursively(sum, 0, 0, root));
+  }
+  return sum.result();
+}
+
+void validateGeneralPcdRequest(const GeneralPcdRequest& request) {
+  if (!(request.confidence >= 0.0 && request.confidence <= 1.0)) {
+    throw InvalidRequest("confidence is " + numberText(request.confidence) + ", must be in [0, 1]");
+  }
+  if (request.max_pairs == 0) throw InvalidRequest("max_pairs is 0, must be at least 1");
 }
 
 }  // namespace fcl_prob::detail

@@ -51,4 +51,10 @@ void sumRecursively(PairSum& sum, int node_a, int node_b);
 /// nothing. Its result has no sum.
 double minimumRecursively(PairSum& sum, int node_a, int node_b, double bound);
 
+/// GeneralPCD on any trees, in the variant of the request.
+GeneralPcdResult generalPcdOver(NodePairs& pairs, const GeneralPcdRequest& request);
+
+/// \throws InvalidRequest naming the first field that is out of its range
+void validateGeneralPcdRequest(const GeneralPcdRequest& request);
+
 }  // namespace fcl_prob::detail
