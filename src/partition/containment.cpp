@@ -8,15 +8,18 @@ namespace fcl_prob::detail {
 
 namespace {
 
-// Points, one in every connected part of the object's surface, geometry's frame.
-std::vector<Eigen::Vector3d> partPoints(const PartitionObject& object) {
-  if (object.solid) return object.solid->partPoints();
+// Points, one in every connected part of the surface of object.parts[i], geometry's frame.
+std::vector<Eigen::Vector3d> surfacePoints(const PartitionObject& object, std::size_t i) {
+  if (object.parts[i].solid) return object.parts[i].solid->partPoints();
   const PieceTree& tree = *object.tree;
-  if (tree.isMesh()) return {tree.origin + tree.vertices.front()};
+  const PieceTree::Part& part = tree.parts[i];
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < tree.pieces.size(); ++i) {
-    points.push_back(tree.origin + tree.vertices[i] +
-                     tree.shapes[tree.pieces[i]].body.points.front());
+  if (part.vertices.begin < part.vertices.end) {
+    points.push_back(part.origin + tree.vertices[part.vertices.begin]);
+  }
+  for (int j = part.bodies.begin; j < part.bodies.end; ++j) {
+    const PieceTree::Body& body = tree.bodies[j];
+    points.push_back(part.origin + body.position + tree.shapes[body.shape].body.points.front());
   }
   return points;
 }
@@ -26,22 +29,32 @@ std::vector<Eigen::Vector3d> partPoints(const PartitionObject& object) {
 SolidContact::SolidContact(const PartitionObject& a, const PartitionObject& b,
                            const Whitening& whitening, const WhitenedPair& pair)
     : whitening_(whitening) {
-  const auto add = [&](const PartitionObject& inner, const PartitionObject& outer, double sign) {
-    if (!outer.solid) return;
-    Direction direction;
-    direction.outer = outer.solid;
-    const fcl::Transform3d to_outer = outer.pose.inverse() * inner.pose;
-    for (const Eigen::Vector3d& point : partPoints(inner))
-      direction.points.push_back(to_outer * point);
-    direction.shift = sign * outer.pose.linear().transpose();
-    direction.outer_box = sign > 0 ? pair.b.boxes[0] : pair.a.boxes[0];
-    direction.inner_box = sign > 0 ? pair.a.boxes[0] : pair.b.boxes[0];
-    direction.sign = sign;
-    direction.rounding = 4 * (pair.a.error + pair.b.error);
-    directions_.push_back(std::move(direction));
-  };
-  add(a, b, 1.0);
-  add(b, a, -1.0);
+  addDirections(a, pair.a, b, pair.b, 1.0);
+  addDirections(b, pair.b, a, pair.a, -1.0);
+}
+
+void SolidContact::addDirections(const PartitionObject& inner, const WhitenedTree& of_inner,
+                                 const PartitionObject& outer, const WhitenedTree& of_outer,
+                                 double sign) {
+  for (std::size_t j = 0; j < outer.parts.size(); ++j) {
+    const PlacedPart& around = outer.parts[j];
+    if (!around.solid) continue;
+    for (std::size_t i = 0; i < inner.parts.size(); ++i) {
+      if (inner.tree->parts[i].root < 0) continue;
+      Direction direction;
+      direction.outer = around.solid;
+      const fcl::Transform3d to_outer = around.pose.inverse() * inner.parts[i].pose;
+      for (const Eigen::Vector3d& point : surfacePoints(inner, i)) {
+        direction.points.push_back(to_outer * point);
+      }
+      direction.shift = sign * around.pose.linear().transpose();
+      direction.outer_box = of_outer.boxes[outer.tree->parts[j].root];
+      direction.inner_box = of_inner.boxes[inner.tree->parts[i].root];
+      direction.sign = sign;
+      direction.rounding = 4 * (of_inner.error + of_outer.error);
+      directions_.push_back(std::move(direction));
+    }
+  }
 }
 
 // The inner object's box, moved, can be within the outer one's for some displacement of the cell.

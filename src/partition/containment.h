@@ -3,24 +3,13 @@
 // Whether one object is inside the other where their surfaces do not meet (contact = solid).
 #pragma once
 
-#include <fcl/common/types.h>
-
 #include <vector>
 
 #include "fcl_prob/whitening.h"
-#include "geometry/closed_mesh.h"
 #include "partition/cell_mass.h"
 #include "partition/whitened_tree.h"
 
 namespace fcl_prob::detail {
-
-/// One of the objects of a query. `solid` is the closed mesh that it is, null for a mesh that
-/// counts as a surface and for a convex shape, whose C-obstacles are solid by themselves.
-struct PartitionObject {
-  const PieceTree* tree;
-  fcl::Transform3d pose;
-  const ClosedMesh* solid;
-};
 
 class SolidContact {
  public:
@@ -34,7 +23,7 @@ class SolidContact {
   Containment at(const Eigen::Vector3d& y) const;
 
  private:
-  /// One direction: `inner` inside `outer`.
+  /// One direction of one pair of parts: `inner` inside `outer`.
   struct Direction {
     const ClosedMesh* outer;
     std::vector<Eigen::Vector3d> points;  ///< of the inner object, frame of the outer one
@@ -45,6 +34,8 @@ class SolidContact {
     double rounding;        ///< of the boxes, which are padded outwards
   };
 
+  void addDirections(const PartitionObject& inner, const WhitenedTree& of_inner,
+                     const PartitionObject& outer, const WhitenedTree& of_outer, double sign);
   Containment decide(const Direction& direction, const Eigen::Vector3d& displacement) const;
   static bool fits(const Direction& direction, const Cell& cell);
 

@@ -19,13 +19,20 @@ constexpr std::size_t kBlockDoubles = 1 << 16;
 // With more slabs than this two polytopes are quicker examined by their support functions.
 constexpr std::size_t kMostSlabs = 128;
 
-const PieceShape& shapeAt(const WhitenedTree& tree, int node) {
-  return tree.shapes[tree.tree->pieces[tree.tree->nodes[node].piece]].shape;
+bool isTriangle(const WhitenedTree& tree, int node) {
+  return tree.tree->isTriangle(tree.tree->nodes[node].piece);
+}
+
+const PieceShape& shapeOf(const WhitenedTree& tree, int body) {
+  return tree.shapes[tree.tree->bodies[body].shape].shape;
 }
 
 SupportBody bodyAt(const WhitenedTree& tree, int node) {
   const int piece = tree.tree->nodes[node].piece;
-  if (!tree.tree->isMesh()) return {shapeAt(tree, node).body, tree.vertices[piece]};
+  if (!tree.tree->isTriangle(piece)) {
+    const int body = tree.tree->bodyOf(piece);
+    return {shapeOf(tree, body).body, tree.positions[body]};
+  }
   const Eigen::Vector3i& t = tree.tree->triangles[piece];
   return {tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]};
 }
@@ -57,7 +64,7 @@ int ObstacleTable::find(int a, int b) {
   const std::uint64_t key = (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint32_t>(b);
   const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(obstacles_.size()));
   if (is_new) {
-    const bool triangles = pair_.a.tree->isMesh() && pair_.b.tree->isMesh();
+    const bool triangles = isTriangle(pair_.a, a) && isTriangle(pair_.b, b);
     obstacles_.push_back(triangles ? buildTriangles(a, b) : buildPieces(a, b));
   }
   return entry->second;
@@ -96,8 +103,8 @@ bool ObstacleTable::hasFewSlabs(int a, int b) const {
     bool curved = false;
   };
   const auto count = [](const WhitenedTree& tree, int node) -> Counts {
-    if (tree.tree->isMesh()) return {};
-    const PieceShape& shape = shapeAt(tree, node);
+    if (isTriangle(tree, node)) return {};
+    const PieceShape& shape = shapeOf(tree, tree.tree->bodyOf(tree.tree->nodes[node].piece));
     return {shape.faces.size(), shape.edges.size(), shape.body.curved()};
   };
   const Counts of_a = count(pair_.a, a);

@@ -90,9 +90,8 @@ class OcTreeReader {
       shape = static_cast<int>(tree_.shapes.size());
       tree_.shapes.push_back(cube(box.max_[0] - box.min_[0]));
     }
-    tree_.vertices.push_back(box.center());
-    tree_.pieces.push_back(shape);
-    return addNode({-1, -1, static_cast<int>(tree_.pieces.size()) - 1});
+    tree_.bodies.push_back({box.center(), shape});
+    return addNode({-1, -1, static_cast<int>(tree_.bodies.size()) - 1});
   }
 
   int addNode(const PieceTree::Node& node) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/partition.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -43,15 +44,15 @@ struct QueryFrame {
 
 QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
                       const GaussianDisplacement& displacement) {
-  const double unit = std::max({a.tree->radius, b.tree->radius, 1e-150});
+  const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening plain(displacement, unit);
-  WhitenedPair pair = whiten(*a.tree, a.pose, *b.tree, b.pose, plain);
+  WhitenedPair pair = whiten(a, b, plain);
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
     return {plain, std::move(pair)};
   }
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
-  return {rotated, whiten(*a.tree, a.pose, *b.tree, b.pose, rotated)};
+  return {rotated, whiten(a, b, rotated)};
 }
 
 // ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative), W the rows that move.
@@ -123,6 +124,11 @@ ProbabilityResult withoutContact(const ProbabilityRequest& request) {
   return result;
 }
 
+bool hasSolids(const PartitionObject& object) {
+  return std::any_of(object.parts.begin(), object.parts.end(),
+                     [](const PlacedPart& part) { return part.solid != nullptr; });
+}
+
 }  // namespace
 
 ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
@@ -133,7 +139,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   StageClock clock(result.statistics);
   const QueryFrame frame = queryFrame(a, b, displacement);
   std::unique_ptr<SolidContact> solids;
-  if (a.solid || b.solid) {
+  if (hasSolids(a) || hasSolids(b)) {
     solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);
   }
   clock.finish("whitening");

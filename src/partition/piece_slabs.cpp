@@ -30,10 +30,11 @@ WhitenedPiece whitenedTriangle(const WhitenedTree& tree, int triangle) {
 }
 
 WhitenedPiece whitenedPiece(const WhitenedTree& tree, int index) {
-  if (tree.tree->isMesh()) return whitenedTriangle(tree, index);
-  const PieceShape& shape = tree.shapes[tree.tree->pieces[index]].shape;
+  if (tree.tree->isTriangle(index)) return whitenedTriangle(tree, index);
+  const int body = tree.tree->bodyOf(index);
+  const PieceShape& shape = tree.shapes[tree.tree->bodies[body].shape].shape;
   WhitenedPiece result{shape.body.points, shape.faces, shape.edges};
-  for (Eigen::Vector3d& point : result.vertices) point += tree.vertices[index];
+  for (Eigen::Vector3d& point : result.vertices) point += tree.positions[body];
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "partition/piece_tree.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
@@ -14,25 +15,40 @@ namespace fcl_prob::detail {
 
 namespace {
 
-// Moves the origin to the middle of the vertices, so that a geometry far from its own frame's
-// origin loses nothing to rounding in the products that follow.
-void centre(PieceTree& tree) {
-  if (tree.vertices.empty()) return;
-  Eigen::Vector3d lo = tree.vertices.front();
-  Eigen::Vector3d hi = lo;
-  for (const Eigen::Vector3d& v : tree.vertices) {
-    lo = lo.cwiseMin(v);
-    hi = hi.cwiseMax(v);
+template <typename Visit>
+void visitPoints(PieceTree& tree, const Visit& visit) {
+  for (Eigen::Vector3d& v : tree.vertices) visit(v, 0.0);
+  for (PieceTree::Body& body : tree.bodies) {
+    visit(body.position, tree.shapes[body.shape].body.radius());
   }
-  tree.origin = lo + 0.5 * (hi - lo);
-  double shape_radius = 0.0;
-  for (const PieceShape& shape : tree.shapes) {
-    shape_radius = std::max(shape_radius, shape.body.radius());
+}
+
+void moveOrigin(PieceTree& tree, PieceTree::Part& part) {
+  Eigen::Vector3d lo = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d hi = -lo;
+  visitPoints(tree, [&](const Eigen::Vector3d& point, double) {
+    lo = lo.cwiseMin(point);
+    hi = hi.cwiseMax(point);
+  });
+  part.origin = lo + 0.5 * (hi - lo);
+  visitPoints(tree, [&part](Eigen::Vector3d& point, double radius) {
+    point -= part.origin;
+    part.radius = std::max(part.radius, point.norm() + radius);
+  });
+}
+
+// Makes one part of everything. Its origin moves to the middle of the vertices, so that a geometry
+// far from its own frame's origin loses nothing to rounding in the products that follow.
+void makePart(PieceTree& tree) {
+  PieceTree::Part part;
+  part.vertices.end = static_cast<int>(tree.vertices.size());
+  part.bodies.end = static_cast<int>(tree.bodies.size());
+  part.shapes.end = static_cast<int>(tree.shapes.size());
+  if (!tree.isEmpty()) {
+    part.root = 0;
+    moveOrigin(tree, part);
   }
-  for (Eigen::Vector3d& v : tree.vertices) {
-    v -= tree.origin;
-    tree.radius = std::max(tree.radius, v.norm() + shape_radius);
-  }
+  tree.parts.push_back(part);
 }
 
 template <typename BV>
@@ -122,8 +138,7 @@ void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
   for (Eigen::Vector3d& point : body.points) point -= position;
   tree.shapes.push_back(body.curved() ? PieceShape{std::move(body), {}, {}}
                                       : shapeOfPolytope(body.points));
-  tree.vertices.push_back(position);
-  tree.pieces.push_back(0);
+  tree.bodies.push_back({position, 0});
   tree.nodes.resize(1);
   tree.nodes[0].piece = 0;
 }
@@ -142,8 +157,14 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     default:
       fillConvex(geometry, *tree);
   }
-  centre(*tree);
+  makePart(*tree);
   return tree;
+}
+
+double PieceTree::radius() const {
+  double largest = 0.0;
+  for (const Part& part : parts) largest = std::max(largest, part.radius);
+  return largest;
 }
 
 }  // namespace fcl_prob::detail

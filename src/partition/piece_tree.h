@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A geometry as a binary tree over convex pieces: what the partition keeps of it between queries.
+// Geometries as a binary tree over convex pieces: what the partition keeps of them between queries.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -25,27 +25,58 @@ struct PieceShape {
 /// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
 /// refits axis-aligned boxes in the whitened frame of each query. An octree without occupied cells
 /// has no nodes.
+///
+/// A group of geometries is one tree, with a few nodes above their own: the C-obstacle of two
+/// groups, the union of those of their parts, then needs nothing that one pair does not need.
 struct PieceTree {
   struct Node {
     int left = -1;   ///< index of the first child, always greater than the node's own; -1 at a leaf
     int right = -1;  ///< index of the second child; -1 at a leaf
-    int piece = -1;  ///< at a leaf: its triangle, or its piece
+    int piece = -1;  ///< at a leaf: its triangle; from triangles.size() on, its body
     bool isLeaf() const { return left < 0; }
   };
 
-  std::vector<Node> nodes;                           ///< nodes[0] is the root
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, geometry's frame
-  /// Metres, relative to `origin`: of a mesh its vertices, of anything else where the pieces are.
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Eigen::Vector3i> triangles;  ///< of a mesh
-  std::vector<int> pieces;                 ///< of anything else: which of the shapes each piece has
-  std::vector<PieceShape> shapes;          ///< in the geometry's axes
-  double radius = 0.0;                     ///< metres: of a ball around `origin` with everything
-  bool isMesh() const { return shapes.empty(); }
+  /// A convex piece that is no triangle of a mesh.
+  struct Body {
+    Eigen::Vector3d position;  ///< metres, relative to the origin of its part
+    int shape;                 ///< index into `shapes`
+  };
+
+  struct Range {
+    int begin = 0;
+    int end = 0;
+  };
+
+  /// One geometry: what has a pose of its own.
+  struct Part {
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, geometry's frame
+    double radius = 0.0;  ///< metres: of a ball around `origin` with everything
+    int root = -1;        ///< its topmost node, -1 if it has none
+    Range vertices;
+    Range bodies;
+    Range shapes;
+  };
+
+  std::vector<Node> nodes;  ///< nodes[0] is the root
+  std::vector<Part> parts;
+  std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to the origin of their part
+  std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
+  std::vector<Body> bodies;
+  std::vector<PieceShape> shapes;  ///< in the axes of their part
+
   bool isEmpty() const { return nodes.empty(); }
+  bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
+  int bodyOf(int piece) const { return piece - static_cast<int>(triangles.size()); }
+
+  /// Of the largest part, metres.
+  double radius() const;
 };
 
-/// \throws UnsupportedGeometry for unbounded shapes, InvalidGeometry for broken ones.
+/// A tree of one part. \throws UnsupportedGeometry for unbounded shapes, InvalidGeometry for broken
+/// ones.
 std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry);
+
+/// One tree of many, part by part in their order.
+std::shared_ptr<const PieceTree> joinPieceTrees(const std::vector<const PieceTree*>& trees);
 
 }  // namespace fcl_prob::detail

@@ -14,15 +14,11 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 using LongVector = Eigen::Matrix<long double, 3, 1>;
 using LongMatrix = Eigen::Matrix<long double, 3, 3>;
 
-// The constant part of b - a - mean in the world frame, in extended precision: poses and origins
-// may be large and nearly cancel.
-LongVector relativeOrigin(const PieceTree& a, const fcl::Transform3d& pose_a, const PieceTree& b,
-                          const fcl::Transform3d& pose_b, const Eigen::Vector3d& mean) {
-  const auto origin = [](const PieceTree& tree, const fcl::Transform3d& pose) -> LongVector {
-    const LongMatrix rotation = pose.linear().cast<long double>();
-    return rotation * tree.origin.cast<long double>() + pose.translation().cast<long double>();
-  };
-  return origin(b, pose_b) - origin(a, pose_a) - mean.cast<long double>();
+// The middle of a part in the world frame, in extended precision: poses and origins may be large
+// and nearly cancel.
+LongVector worldOrigin(const PieceTree::Part& part, const fcl::Transform3d& pose) {
+  return pose.linear().cast<long double>() * part.origin.cast<long double>() +
+         pose.translation().cast<long double>();
 }
 
 double largestRowSum(const Eigen::Matrix3d& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); }
@@ -50,12 +46,13 @@ void fitBoxes(WhitenedTree& whitened) {
       lo = lo.cwiseMin(whitened.vertices[vertex]);
       hi = hi.cwiseMax(whitened.vertices[vertex]);
     };
-    if (tree.isMesh()) {
+    if (tree.isTriangle(node.piece)) {
       for (int corner = 0; corner < 3; ++corner) include(tree.triangles[node.piece][corner]);
     } else {
-      const WhitenedShape& shape = whitened.shapes[tree.pieces[node.piece]];
-      lo = whitened.vertices[node.piece] + shape.lo;
-      hi = whitened.vertices[node.piece] + shape.hi;
+      const int body = tree.bodyOf(node.piece);
+      const WhitenedShape& shape = whitened.shapes[tree.bodies[body].shape];
+      lo = whitened.positions[body] + shape.lo;
+      hi = whitened.positions[body] + shape.hi;
     }
     for (int k = 0; k < 3; ++k) {
       box.lo[k] = lo[k] - whitened.error;
@@ -76,29 +73,57 @@ WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear
   return result;
 }
 
-WhitenedTree whitenOne(const PieceTree& tree, const fcl::Transform3d& pose,
-                       const Whitening& whitening, const Eigen::Vector3d& offset) {
+// The middles of the parts relative to `reference`, whitened.
+std::vector<Eigen::Vector3d> partOffsets(const PartitionObject& object, const Whitening& whitening,
+                                         const LongVector& reference) {
+  const LongMatrix matrix = whitening.matrix().cast<long double>();
+  std::vector<Eigen::Vector3d> offsets;
+  for (std::size_t i = 0; i < object.parts.size(); ++i) {
+    const LongVector origin = worldOrigin(object.tree->parts[i], object.parts[i].pose);
+    offsets.push_back((matrix * (origin - reference)).cast<double>());
+  }
+  return offsets;
+}
+
+void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& linear,
+                const Eigen::Vector3d& offset, WhitenedTree& result) {
+  const PieceTree& tree = *result.tree;
+  for (int i = part.vertices.begin; i < part.vertices.end; ++i) {
+    result.vertices.push_back(linear * tree.vertices[i] + offset);
+  }
+  for (int i = part.bodies.begin; i < part.bodies.end; ++i) {
+    result.positions.push_back(linear * tree.bodies[i].position + offset);
+  }
+  for (int i = part.shapes.begin; i < part.shapes.end; ++i) {
+    result.shapes.push_back(whitenShape(tree.shapes[i], linear));
+  }
+}
+
+WhitenedTree whitenOne(const PartitionObject& object, const Whitening& whitening,
+                       const LongVector& reference) {
   WhitenedTree result;
-  result.tree = &tree;
-  const Eigen::Matrix3d linear = whitening.matrix() * pose.linear();
-  result.vertices.reserve(tree.vertices.size());
-  for (const Eigen::Vector3d& v : tree.vertices) result.vertices.push_back(linear * v + offset);
-  for (const PieceShape& shape : tree.shapes) result.shapes.push_back(whitenShape(shape, linear));
-  const double size = largestRowSum(whitening.matrix()) * 1.8 * tree.radius;
-  result.error = 16 * kEpsilon * (2 * size + offset.cwiseAbs().maxCoeff()) +
-                 std::numeric_limits<double>::min();
+  result.tree = object.tree;
+  result.vertices.reserve(object.tree->vertices.size());
+  const std::vector<Eigen::Vector3d> offsets = partOffsets(object, whitening, reference);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < object.parts.size(); ++i) {
+    const Eigen::Matrix3d linear = whitening.matrix() * object.parts[i].pose.linear();
+    whitenPart(object.tree->parts[i], linear, offsets[i], result);
+    farthest = std::max(farthest, offsets[i].cwiseAbs().maxCoeff());
+  }
+  const double size = largestRowSum(whitening.matrix()) * 1.8 * object.tree->radius();
+  result.error = 16 * kEpsilon * (2 * size + farthest) + std::numeric_limits<double>::min();
   fitBoxes(result);
   return result;
 }
 
 }  // namespace
 
-WhitenedPair whiten(const PieceTree& a, const fcl::Transform3d& pose_a, const PieceTree& b,
-                    const fcl::Transform3d& pose_b, const Whitening& whitening) {
-  const LongVector relative = relativeOrigin(a, pose_a, b, pose_b, whitening.mean());
-  const Eigen::Vector3d offset = (whitening.matrix().cast<long double>() * relative).cast<double>();
-  return {whitenOne(a, pose_a, whitening, Eigen::Vector3d::Zero()),
-          whitenOne(b, pose_b, whitening, offset)};
+WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,
+                    const Whitening& whitening) {
+  const LongVector reference = worldOrigin(a.tree->parts[0], a.parts[0].pose);
+  return {whitenOne(a, whitening, reference),
+          whitenOne(b, whitening, reference + whitening.mean().cast<long double>())};
 }
 
 }  // namespace fcl_prob::detail

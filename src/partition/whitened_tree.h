@@ -3,13 +3,11 @@
 // A piece tree moved into the whitened frame of one query.
 #pragma once
 
-#include <fcl/common/types.h>
-
 #include <Eigen/Core>
 #include <vector>
 
 #include "fcl_prob/whitening.h"
-#include "partition/piece_tree.h"
+#include "partition/partition_object.h"
 #include "partition/slab_kernels.h"
 
 namespace fcl_prob::detail {
@@ -29,11 +27,12 @@ struct WhitenedShape {
 };
 
 /// Vertices and node boxes of one object in the whitened frame. With A's and B's trees of one
-/// query, `b - a` over their points is the C-obstacle: the constant part of both poses is in B's
-/// vertices.
+/// query, `b - a` over their points is the C-obstacle. All is relative to the middle of A's first
+/// part, B also to the mean.
 struct WhitenedTree {
   const PieceTree* tree = nullptr;
   std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3d> positions;  ///< of tree->bodies
   std::vector<WhitenedShape> shapes;
   std::vector<NodeBox> boxes;  ///< of tree->nodes, padded by `error`
   double error = 0.0;  ///< bound on the error of every coordinate of a vertex or point of a piece
@@ -44,8 +43,7 @@ struct WhitenedPair {
   WhitenedTree b;
 };
 
-WhitenedPair whiten(const PieceTree& a, const fcl::Transform3d& pose_a, const PieceTree& b,
-                    const fcl::Transform3d& pose_b, const Whitening& whitening);
+WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening);
 
 /// Bounding box of the C-obstacle of two nodes: certainly contains it.
 inline NodeBox obstacleBox(const NodeBox& a, const NodeBox& b) {

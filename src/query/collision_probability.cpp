@@ -80,8 +80,9 @@ ProbabilityResult PreparedQuery::Implementation::partition(
     auto result = detail::intervalOfRootBound(pair, displacement, request);
     if (result) return *result;
   }
-  return detail::partitionProbability({&a.pieces(), pair.pose_a, solid_a},
-                                      {&b.pieces(), pair.pose_b, solid_b}, displacement, request);
+  return detail::partitionProbability({&a.pieces(), {{pair.pose_a, solid_a}}},
+                                      {&b.pieces(), {{pair.pose_b, solid_b}}}, displacement,
+                                      request);
 }
 
 PreparedQuery::PreparedQuery(std::shared_ptr<const fcl::CollisionGeometryd> a,

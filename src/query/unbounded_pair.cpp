@@ -55,8 +55,9 @@ struct ContactSet {
 /// Extents of the pieces along a world direction, relative to `offset`.
 std::vector<LineInterval> extents(const PieceTree& tree, const fcl::Transform3d& pose,
                                   const Unbounded& plane) {
-  const LongVector origin = pose.linear().cast<long double>() * tree.origin.cast<long double>() +
-                            pose.translation().cast<long double>();
+  const LongVector origin =
+      pose.linear().cast<long double>() * tree.parts[0].origin.cast<long double>() +
+      pose.translation().cast<long double>();
   const long double at_origin = plane.normal.cast<long double>().dot(origin);
   const double base = static_cast<double>(at_origin - static_cast<long double>(plane.offset));
   const Eigen::Vector3d direction = pose.linear().transpose() * plane.normal;
@@ -67,19 +68,19 @@ std::vector<LineInterval> extents(const PieceTree& tree, const fcl::Transform3d&
     const auto [least, most] = std::minmax_element(heights, heights + 3);
     result.push_back({*least, *most});
   }
-  for (std::size_t i = 0; i < tree.pieces.size(); ++i) {
-    const SupportShape& body = tree.shapes[tree.pieces[i]].body;
-    const double height = base + direction.dot(tree.vertices[i]);
+  for (const PieceTree::Body& body : tree.bodies) {
+    const SupportShape& shape = tree.shapes[body.shape].body;
+    const double height = base + direction.dot(body.position);
     result.push_back(
-        {height - body.supportValue(-direction), height + body.supportValue(direction)});
+        {height - shape.supportValue(-direction), height + shape.supportValue(direction)});
   }
   return result;
 }
 
 double errorOfExtents(const PieceTree& tree, const fcl::Transform3d& pose, const Unbounded& plane) {
   return plane.error + 16 * kEpsilon *
-                           (tree.radius + tree.origin.norm() + pose.translation().norm() +
-                            std::fabs(plane.offset));
+                           (tree.radius() + tree.parts[0].origin.norm() +
+                            pose.translation().norm() + std::fabs(plane.offset));
 }
 
 /// A Halfspace reaches everything from the lowest point on.

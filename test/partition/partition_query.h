@@ -29,8 +29,8 @@ class PartitionQuery {
 
   fcl_prob::ProbabilityResult run(const fcl_prob::GaussianDisplacement& displacement,
                                   const fcl_prob::ProbabilityRequest& request) const {
-    return fcl_prob::detail::partitionProbability({tree_a_.get(), pose_a, solid_a_.get()},
-                                                  {tree_b_.get(), pose_b, solid_b_.get()},
+    return fcl_prob::detail::partitionProbability({tree_a_.get(), {{pose_a, solid_a_.get()}}},
+                                                  {tree_b_.get(), {{pose_b, solid_b_.get()}}},
                                                   displacement, request);
   }
 

@@ -24,8 +24,8 @@ ProbabilityResult run(const fcl::CollisionGeometryd& a, const fcl::Transform3d& 
                       const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   const auto tree_a = buildPieceTree(a);
   const auto tree_b = buildPieceTree(b);
-  return partitionProbability({tree_a.get(), pose_a, nullptr}, {tree_b.get(), pose_b, nullptr},
-                              displacement, request);
+  return partitionProbability({tree_a.get(), {{pose_a, nullptr}}},
+                              {tree_b.get(), {{pose_b, nullptr}}}, displacement, request);
 }
 
 ProbabilityRequest withTolerance(double relative) {

@@ -22,8 +22,8 @@ struct SceneQuery {
         b(fcl_prob::detail::buildPieceTree(*model_b)) {}
 
   ProbabilityResult run(const ProbabilityRequest& request) const {
-    return fcl_prob::detail::partitionProbability({a.get(), scene.pose_a, nullptr},
-                                                  {b.get(), scene.pose_b, nullptr},
+    return fcl_prob::detail::partitionProbability({a.get(), {{scene.pose_a, nullptr}}},
+                                                  {b.get(), {{scene.pose_b, nullptr}}},
                                                   scene.displacement, request);
   }
 

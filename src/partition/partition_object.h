@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// One of the two objects of a query, placed in the world.
+#pragma once
+
+#include <fcl/common/types.h>
+
+#include <vector>
+
+#include "geometry/closed_mesh.h"
+#include "partition/piece_tree.h"
+
+namespace fcl_prob::detail {
+
+struct PlacedPart {
+  fcl::Transform3d pose;  ///< world frame, metres
+
+  /// The closed mesh that the part is; null for a mesh that counts as a surface and for a convex
+  /// shape, whose C-obstacles are solid by themselves.
+  const ClosedMesh* solid;
+};
+
+/// A geometry, or a group of them that is displaced as one.
+struct PartitionObject {
+  const PieceTree* tree;
+  std::vector<PlacedPart> parts;  ///< as many as tree->parts
+};
+
+}  // namespace fcl_prob::detail
