@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/group.h"
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "fcl_prob/combined_bounds.h"
+#include "fcl_prob/convex_pcd.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/validation.h"
+#include "partition/partition.h"
+#include "query/bounded_part.h"
+#include "query/prepared_geometry.h"
+#include "query/single_collide.h"
+
+namespace fcl_prob {
+namespace {
+
+using Poses = std::vector<fcl::Transform3d>;
+using detail::PreparedGeometry;
+
+/// The members of one side, and the tree of those that are bounded.
+class Group {
+ public:
+  Group(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
+    if (geometries.empty()) throw InvalidGeometry(name + " has no members");
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      members_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
+      if (members_.back().hasPieces()) bounded_.push_back(i);
+    }
+    std::vector<const detail::PieceTree*> trees;
+    for (const std::size_t i : bounded_) trees.push_back(&members_[i].pieces());
+    tree_ = detail::joinPieceTrees(trees);
+  }
+
+  const std::deque<PreparedGeometry>& members() const { return members_; }
+  const detail::PieceTree& tree() const { return *tree_; }
+  bool anyUnbounded() const { return bounded_.size() < members_.size(); }
+
+  bool haveRootBodies() const {
+    return std::all_of(members_.begin(), members_.end(),
+                       [](const PreparedGeometry& member) { return member.hasRootBody(); });
+  }
+
+  void validate(const Poses& poses) const {
+    if (poses.size() != members_.size()) {
+      throw InvalidRequest(name_ + " has " + std::to_string(members_.size()) + " members but " +
+                           std::to_string(poses.size()) + " poses");
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      detail::validatePose(poses[i], "member " + std::to_string(i) + " of " + name_);
+    }
+  }
+
+  /// The bounded members, placed. \throws OpenMesh
+  detail::PartitionObject placed(const Poses& poses, ContactMeaning contact) const {
+    detail::PartitionObject object{tree_.get(), {}};
+    for (const std::size_t i : bounded_) {
+      object.parts.push_back({poses[i], members_[i].solid(contact)});
+    }
+    return object;
+  }
+
+ private:
+  std::string name_;
+  std::deque<PreparedGeometry> members_;
+  std::vector<std::size_t> bounded_;
+  std::shared_ptr<const detail::PieceTree> tree_;
+};
+
+/// A group with what the displacement can reach of its unbounded members.
+class PlacedGroup {
+ public:
+  PlacedGroup(const Group& group, const Poses& poses, ContactMeaning contact)
+      : group_(group), poses_(poses), object_(group.placed(poses, contact)) {}
+
+  const detail::PartitionObject& object() const { return object_; }
+
+  /// Adds the unbounded members, as far as `other` can get.
+  void boundBy(const detail::PartitionObject& other, const GaussianDisplacement& displacement) {
+    if (!group_.anyUnbounded()) return;
+    const Eigen::Vector3d centre = middle(other, 0);
+    double reach =
+        detail::kReach * displacement.standardDeviations().norm() + displacement.mean().norm();
+    double extent = 0.0;
+    for (std::size_t i = 0; i < other.parts.size(); ++i) {
+      extent = std::max(extent, (middle(other, i) - centre).norm() + other.tree->parts[i].radius);
+    }
+    reach = 1.01 * (reach + extent);  // a margin for the rounding of these
+    std::vector<const detail::PieceTree*> trees{&group_.tree()};
+    for (std::size_t i = 0; i < group_.members().size(); ++i) {
+      const PreparedGeometry& member = group_.members()[i];
+      if (member.hasPieces()) continue;
+      const auto part = detail::boundedPart(member.geometry(), poses_[i], centre, reach);
+      stand_ins_.push_back(detail::buildPieceTree(*part.geometry));
+      trees.push_back(stand_ins_.back().get());
+      object_.parts.push_back({part.pose, nullptr});
+    }
+    joined_ = detail::joinPieceTrees(trees);
+    object_.tree = joined_.get();
+  }
+
+ private:
+  static Eigen::Vector3d middle(const detail::PartitionObject& object, std::size_t part) {
+    return object.parts[part].pose * object.tree->parts[part].origin;
+  }
+
+  const Group& group_;
+  const Poses& poses_;
+  detail::PartitionObject object_;
+  std::vector<std::shared_ptr<const detail::PieceTree>> stand_ins_;
+  std::shared_ptr<const detail::PieceTree> joined_;
+};
+
+void requireMethod(const ProbabilityRequest& request) {
+  switch (request.method) {
+    case ProbabilityMethod::automatic:
+    case ProbabilityMethod::interval:
+    case ProbabilityMethod::estimate:
+      return;
+    default:
+      throw UnsupportedGeometry("method " + toString(request.method) +
+                                " cannot handle groups of several geometries");
+  }
+}
+
+}  // namespace
+
+struct GroupQuery::Implementation {
+  Group a;
+  Group b;
+  std::optional<PreparedQuery> single;
+
+  Implementation(const Geometries& group_a, const Geometries& group_b)
+      : a(group_a, "group A"), b(group_b, "group B") {
+    if (group_a.size() == 1 && group_b.size() == 1)
+      single.emplace(group_a[0], group_b[0]);
+    else if (a.anyUnbounded() && b.anyUnbounded()) {
+      throw UnsupportedGeometry("both groups have unbounded members");
+    }
+  }
+
+  ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,
+                           const GaussianDisplacement& displacement,
+                           const ProbabilityRequest& request) const {
+    PlacedGroup placed_a(a, poses_a, request.contact);
+    PlacedGroup placed_b(b, poses_b, request.contact);
+    const double most = sumOfRootBounds(poses_a, poses_b, displacement, request);
+    if (auto far = intervalOfSum(most, request)) return *far;
+    // At most one of the two has unbounded members.
+    placed_a.boundBy(placed_b.object(), displacement);
+    placed_b.boundBy(placed_a.object(), displacement);
+    ProbabilityResult result =
+        detail::partitionProbability(placed_a.object(), placed_b.object(), displacement, request);
+    result.upper = std::max(*result.lower, std::min(*result.upper, most));
+    result.plan.insert(result.plan.begin(), note());
+    return result;
+  }
+
+ private:
+  /// Bound on the sum over all pairs, 1 where there is none that is of use.
+  double sumOfRootBounds(const Poses& poses_a, const Poses& poses_b,
+                         const GaussianDisplacement& displacement,
+                         const ProbabilityRequest& request) const {
+    const bool wanted = !request.gradient && request.method != ProbabilityMethod::estimate;
+    if (!wanted || !a.haveRootBodies() || !b.haveRootBodies()) return 1.0;
+    // A larger sum ends no query.
+    const double useful = std::max(request.absolute_tolerance, request.threshold.value_or(0.0));
+    std::vector<Bounds> pairs;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < poses_a.size(); ++i) {
+      for (std::size_t j = 0; j < poses_b.size(); ++j) {
+        const double bound = convexPcd(a.members()[i].rootBody(), poses_a[i],
+                                       b.members()[j].rootBody(), poses_b[j], displacement)
+                                 .least;
+        sum += bound;
+        if (sum > useful) return 1.0;
+        pairs.push_back({0.0, bound});
+      }
+    }
+    return anyOf(pairs).upper;
+  }
+
+  static std::optional<ProbabilityResult> intervalOfSum(double most,
+                                                        const ProbabilityRequest& request) {
+    const bool decided = request.threshold && most < *request.threshold;
+    const double tolerance =
+        std::max(request.absolute_tolerance, request.relative_tolerance * most);
+    if (!decided && most > tolerance) return std::nullopt;
+    ProbabilityResult result;
+    result.method = ProbabilityMethod::interval;
+    result.lower = 0.0;
+    result.upper = most;
+    result.status = decided ? ProbabilityStatus::decided : ProbabilityStatus::converged;
+    result.decision = detail::decisionOf({0.0, most}, request);
+    result.plan.push_back("far apart: stopped at the sum of the bounds of all pairs");
+    return result;
+  }
+
+  std::string note() const {
+    return "groups of " + std::to_string(a.members().size()) + " and " +
+           std::to_string(b.members().size()) + ": one partition for the union of their pairs";
+  }
+};
+
+GroupQuery::GroupQuery(Geometries group_a, Geometries group_b)
+    : implementation_(std::make_unique<Implementation>(group_a, group_b)) {}
+
+GroupQuery::~GroupQuery() = default;
+GroupQuery::GroupQuery(GroupQuery&&) noexcept = default;
+GroupQuery& GroupQuery::operator=(GroupQuery&&) noexcept = default;
+
+double GroupQuery::collisionProbability(const std::vector<fcl::Transform3d>& poses_a,
+                                        const std::vector<fcl::Transform3d>& poses_b,
+                                        const GaussianDisplacement& displacement,
+                                        const ProbabilityRequest& request,
+                                        ProbabilityResult& result) const {
+  validateRequest(request);
+  implementation_->a.validate(poses_a);
+  implementation_->b.validate(poses_b);
+  if (implementation_->single) {
+    return implementation_->single->collisionProbability(poses_a[0], poses_b[0], displacement,
+                                                         request, result);
+  }
+  requireMethod(request);
+  result = implementation_->answer(poses_a, poses_b, displacement, request);
+  return result.probability();
+}
+
+double collisionProbability(const std::vector<const fcl::CollisionObjectd*>& group_a,
+                            const std::vector<const fcl::CollisionObjectd*>& group_b,
+                            const GaussianDisplacement& displacement,
+                            const ProbabilityRequest& request, ProbabilityResult& result) {
+  const auto split = [](const std::vector<const fcl::CollisionObjectd*>& objects,
+                        const std::string& name, Poses& poses) {
+    GroupQuery::Geometries geometries;
+    for (const fcl::CollisionObjectd* object : objects) {
+      if (object == nullptr) throw InvalidGeometry("an object of " + name + " is null");
+      geometries.push_back(object->collisionGeometry());
+      poses.push_back(object->getTransform());
+    }
+    return geometries;
+  };
+  Poses poses_a, poses_b;
+  GroupQuery::Geometries a = split(group_a, "group A", poses_a);
+  GroupQuery::Geometries b = split(group_b, "group B", poses_b);
+  return GroupQuery(std::move(a), std::move(b))
+      .collisionProbability(poses_a, poses_b, displacement, request, result);
+}
+
+}  // namespace fcl_prob
