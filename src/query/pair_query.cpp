@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/pair_query.h"
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/monte_carlo.h"
+#include "geometry/validation.h"
+#include "partition/partition.h"
+#include "query/exact_mass.h"
+#include "query/single_collide.h"
+#include "query/unbounded_pair.h"
+
+namespace fcl_prob::detail {
+
+ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                    const GaussianDisplacement& displacement,
+                                    const ProbabilityRequest& request) const {
+  validateRequest(request);
+  validatePose(pose_a, "object A");
+  validatePose(pose_b, "object B");
+  const QueryPlan plan = planQuery(*a_, *b_, displacement, request);
+  ProbabilityResult result = follow(plan, {*a_, pose_a, *b_, pose_b}, displacement, request);
+  result.plan.insert(result.plan.begin(), plan.notes.begin(), plan.notes.end());
+  return result;
+}
+
+ProbabilityResult PairQuery::follow(const QueryPlan& plan, const PlacedPair& pair,
+                                    const GaussianDisplacement& displacement,
+                                    const ProbabilityRequest& request) const {
+  switch (plan.route) {
+    case Route::single_collide:
+      return singleCollide(a_->geometry(), pair.pose_a, b_->geometry(), pair.pose_b,
+                           displacement.mean(), request);
+    case Route::partition:
+      return partition(plan, pair, displacement, request);
+    case Route::unbounded_pair:
+      return unboundedPairProbability(pair, displacement, request);
+    case Route::exact_mass:
+      return exactMass(pair, displacement, request);
+    case Route::convex_bound:
+      return convexBound(pair, displacement, request);
+    case Route::general_pcd:
+      return generalPcdBound(pair, displacement, request);
+    case Route::monte_carlo:
+      return monteCarloProbability(a_->geometry(), pair.pose_a, b_->geometry(), pair.pose_b,
+                                   displacement, request);
+    case Route::rare_event:
+      return rareEventProbability(a_->geometry(), pair.pose_a, b_->geometry(), pair.pose_b,
+                                  displacement, request);
+  }
+  throw InvalidRequest("no such route");
+}
+
+ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& pair,
+                                       const GaussianDisplacement& displacement,
+                                       const ProbabilityRequest& request) const {
+  // Open meshes are refused wherever the shapes are.
+  const ClosedMesh* const solid_a = a_->solid(request.contact);
+  const ClosedMesh* const solid_b = b_->solid(request.contact);
+  if (plan.try_root_bound) {
+    auto result = intervalOfRootBound(pair, displacement, request);
+    if (result) return *result;
+  }
+  return partitionProbability({&a_->pieces(), {{pair.pose_a, solid_a}}},
+                              {&b_->pieces(), {{pair.pose_b, solid_b}}}, displacement, request);
+}
+
+}  // namespace fcl_prob::detail
