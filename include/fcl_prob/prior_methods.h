@@ -52,11 +52,12 @@ GeneralPcdResult parkSum(const fcl::BVHModel<SphereBv>& a, const fcl::Transform3
                          const GaussianDisplacement& displacement,
                          const GeneralPcdRequest& request = {});
 
-/// The same with duToitBurdick() for every pair: the sum, which bounds nothing.
+/// The sum of duToitBurdick() over the pairs at which that traversal ends (it refines a pair while
+/// Park's bound is at least 1 - confidence): an approximation that bounds nothing, counts pairs
+/// that collide together one by one, and may be far above 1. \throws as parkSum()
 double duToitBurdickSum(const fcl::BVHModel<SphereBv>& a, const fcl::Transform3d& pose_a,
                         const fcl::BVHModel<SphereBv>& b, const fcl::Transform3d& pose_b,
-                        const GaussianDisplacement& displacement,
-                        const GeneralPcdRequest& request = {});
+                        const GaussianDisplacement& displacement, double confidence = 0.99);
 
 struct EnlargedCollision {
   /// Whether A, swept by all displacements of the confidence ellipsoid, touches B. Not certain when

@@ -9,6 +9,7 @@
 #include "cli/benchmark.h"
 #include "cli/fcl_loop.h"
 #include "cli/json_values.h"
+#include "cli/number_text.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -41,12 +42,6 @@ const std::vector<Task>& growthTasks() {
       {"interval 1 %", ProbabilityMethod::interval, 0.01, std::nullopt},
   };
   return tasks;
-}
-
-std::string rounded(double value, int digits) {
-  std::ostringstream text;
-  text << std::setprecision(digits) << value;
-  return text.str();
 }
 
 std::string hashOf(const ProbabilityResult& result) {
@@ -99,8 +94,8 @@ class CertifiedTable {
   void addLoop(const std::string& name, const FclLoop& loop) {
     const double p = loop.estimate();
     const double error = std::sqrt(p * (1.0 - p) / static_cast<double>(loop.samples));
-    report_.table.add({name, "10,000 fcl::collide", rounded(p, 6), rounded(error / p, 2),
-                       rounded(loop.time_ms, 4), "1", "", "", "", "", ""});
+    report_.table.add({name, "10,000 fcl::collide", numberText(p, 6), numberText(error / p, 2),
+                       numberText(loop.time_ms, 4), "1", "", "", "", "", ""});
     report_.records.push_back({{"scene", name},
                                {"method", "fcl"},
                                {"samples", loop.samples},
@@ -124,11 +119,11 @@ class CertifiedTable {
         0.5 * (result.upper.value_or(1.0) - result.lower.value_or(0.0)));
     const std::string status = task.threshold ? toString(result.decision) : toString(result.status);
     const double megabytes = static_cast<double>(result.statistics.peak_memory) / 1e6;
-    report_.table.add({name, task.name, rounded(p, 6), rounded(error / p, 2),
-                       rounded(timed.time_ms, 4), rounded(timed.time_ms / loop.time_ms, 3),
+    report_.table.add({name, task.name, numberText(p, 6), numberText(error / p, 2),
+                       numberText(timed.time_ms, 4), numberText(timed.time_ms / loop.time_ms, 3),
                        std::to_string(result.statistics.cells),
-                       std::to_string(result.statistics.peak_front), rounded(megabytes, 3), status,
-                       hashOf(result)});
+                       std::to_string(result.statistics.peak_front), numberText(megabytes, 3),
+                       status, hashOf(result)});
     report_.records.push_back({{"scene", name},
                                {"method", toString(task.method)},
                                {"task", task.name},

@@ -79,6 +79,12 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
   command.add_option("--only", arguments->options.only, "Only scenes whose name contains this");
   command.add_option("--seed", arguments->options.seed, "Fixes all samples")
       ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--frames", arguments->options.frames,
+                  "table1: random frames that bounds by AABBs are averaged over (the paper: "
+                  "10000, hours)")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of Markdown");
   command.add_flag("--json", arguments->json, "JSON instead of Markdown")->excludes(csv);
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");

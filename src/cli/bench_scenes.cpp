@@ -6,19 +6,14 @@
 
 #include <filesystem>
 
+#include "cli/random_frames.h"
+
 namespace fcl_prob::cli {
 namespace {
 
 constexpr double kLargestOffset = 3.0;  // metres: the meshes are 1 m long
 
 Eigen::Vector3d offsetDirection() { return Eigen::Vector3d(1.0, 0.3, 0.2).normalized(); }
-
-TriangleMesh rotated(TriangleMesh mesh) {
-  const Eigen::AngleAxisd rotation(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
-  const Eigen::Matrix3d matrix = rotation.toRotationMatrix();
-  for (fcl::Vector3d& vertex : mesh.vertices) vertex = matrix * vertex;
-  return mesh;
-}
 
 fcl::Transform3d offsetPose(double offset) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
@@ -76,7 +71,8 @@ PreparedScene prepareBenchScene(const BenchScene& scene, const std::string& mode
   options.normalize = true;
   const TriangleMesh a =
       loadMeshIsolated((std::filesystem::path(models_folder) / scene.model).string(), options);
-  const TriangleMesh b = rotated(a);
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  const TriangleMesh b = rotated(a, turn.toRotationMatrix());
   const double offset = scene.offset ? *scene.offset : findOffset(a, b, scene.distance);
   return PreparedScene({a, fcl::Transform3d::Identity()}, {b, offsetPose(offset + extra_offset)},
                        benchDisplacement(), bounding_volume);

@@ -16,6 +16,7 @@ struct BenchOptions {
   std::string models_folder;
   std::string only;  ///< run only scenes whose name contains this
   std::uint64_t seed = 1;
+  std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
 };
 
 /// A table for people and the same numbers, unrounded, for programs.
@@ -42,5 +43,6 @@ const std::vector<Benchmark>& benchmarks();
 
 /// The benchmarks, one a file.
 BenchReport benchCertified(const BenchOptions& options, const BenchProgress& progress);
+BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
 
 }  // namespace fcl_prob::cli

@@ -2,10 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/comparison_report.h"
 
-#include <iomanip>
-#include <sstream>
-
 #include "cli/json_values.h"
+#include "cli/number_text.h"
 #include "cli/text_table.h"
 
 namespace fcl_prob::cli {
@@ -13,11 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string number(double value, int digits = 4) {
-  std::ostringstream text;
-  text << std::setprecision(digits) << value;
-  return text.str();
-}
+std::string number(double value, int digits = 4) { return numberText(value, digits); }
 
 std::string numberOrEmpty(const std::optional<double>& value) {
   return value ? number(*value, 17) : "";

@@ -4,9 +4,8 @@
 
 #include <fcl/narrowphase/collision.h>
 
+#include "cli/random_frames.h"
 #include "cli/stopwatch.h"
-#include "fcl_prob/whitening.h"
-#include "montecarlo/random_samples.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -16,9 +15,7 @@ std::vector<fcl::Transform3d> drawPoses(const PreparedScene& scene, std::size_t 
   const Whitening whitening(scene.displacement());
   std::vector<fcl::Transform3d> poses(samples, scene.objectA().pose);
   for (std::size_t i = 0; i < samples; ++i) {
-    Eigen::Vector3d y = detail::standardNormalFrom(detail::randomWords({seed}, i));
-    y.tail(3 - whitening.rank()).setZero();
-    poses[i].pretranslate(whitening.unapply(y));
+    poses[i].pretranslate(randomDisplacement(whitening, seed, i));
   }
   return poses;
 }

@@ -41,7 +41,7 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
     : a_(std::move(a)), b_(std::move(b)), displacement_(displacement) {
   const Stopwatch watch;
   if (isOwnVolume(bounding_volume)) {
-    own_trees_ = makeOwnTreePair(bounding_volume, meshOf(a_), meshOf(b_));
+    own_trees_ = makeTreePair(bounding_volume, meshOf(a_), meshOf(b_));
   } else {
     query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
                                              buildGeometry(b_, bounding_volume));

@@ -7,19 +7,12 @@
 #include <algorithm>
 #include <set>
 
-#include "fcl_prob/whitening.h"
-#include "montecarlo/random_samples.h"
+#include "cli/random_frames.h"
 
 namespace fcl_prob::cli {
 namespace {
 
 constexpr std::size_t kMostContacts = 100'000;
-
-Eigen::Vector3d drawDisplacement(const Whitening& whitening, std::uint64_t seed, std::size_t i) {
-  Eigen::Vector3d y = detail::standardNormalFrom(detail::randomWords({seed}, i));
-  y.tail(3 - whitening.rank()).setZero();
-  return whitening.unapply(y);
-}
 
 double areaOf(const TriangleMesh& mesh, const fcl::Triangle& t) {
   const Eigen::Vector3d side = mesh.vertices[t[1]] - mesh.vertices[t[0]];
@@ -61,7 +54,7 @@ TouchMap touchMap(const TriangleMesh& a, const TriangleMesh& b,
   map.samples = samples;
   for (std::size_t i = 0; i < samples; ++i) {
     fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.translation() = drawDisplacement(whitening, seed, i);
+    pose.translation() = randomDisplacement(whitening, seed, i);
     fcl::CollisionResultd result;
     fcl::collide(model_a.get(), pose, model_b.get(), fcl::Transform3d::Identity(), request, result);
     std::set<fcl::intptr_t> touched;

@@ -3,6 +3,9 @@
 #include "cli/tree_pair.h"
 
 #include <algorithm>
+#include <map>
+
+#include "cli/volumes.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -17,6 +20,8 @@ class TreePairOf final : public TreePair {
                          const GeneralPcdRequest& request) const override {
     return generalPcd(*a_, pose_a, *b_, pose_b, displacement, request);
   }
+
+  std::vector<double> volumes(int levels) const override { return volumesByLevel(*a_, levels); }
 
  private:
   Tree a_;
@@ -49,12 +54,25 @@ bool isOwnVolume(const std::string& bounding_volume) {
   return std::find(names.begin(), names.end(), bounding_volume) != names.end();
 }
 
-std::unique_ptr<TreePair> makeOwnTreePair(const std::string& bounding_volume, const TriangleMesh& a,
-                                          const TriangleMesh& b) {
-  if (bounding_volume == "sphere") return modelPair<SphereBv>(a, b);
-  if (bounding_volume == "kdop26") return modelPair<Kdop26>(a, b);
-  if (bounding_volume == "convex") return hullPair(a, b);
-  throw InvalidRequest("unknown bounding volume '" + bounding_volume + "'");
+std::unique_ptr<TreePair> makeTreePair(const std::string& bounding_volume, const TriangleMesh& a,
+                                       const TriangleMesh& b) {
+  using Maker = std::unique_ptr<TreePair> (*)(const TriangleMesh&, const TriangleMesh&);
+  static const std::map<std::string, Maker> makers{{"sphere", modelPair<SphereBv>},
+                                                   {"aabb", modelPair<fcl::AABBd>},
+                                                   {"obb", modelPair<fcl::OBBd>},
+                                                   {"rss", modelPair<fcl::RSSd>},
+                                                   {"obbrss", modelPair<fcl::OBBRSSd>},
+                                                   {"kios", modelPair<fcl::kIOSd>},
+                                                   {"kdop16", modelPair<fcl::KDOPd<16>>},
+                                                   {"kdop18", modelPair<fcl::KDOPd<18>>},
+                                                   {"kdop24", modelPair<fcl::KDOPd<24>>},
+                                                   {"kdop26", modelPair<Kdop26>},
+                                                   {"convex", hullPair}};
+  const auto maker = makers.find(bounding_volume);
+  if (maker == makers.end()) {
+    throw InvalidRequest("unknown bounding volume '" + bounding_volume + "'");
+  }
+  return maker->second(a, b);
 }
 
 }  // namespace fcl_prob::cli

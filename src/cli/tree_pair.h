@@ -20,6 +20,9 @@ class TreePair {
   virtual GeneralPcdResult bound(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                  const GaussianDisplacement& displacement,
                                  const GeneralPcdRequest& request) const = 0;
+
+  /// Volumes of the tree of the first mesh, see volumesByLevel().
+  virtual std::vector<double> volumes(int levels) const = 0;
 };
 
 /// "sphere", "kdop26" and "convex": the bounding volumes that FCL does not have. Only general-pcd
@@ -27,8 +30,9 @@ class TreePair {
 const std::vector<std::string>& ownVolumeNames();
 bool isOwnVolume(const std::string& bounding_volume);
 
-/// \throws InvalidGeometry, InvalidRequest if the name is not one of ownVolumeNames()
-std::unique_ptr<TreePair> makeOwnTreePair(const std::string& bounding_volume, const TriangleMesh& a,
-                                          const TriangleMesh& b);
+/// \param bounding_volume  one of boundingVolumeNames(), of FCL or our own
+/// \throws InvalidGeometry, InvalidRequest if there is no such bounding volume
+std::unique_ptr<TreePair> makeTreePair(const std::string& bounding_volume, const TriangleMesh& a,
+                                       const TriangleMesh& b);
 
 }  // namespace fcl_prob::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
@@ -11,6 +12,7 @@
 #include "geometry/validation.h"
 #include "narrowphase/sphere_methods.h"
 #include "traversal/geometry_tree.h"
+#include "traversal/node_pairs.h"
 
 namespace fcl_prob {
 namespace {
@@ -26,51 +28,42 @@ class EnlargedTraversal {
  public:
   EnlargedTraversal(const BoundingTree& a, const BoundingTree& b, const PairFrame& frame,
                     double radius)
-      : a_(a), b_(b), frame_(frame), radius_(radius) {}
+      : pairs_(a, b, frame), frame_(frame), radius_(radius) {}
 
-  bool collides(int node_a, int node_b) {
-    return reaches(distance(node_a, node_b)) && refinedCollides(node_a, node_b);
+  bool collides() {
+    const NodePair roots{0, 0};
+    return reaches(distance(roots)) && refinedCollides(roots);
   }
 
   std::size_t pairsTested() const { return pairs_tested_; }
 
  private:
   struct Child {
-    int a;
-    int b;
+    NodePair pair;
     double distance;
   };
 
   bool reaches(double distance) const { return !(distance > radius_); }
 
-  bool refinedCollides(int node_a, int node_b) {
-    if (a_.isLeaf(node_a) && b_.isLeaf(node_b)) return reaches(pieceDistance(node_a, node_b));
-    Child first;
-    Child second;
-    if (refinesA(node_a, node_b)) {
-      const int left = a_.leftChild(node_a);
-      first = {left, node_b, distance(left, node_b)};
-      second = {left + 1, node_b, distance(left + 1, node_b)};
-    } else {
-      const int left = b_.leftChild(node_b);
-      first = {node_a, left, distance(node_a, left)};
-      second = {node_a, left + 1, distance(node_a, left + 1)};
+  bool refinedCollides(const NodePair& pair) {
+    if (pairs_.areLeaves(pair.a, pair.b)) return reaches(pieceDistance(pair));
+    std::array<Child, 2> children;
+    for (int i = 0; i < 2; ++i) {
+      const NodePair child = pairs_.children(pair.a, pair.b)[i];
+      children[i] = {child, distance(child)};
     }
-    if (second.distance < first.distance) std::swap(first, second);
-    return (reaches(first.distance) && refinedCollides(first.a, first.b)) ||
-           (reaches(second.distance) && refinedCollides(second.a, second.b));
+    if (children[1].distance < children[0].distance) std::swap(children[0], children[1]);
+    for (const Child& child : children) {
+      if (reaches(child.distance) && refinedCollides(child.pair)) return true;
+    }
+    return false;
   }
 
-  bool refinesA(int node_a, int node_b) const {
-    if (b_.isLeaf(node_b)) return true;
-    return !a_.isLeaf(node_a) && a_.volume(node_a) >= b_.volume(node_b);
+  double distance(const NodePair& pair) {
+    return distance(*PairObstacle(frame_, pairs_.a().body(pair.a), pairs_.b().body(pair.b)));
   }
-
-  double distance(int node_a, int node_b) {
-    return distance(*PairObstacle(frame_, a_.body(node_a), b_.body(node_b)));
-  }
-  double pieceDistance(int leaf_a, int leaf_b) {
-    return distance(*PairObstacle(frame_, a_.piece(leaf_a), b_.piece(leaf_b)));
+  double pieceDistance(const NodePair& leaves) {
+    return distance(*PairObstacle(frame_, pairs_.a().piece(leaves.a), pairs_.b().piece(leaves.b)));
   }
 
   /// How far the C-obstacle is from the mean at least: by support values, so that it holds whatever
@@ -94,8 +87,7 @@ class EnlargedTraversal {
     return direction.squaredNorm() > 0.5 ? -obstacle.support(-direction) : 0.0;
   }
 
-  const BoundingTree& a_;
-  const BoundingTree& b_;
+  NodePairs pairs_;
   const PairFrame& frame_;
   double radius_;
   std::size_t pairs_tested_ = 0;
@@ -126,7 +118,7 @@ EnlargedCollision enlargedCollision(const fcl::CollisionGeometryd& a,
   const double radius = std::sqrt(boost::math::quantile(squared_radius, confidence));
   EnlargedTraversal traversal(*tree_a, *tree_b, frame, radius);
   EnlargedCollision result;
-  result.collides = traversal.collides(0, 0);
+  result.collides = traversal.collides();
   result.pairs_tested = traversal.pairsTested();
   if (!result.collides) {
     result.upper = std::min(1.0, (1.0 - confidence) * (1.0 + kTailRelativeError));

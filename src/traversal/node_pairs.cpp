@@ -17,4 +17,13 @@ bool NodePairs::refinesA(int node_a, int node_b) const {
   return !a_.isLeaf(node_a) && a_.volume(node_a) >= b_.volume(node_b);
 }
 
+std::array<NodePair, 2> NodePairs::children(int node_a, int node_b) const {
+  if (refinesA(node_a, node_b)) {
+    const int left = a_.leftChild(node_a);
+    return {NodePair{left, node_b}, NodePair{left + 1, node_b}};
+  }
+  const int left = b_.leftChild(node_b);
+  return {NodePair{node_a, left}, NodePair{node_a, left + 1}};
+}
+
 }  // namespace fcl_prob::detail

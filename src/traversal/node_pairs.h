@@ -3,11 +3,19 @@
 // ConvexPCD for the pairs of nodes of two bounding volume trees.
 #pragma once
 
+#include <array>
+
 #include "cobstacle/pair_frame.h"
 #include "narrowphase/pair_bounds.h"
 #include "traversal/bounding_tree.h"
 
 namespace fcl_prob::detail {
+
+/// A node of A and one of B.
+struct NodePair {
+  int a;
+  int b;
+};
 
 /// Bounds pairs of nodes by the structure of their bodies. Not for concurrent use.
 class NodePairs {
@@ -31,6 +39,11 @@ class NodePairs {
 
   /// Whether the node of A is refined next, if not that of B: the larger one, unless it is a leaf.
   bool refinesA(int node_a, int node_b) const;
+
+  /// The two pairs that a pair, not of two leaves, is refined to.
+  std::array<NodePair, 2> children(int node_a, int node_b) const;
+
+  bool areLeaves(int node_a, int node_b) const { return a_.isLeaf(node_a) && b_.isLeaf(node_b); }
 
  protected:
   const PairFrame& frame() const { return frame_; }

@@ -10,25 +10,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-struct NodePair {
-  int a;
-  int b;
-};
-
-struct Children {
-  NodePair first;
-  NodePair second;
-};
-
-Children childrenOf(const NodePairs& pairs, int node_a, int node_b) {
-  if (pairs.refinesA(node_a, node_b)) {
-    const int left = pairs.a().leftChild(node_a);
-    return {{left, node_b}, {left + 1, node_b}};
-  }
-  const int left = pairs.b().leftChild(node_b);
-  return {{node_a, left}, {node_a, left + 1}};
-}
-
 /// Sums of many bounds stay upper bounds when each addition is rounded up.
 double addedUp(double a, double b) { return (a + b) * (1.0 + 0x1p-52); }
 
@@ -38,11 +19,11 @@ double PairSum::bound(int node_a, int node_b) {
   ++result_.pairs_bounded;
   const bool root = node_a == 0 && node_b == 0;
   const bool exact = root || request_.variant == GeneralPcdVariant::minimum || mayNotRefine() ||
-                     leaves(node_a, node_b);
+                     pairs_.areLeaves(node_a, node_b);
   pairs_.setEnough(exact ? PairBounds::kNeverEnough : threshold_);
   double bound = pairs_.bound(node_a, node_b);
   if (root) result_.root = bound;
-  if (request_.leaf_bound == LeafBound::triangles && leaves(node_a, node_b) &&
+  if (request_.leaf_bound == LeafBound::triangles && pairs_.areLeaves(node_a, node_b) &&
       bound >= threshold_) {
     bound = std::min(bound, pairs_.pieceBound(node_a, node_b));
   }
@@ -50,7 +31,7 @@ double PairSum::bound(int node_a, int node_b) {
 }
 
 bool PairSum::refines(int node_a, int node_b, double bound) {
-  if (bound < threshold_ || leaves(node_a, node_b)) return false;
+  if (bound < threshold_ || pairs_.areLeaves(node_a, node_b)) return false;
   if (!mayNotRefine()) return true;
   result_.complete = false;
   return false;
@@ -63,7 +44,7 @@ bool PairSum::mayNotRefine() const {
 void PairSum::add(int node_a, int node_b, double bound) {
   result_.raw_sum = addedUp(result_.raw_sum, bound);
   ++result_.pairs_summed;
-  if (leaves(node_a, node_b)) ++result_.leaf_pairs;
+  if (pairs_.areLeaves(node_a, node_b)) ++result_.leaf_pairs;
 }
 
 void PairSum::set(double bound) {
@@ -84,19 +65,19 @@ void sumRecursively(PairSum& sum, int node_a, int node_b) {
     sum.add(node_a, node_b, bound);
     return;
   }
-  const Children children = childrenOf(sum.pairs(), node_a, node_b);
-  sumRecursively(sum, children.first.a, children.first.b);
-  sumRecursively(sum, children.second.a, children.second.b);
+  const auto [first_pair, second_pair] = sum.pairs().children(node_a, node_b);
+  sumRecursively(sum, first_pair.a, first_pair.b);
+  sumRecursively(sum, second_pair.a, second_pair.b);
 }
 
 double minimumRecursively(PairSum& sum, int node_a, int node_b, double bound) {
   if (!sum.refines(node_a, node_b, bound)) return bound;
-  const Children children = childrenOf(sum.pairs(), node_a, node_b);
-  const double first_bound = sum.bound(children.first.a, children.first.b);
-  const double first = minimumRecursively(sum, children.first.a, children.first.b, first_bound);
+  const auto [first_pair, second_pair] = sum.pairs().children(node_a, node_b);
+  const double first_bound = sum.bound(first_pair.a, first_pair.b);
+  const double first = minimumRecursively(sum, first_pair.a, first_pair.b, first_bound);
   if (first >= bound) return bound;
-  const double second_bound = sum.bound(children.second.a, children.second.b);
-  const double second = minimumRecursively(sum, children.second.a, children.second.b, second_bound);
+  const double second_bound = sum.bound(second_pair.a, second_pair.b);
+  const double second = minimumRecursively(sum, second_pair.a, second_pair.b, second_bound);
   return std::min(bound, addedUp(first, second));
 }
 

@@ -34,10 +34,6 @@ class PairSum {
   /// Whether the limits of the request are reached.
   bool mayNotRefine() const;
 
-  bool leaves(int node_a, int node_b) const {
-    return pairs_.a().isLeaf(node_a) && pairs_.b().isLeaf(node_b);
-  }
-
   NodePairs& pairs_;
   const GeneralPcdRequest& request_;
   double threshold_;

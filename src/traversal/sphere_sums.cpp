@@ -3,9 +3,7 @@
 // The prior methods for two spheres, for all pairs that two trees of spheres are refined to.
 #include <algorithm>
 
-#include "fcl_prob/exceptions.h"
 #include "fcl_prob/prior_methods.h"
-#include "gaussian/number_text.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
 #include "narrowphase/sphere_methods.h"
@@ -17,39 +15,55 @@ namespace {
 using namespace detail;
 
 using SphereModel = fcl::BVHModel<SphereBv>;
-using Method = double (*)(const DisplacementBall&, const PairFrame&);
 
-double clippedPark(const DisplacementBall& ball, const PairFrame& frame) {
-  return std::min(1.0, largestDensityTimesVolume(ball, frame));
-}
-
+/// Pairs of spheres with Park's bound.
 class SphereNodePairs final : public NodePairs {
  public:
   SphereNodePairs(const ModelTree<SphereBv>& a, const ModelTree<SphereBv>& b,
-                  const PairFrame& frame, Method method)
-      : NodePairs(a, b, frame), model_a_(a.model()), model_b_(b.model()), method_(method) {}
+                  const PairFrame& frame)
+      : NodePairs(a, b, frame), model_a_(a.model()), model_b_(b.model()) {}
 
   double bound(int node_a, int node_b) override {
-    const SphereBv& a = model_a_.getBV(node_a).bv;
-    const SphereBv& b = model_b_.getBV(node_b).bv;
-    return method_(obstacleOf(frame(), a.center(), a.radius(), b.center(), b.radius()), frame());
+    return std::min(1.0, largestDensityTimesVolume(obstacle(node_a, node_b), frame()));
+  }
+
+  double approximation(int node_a, int node_b) const {
+    return centralDensityTimesVolume(obstacle(node_a, node_b), frame());
   }
 
  private:
+  DisplacementBall obstacle(int node_a, int node_b) const {
+    const SphereBv& a = model_a_.getBV(node_a).bv;
+    const SphereBv& b = model_b_.getBV(node_b).bv;
+    return obstacleOf(frame(), a.center(), a.radius(), b.center(), b.radius());
+  }
+
   const SphereModel& model_a_;
   const SphereModel& model_b_;
-  Method method_;
 };
+
+double sumOfApproximations(SphereNodePairs& pairs, int node_a, int node_b, double threshold) {
+  if (pairs.areLeaves(node_a, node_b) || pairs.bound(node_a, node_b) < threshold) {
+    return pairs.approximation(node_a, node_b);
+  }
+  double sum = 0.0;
+  for (const NodePair& child : pairs.children(node_a, node_b)) {
+    sum += sumOfApproximations(pairs, child.a, child.b, threshold);
+  }
+  return sum;
+}
 
 struct SphereQuery {
   const fcl::Transform3d& pose_a;
   const fcl::Transform3d& pose_b;
   const GaussianDisplacement& displacement;
-  GeneralPcdRequest request;
+  const GeneralPcdRequest& request;
 };
 
-GeneralPcdResult sumOver(const SphereModel& a, const SphereModel& b, const SphereQuery& query,
-                         Method method) {
+/// Validates, and calls `function` with the pairs.
+template <typename Function>
+auto withPairs(const SphereModel& a, const SphereModel& b, const SphereQuery& query,
+               Function&& function) {
   validateMeshView(viewOf(a), "object A");
   validateMeshView(viewOf(b), "object B");
   validatePose(query.pose_a, "pose of A");
@@ -60,13 +74,8 @@ GeneralPcdResult sumOver(const SphereModel& a, const SphereModel& b, const Spher
   const ModelTree<SphereBv> tree_b(b);
   const PairFrame frame(query.displacement, query.pose_a, tree_a.size(), query.pose_b,
                         tree_b.size());
-  SphereNodePairs pairs(tree_a, tree_b, frame, method);
-  return generalPcdOver(pairs, query.request);
-}
-
-GeneralPcdRequest byVolumes(GeneralPcdRequest request) {
-  request.leaf_bound = LeafBound::volumes;
-  return request;
+  SphereNodePairs pairs(tree_a, tree_b, frame);
+  return function(pairs);
 }
 
 }  // namespace
@@ -74,15 +83,20 @@ GeneralPcdRequest byVolumes(GeneralPcdRequest request) {
 GeneralPcdResult parkSum(const SphereModel& a, const fcl::Transform3d& pose_a, const SphereModel& b,
                          const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                          const GeneralPcdRequest& request) {
-  return sumOver(a, b, {pose_a, pose_b, displacement, byVolumes(request)}, clippedPark);
+  GeneralPcdRequest by_volumes = request;
+  by_volumes.leaf_bound = LeafBound::volumes;
+  return withPairs(a, b, {pose_a, pose_b, displacement, by_volumes},
+                   [&](SphereNodePairs& pairs) { return generalPcdOver(pairs, by_volumes); });
 }
 
 double duToitBurdickSum(const SphereModel& a, const fcl::Transform3d& pose_a, const SphereModel& b,
                         const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
-                        const GeneralPcdRequest& request) {
-  return sumOver(a, b, {pose_a, pose_b, displacement, byVolumes(request)},
-                 centralDensityTimesVolume)
-      .raw_sum;
+                        double confidence) {
+  GeneralPcdRequest request;
+  request.confidence = confidence;
+  return withPairs(a, b, {pose_a, pose_b, displacement, request}, [&](SphereNodePairs& pairs) {
+    return sumOfApproximations(pairs, 0, 0, 1.0 - confidence);
+  });
 }
 
 }  // namespace fcl_prob

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Volumes of meshes and of the bounding volumes of their trees.
+#pragma once
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cobstacle/bounding_volumes.h"
+#include "fcl_prob/convex_hull_tree.h"
+#include "fcl_prob/triangle_mesh.h"
+
+namespace fcl_prob::cli {
+
+/// Volume that a closed mesh encloses, cubic metres, from its triangles as they are oriented.
+double enclosedVolume(const TriangleMesh& mesh);
+
+/// Volume of the convex hull of its vertices, cubic metres.
+double hullVolume(const TriangleMesh& mesh);
+
+/// Volume of the convex set that a bounding volume is, cubic metres. FCL's own volume() is that of
+/// the enclosing box for k-DOPs, and not the volume for RSS. Of OBBRSS that of the OBB counts, of
+/// kIOS the least of its OBB and its spheres: what generalPcd() uses.
+double volumeOf(const fcl::AABBd& box);
+double volumeOf(const fcl::OBBd& box);
+double volumeOf(const fcl::RSSd& rss);
+double volumeOf(const fcl::OBBRSSd& both);
+double volumeOf(const fcl::kIOSd& kios);
+double volumeOf(const SphereBv& sphere);
+double volumeOfSlabs(const std::vector<detail::Slab>& slabs);
+
+inline double volumeOf(const Kdop26& dop) { return volumeOfSlabs(detail::slabsOf(dop)); }
+template <std::size_t N>
+double volumeOf(const fcl::KDOP<double, N>& dop) {
+  return volumeOfSlabs(detail::slabsOf(dop));
+}
+
+/// For levels 0 to `levels` - 1 of a tree: the volumes of all nodes at that depth, added up. Where
+/// nodes overlap, their common volume counts more than once. A leaf counts at all levels below it.
+template <typename BV>
+std::vector<double> volumesByLevel(const fcl::BVHModel<BV>& model, int levels) {
+  std::vector<double> volumes;
+  std::vector<int> nodes{0};
+  for (int level = 0; level < levels; ++level) {
+    double sum = 0.0;
+    std::vector<int> next;
+    for (const int node : nodes) {
+      const auto& bv = model.getBV(node);
+      sum += volumeOf(bv.bv);
+      if (bv.isLeaf()) {
+        next.push_back(node);
+      } else {
+        next.insert(next.end(), {bv.leftChild(), bv.rightChild()});
+      }
+    }
+    volumes.push_back(sum);
+    nodes.swap(next);
+  }
+  return volumes;
+}
+
+std::vector<double> volumesByLevel(const ConvexHullTree& tree, int levels);
+
+}  // namespace fcl_prob::cli
