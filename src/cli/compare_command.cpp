@@ -37,7 +37,9 @@ std::string titleOf(const SceneArguments& arguments) {
 std::vector<ComparisonRun> runsFor(const ProbabilityRequest& request) {
   std::vector<ComparisonRun> runs = defaultRuns(request);
   if (request.method == ProbabilityMethod::automatic) return runs;
-  const auto other = [&](const ComparisonRun& run) { return run.request.method != request.method; };
+  const auto other = [&](const ComparisonRun& run) {
+    return run.prior || run.request.method != request.method;
+  };
   runs.erase(std::remove_if(runs.begin(), runs.end(), other), runs.end());
   return runs;
 }

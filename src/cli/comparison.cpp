@@ -60,11 +60,15 @@ class RunList {
 
   void once(ProbabilityMethod method) { add(method, "-"); }
 
+  void prior(const PriorRun& run) {
+    runs_.push_back({toString(run.method), run.budget(), base_, run});
+  }
+
   const std::vector<ComparisonRun>& runs() const { return runs_; }
 
  private:
   ProbabilityRequest& add(ProbabilityMethod method, const std::string& budget) {
-    runs_.push_back({budget, base_});
+    runs_.push_back({toString(method), budget, base_, std::nullopt});
     runs_.back().request.method = method;
     return runs_.back().request;
   }
@@ -108,14 +112,39 @@ ComparisonReference referenceFor(const PreparedScene& scene, ProbabilityRequest 
   }
 }
 
+/// A result, and a name for its status that ProbabilityStatus may not have.
+struct Answer {
+  TimedResult timed;
+  std::string status;
+};
+
+Answer answerOf(const PreparedScene& scene, const PriorScene& prior_scene,
+                const ComparisonRun& run) {
+  if (!run.prior) {
+    const TimedResult timed = scene.query(run.request);
+    return {timed, toString(timed.result.status)};
+  }
+  const PriorAnswer prior = prior_scene.answer(*run.prior, run.request.contact);
+  Answer answer;
+  answer.timed.time_ms = prior.time_ms;
+  answer.timed.result.status = ProbabilityStatus::bound_only;
+  answer.timed.result.upper = prior.upper;
+  answer.timed.result.statistics.raw_sum = prior.raw;
+  if (!prior.upper) answer.timed.result.estimate = prior.value;
+  answer.status = prior.upper ? toString(ProbabilityStatus::bound_only) : "approximation";
+  return answer;
+}
+
 /// Runs that are over in a moment are repeated, and the quickest counts: the first one pays for
 /// caches and page faults that are not the method's.
-TimedResult quickest(const PreparedScene& scene, const ProbabilityRequest& request) {
+Answer quickest(const PreparedScene& scene, const PriorScene& prior_scene,
+                const ComparisonRun& run) {
   constexpr double kMoment_ms = 10.0;
   constexpr int kRepeats = 5;
-  TimedResult best = scene.query(request);
-  for (int i = 1; i < kRepeats && best.time_ms < kMoment_ms; ++i) {
-    best.time_ms = std::min(best.time_ms, scene.query(request).time_ms);
+  Answer best = answerOf(scene, prior_scene, run);
+  for (int i = 1; i < kRepeats && best.timed.time_ms < kMoment_ms; ++i) {
+    best.timed.time_ms =
+        std::min(best.timed.time_ms, answerOf(scene, prior_scene, run).timed.time_ms);
   }
   return best;
 }
@@ -125,15 +154,16 @@ double relative(double error, double reference) {
   return reference > 0.0 ? error / reference : std::numeric_limits<double>::infinity();
 }
 
-ComparisonRecord record(const PreparedScene& scene, const ComparisonRun& run,
-                        const ComparisonReference& reference) {
+ComparisonRecord record(const PreparedScene& scene, const PriorScene& prior_scene,
+                        const ComparisonRun& run, const ComparisonReference& reference) {
   ComparisonRecord result;
-  result.method = run.request.method;
+  result.method = run.method;
   result.budget = run.budget;
   try {
-    const TimedResult timed = quickest(scene, run.request);
-    result.result = timed.result;
-    result.time_ms = timed.time_ms;
+    const Answer answer = quickest(scene, prior_scene, run);
+    result.result = answer.timed.result;
+    result.time_ms = answer.timed.time_ms;
+    result.status = answer.status;
   } catch (const Exception& error) {
     result.refusal = error.what();
     return result;
@@ -157,6 +187,7 @@ std::vector<ComparisonRun> defaultRuns(const ProbabilityRequest& base) {
   list.once(Method::convex_pcd);
   list.byDelta(Method::general_pcd, {0.9, 0.99, 0.999});
   list.byDelta(Method::general_pcd_min, {0.9, 0.99, 0.999});
+  for (const PriorRun& run : priorRunsOfComparison()) list.prior(run);
   return list.runs();
 }
 
@@ -167,10 +198,11 @@ Comparison compare(const PreparedScene& scene, const std::vector<ComparisonRun>&
   comparison.nominal = scene.nominal();
   if (!progress(0, runs.size() + 1, "reference")) return comparison;
   comparison.reference = referenceFor(scene, base);
+  const PriorScene prior_scene(scene);
   for (const ComparisonRun& run : runs) {
-    const std::string what = toString(run.request.method) + " " + run.budget;
+    const std::string what = run.method + " " + run.budget;
     if (!progress(comparison.records.size() + 1, runs.size() + 1, what)) break;
-    comparison.records.push_back(record(scene, run, comparison.reference));
+    comparison.records.push_back(record(scene, prior_scene, run, comparison.reference));
   }
   return comparison;
 }

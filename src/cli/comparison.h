@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "cli/prepared_scene.h"
+#include "cli/prior_runs.h"
 
 namespace fcl_prob::cli {
 
 /// One method at one budget, to be run.
 struct ComparisonRun {
+  std::string method;  ///< "interval", "park"
   std::string budget;  ///< "1 %" (relative tolerance), "10000 samples", "delta 0.99"
   ProbabilityRequest request;
+  std::optional<PriorRun> prior;  ///< one of the prior methods, instead of the request's
 };
 
 /// What the errors are measured against.
@@ -28,10 +31,11 @@ struct ComparisonReference {
 
 /// What became of a run.
 struct ComparisonRecord {
-  ProbabilityMethod method = ProbabilityMethod::automatic;
+  std::string method;
   std::string budget;
   std::optional<std::string> refusal;  ///< why the method cannot do this scene; then nothing below
   ProbabilityResult result;
+  std::string status;           ///< result.status, or "approximation" for what bounds nothing
   double value = 0.0;           ///< the single number that the method gives
   double error = 0.0;           ///< |value - reference|
   double relative_error = 0.0;  ///< error / reference; infinite if that is 0 and the error is not
@@ -49,8 +53,8 @@ struct Comparison {
 using ComparisonProgress =
     std::function<bool(std::size_t index, std::size_t count, const std::string& what)>;
 
-/// Every method at its default budgets. `base` gives everything that is not the budget: contact,
-/// seed, threads; its time limit, if any, holds for each run.
+/// Every method, the prior ones included, at its default budgets. `base` gives everything that is
+/// not the budget: contact, seed, threads; its time limit, if any, holds for each run.
 std::vector<ComparisonRun> defaultRuns(const ProbabilityRequest& base);
 
 /// Runs them all. A method that refuses the scene becomes a record that says why.

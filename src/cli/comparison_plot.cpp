@@ -3,7 +3,6 @@
 // The gnuplot script of a comparison.
 #include <algorithm>
 #include <iomanip>
-#include <map>
 #include <sstream>
 
 #include "cli/comparison_report.h"
@@ -12,12 +11,20 @@ namespace fcl_prob::cli {
 namespace {
 
 /// The records of one method that gave an answer, in the order of their run time.
-using Curves = std::map<ProbabilityMethod, std::vector<const ComparisonRecord*>>;
+struct Curve {
+  std::string method;
+  std::vector<const ComparisonRecord*> records;
+};
+using Curves = std::vector<Curve>;
 
 Curves curvesOf(const Comparison& comparison) {
   Curves curves;
   for (const ComparisonRecord& record : comparison.records) {
-    if (!record.refusal) curves[record.method].push_back(&record);
+    if (record.refusal) continue;
+    // The records of a method follow one another.
+    if (curves.empty() || curves.back().method != record.method)
+      curves.push_back({record.method, {}});
+    curves.back().records.push_back(&record);
   }
   for (auto& [method, records] : curves) {
     std::sort(records.begin(), records.end(),
@@ -46,18 +53,16 @@ Bounds rangeOf(const ComparisonRecord& record) {
 /// Logarithms have no zero: how far below the reference a lower end is still shown.
 constexpr double kLeastShown = 0.1;
 
-std::string blockName(ProbabilityMethod method) {
-  return "$method" + std::to_string(static_cast<int>(method));
-}
+std::string blockName(std::size_t curve) { return "$method" + std::to_string(curve); }
 
 /// One block of data a method: time, relative error, its bar, value, range.
 void writeData(const Curves& curves, const ComparisonReference& reference, std::ostream& out) {
   // A method may be right to the last digit of the reference, which a logarithm cannot show.
   const double floor =
       std::max(0.5 * reference.interval.width() / std::max(reference.value, 1e-300), 1e-12);
-  for (const auto& [method, records] : curves) {
-    out << blockName(method) << " << EOD\n";
-    for (const ComparisonRecord* record : records) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    out << blockName(i) << " << EOD\n";
+    for (const ComparisonRecord* record : curves[i].records) {
       const double claimed = claimedError(*record) / std::max(reference.value, 1e-300);
       const double error = std::max(record->relative_error, floor);
       const Bounds range = rangeOf(*record);
@@ -71,14 +76,10 @@ void writeData(const Curves& curves, const ComparisonReference& reference, std::
 }
 
 void writeCurves(const Curves& curves, const std::string& columns, std::ostream& out) {
-  bool first = true;
-  int style = 1;
-  for (const auto& [method, records] : curves) {
-    out << (first ? "plot " : ", \\\n     ") << blockName(method) << " using " << columns
-        << " with yerrorlines lt " << style << " pt " << 3 + style << " title '" << toString(method)
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    out << (i == 0 ? "plot " : ", \\\n     ") << blockName(i) << " using " << columns
+        << " with yerrorlines lt " << 1 + i << " pt " << 4 + i << " title '" << curves[i].method
         << "'";
-    first = false;
-    ++style;
   }
 }
 

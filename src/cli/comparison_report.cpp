@@ -43,15 +43,14 @@ std::string tableOf(const Comparison& comparison) {
       {"method", "budget", "value", "interval or bound", "relative error", "time / ms", "status"});
   std::string refusals;
   for (const ComparisonRecord& record : comparison.records) {
-    const std::string name = toString(record.method);
+    const std::string& name = record.method;
     if (record.refusal) {
       const std::string line = "no answer: " + name + ": " + *record.refusal + "\n";
       if (refusals.find(line) == std::string::npos) refusals += line;
       continue;
     }
     table.add({name, record.budget, number(record.value, 6), rangeOf(record.result),
-               number(record.relative_error, 3), number(record.time_ms),
-               toString(record.result.status)});
+               number(record.relative_error, 3), number(record.time_ms), record.status});
   }
   return "reference: " + referenceText(comparison.reference) + "\n" + "trees built in " +
          number(comparison.build_ms) + " ms\n\n" + table.text() + refusals;
@@ -66,13 +65,13 @@ std::string csvOf(const Comparison& comparison) {
     if (record.refusal) continue;
     const ProbabilityResult& result = record.result;
     const auto& confidence = result.confidence_interval;
-    table.add({toString(record.method), record.budget, number(record.value, kAllDigits),
+    table.add({record.method, record.budget, number(record.value, kAllDigits),
                numberOrEmpty(result.lower), numberOrEmpty(result.upper),
                confidence ? number(confidence->lower, kAllDigits) : "",
                confidence ? number(confidence->upper, kAllDigits) : "",
                numberOrEmpty(result.standard_error), number(record.error, kAllDigits),
                number(record.relative_error, kAllDigits), number(record.time_ms, kAllDigits),
-               toString(result.status)});
+               record.status});
   }
   return table.csv();
 }
@@ -80,7 +79,7 @@ std::string csvOf(const Comparison& comparison) {
 Json jsonOf(const Comparison& comparison) {
   Json records = Json::array();
   for (const ComparisonRecord& record : comparison.records) {
-    Json json{{"method", toString(record.method)}, {"budget", record.budget}};
+    Json json{{"method", record.method}, {"budget", record.budget}};
     if (record.refusal) {
       json["refusal"] = *record.refusal;
     } else {
@@ -93,7 +92,7 @@ Json jsonOf(const Comparison& comparison) {
       json["error"] = record.error;
       json["relative_error"] = record.relative_error;
       json["time_ms"] = record.time_ms;
-      json["status"] = toString(record.result.status);
+      json["status"] = record.status;
     }
     records.push_back(json);
   }

@@ -111,12 +111,13 @@ PriorAnswer PriorScene::ofTrees(const PriorRun& run) const {
   GeneralPcdRequest request;
   request.confidence = run.confidence;
   request.variant = run.variant;
+  request.max_pairs = ProbabilityRequest().max_cells;  // what general-pcd has by default
   const fcl::Transform3d& pose_a = scene_.objectA().pose;
   const fcl::Transform3d& pose_b = scene_.objectB().pose;
   const Stopwatch watch;
   if (run.method == PriorMethod::du_toit_burdick) {
     const double raw =
-        duToitBurdickSum(*tree_a_, pose_a, *tree_b_, pose_b, scene_.displacement(), run.confidence);
+        duToitBurdickSum(*tree_a_, pose_a, *tree_b_, pose_b, scene_.displacement(), request);
     return approximation(raw, watch.milliseconds());
   }
   const GeneralPcdResult result =

@@ -42,16 +42,28 @@ class SphereNodePairs final : public NodePairs {
   const SphereModel& model_b_;
 };
 
-double sumOfApproximations(SphereNodePairs& pairs, int node_a, int node_b, double threshold) {
-  if (pairs.areLeaves(node_a, node_b) || pairs.bound(node_a, node_b) < threshold) {
-    return pairs.approximation(node_a, node_b);
+class ApproximateSum {
+ public:
+  ApproximateSum(SphereNodePairs& pairs, const GeneralPcdRequest& request)
+      : pairs_(pairs), request_(request) {}
+
+  double over(int node_a, int node_b) {
+    if (!refines(node_a, node_b)) return pairs_.approximation(node_a, node_b);
+    double sum = 0.0;
+    for (const NodePair& child : pairs_.children(node_a, node_b)) sum += over(child.a, child.b);
+    return sum;
   }
-  double sum = 0.0;
-  for (const NodePair& child : pairs.children(node_a, node_b)) {
-    sum += sumOfApproximations(pairs, child.a, child.b, threshold);
+
+ private:
+  bool refines(int node_a, int node_b) {
+    if (pairs_.areLeaves(node_a, node_b) || ++pairs_bounded_ >= request_.max_pairs) return false;
+    return pairs_.bound(node_a, node_b) >= 1.0 - request_.confidence;
   }
-  return sum;
-}
+
+  SphereNodePairs& pairs_;
+  const GeneralPcdRequest& request_;
+  std::size_t pairs_bounded_ = 0;
+};
 
 struct SphereQuery {
   const fcl::Transform3d& pose_a;
@@ -91,11 +103,9 @@ GeneralPcdResult parkSum(const SphereModel& a, const fcl::Transform3d& pose_a, c
 
 double duToitBurdickSum(const SphereModel& a, const fcl::Transform3d& pose_a, const SphereModel& b,
                         const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
-                        double confidence) {
-  GeneralPcdRequest request;
-  request.confidence = confidence;
+                        const GeneralPcdRequest& request) {
   return withPairs(a, b, {pose_a, pose_b, displacement, request}, [&](SphereNodePairs& pairs) {
-    return sumOfApproximations(pairs, 0, 0, 1.0 - confidence);
+    return ApproximateSum(pairs, request).over(0, 0);
   });
 }
 

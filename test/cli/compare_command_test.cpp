@@ -41,20 +41,29 @@ TEST_CASE("compare has one record a method and budget, near its reference", "[cl
   CHECK(answer.at("fcl").at("collides") == false);
 
   std::set<std::pair<std::string, std::string>> seen;
+  std::set<std::string> methods;
   int answered = 0;
   for (const json& record : answer.at("records")) {
     CAPTURE(record.dump());
     CHECK(seen.emplace(record.at("method"), record.at("budget")).second);
+    methods.insert(record.at("method").get<std::string>());
     if (record.contains("refusal")) continue;
     ++answered;
     CHECK(record.at("time_ms").get<double>() > 0.0);
     CHECK(record.at("error").get<double>() ==
           Approx(std::abs(record.at("value").get<double>() - reference)));
+    if (record.at("method") == "du-toit-burdick") {  // certifies nothing
+      CHECK(record.at("upper").is_null());
+      CHECK(record.at("status") == "approximation");
+    }
     if (record.at("lower").is_number()) CHECK(record.at("lower").get<double>() <= reference + 1e-9);
     if (record.at("upper").is_number()) CHECK(record.at("upper").get<double>() >= reference - 1e-9);
   }
   CHECK(seen.size() == cli::defaultRuns({}).size());
-  CHECK(answered >= 18);
+  CHECK(answered >= 27);
+  for (const char* prior : {"du-toit-burdick", "park", "enlargement"}) {
+    CHECK(methods.count(prior) == 1);
+  }
 }
 
 TEST_CASE("compare as CSV and table, for one method", "[cli]") {

@@ -188,10 +188,13 @@ TEST_CASE("Park's bound over trees of spheres is above P") {
   CHECK(minimum.upper <= std::min(1.0, park.raw_sum) * (1 + 1e-12));
 
   // The same pairs, each by the density at the middle instead of the largest one.
-  const double du_toit = duToitBurdickSum(*a, pose_a, *b, pose_b, displacement, 0.999);
+  const double du_toit = duToitBurdickSum(*a, pose_a, *b, pose_b, displacement, request);
   CHECK(du_toit > 0.1 * p);
   CHECK(du_toit < park.raw_sum);
-  CHECK_THROWS_AS(duToitBurdickSum(*a, pose_a, *b, pose_b, displacement, 2.0), InvalidRequest);
+  request.max_pairs = 1;
+  CHECK(duToitBurdickSum(*a, pose_a, *b, pose_b, displacement, request) < 1e-9 * du_toit);
+  request.confidence = 2.0;
+  CHECK_THROWS_AS(duToitBurdickSum(*a, pose_a, *b, pose_b, displacement, request), InvalidRequest);
 }
 
 }  // namespace
