@@ -13,9 +13,12 @@
 
 namespace fcl_prob {
 
-/// The probability that `a`, displaced by `displacement` (relative to `b`, world frame, metres), collides
-/// with `b`. Fills `result` and returns result.probability(). `result` is assigned only on success.
-/// \throws InvalidRequest, InvalidPose, InvalidGeometry, UnsupportedGeometry, OpenMesh before any work.
+class TruncatedGaussian;
+
+/// The probability that `a`, displaced by `displacement` (relative to `b`, world frame, metres),
+/// collides with `b`. Fills `result` and returns result.probability(). `result` is assigned only on
+/// success. \throws InvalidRequest, InvalidPose, InvalidGeometry, UnsupportedGeometry, OpenMesh
+/// before any work.
 double collisionProbability(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
                             const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result);
@@ -26,8 +29,8 @@ double collisionProbability(const fcl::CollisionGeometryd* a, const fcl::Transfo
                             const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result);
 
-/// A pair of geometries prepared once and queried for many poses and displacements: holds everything
-/// that depends on neither. Const and thread-safe after construction.
+/// A pair of geometries prepared once and queried for many poses and displacements: holds
+/// everything that depends on neither. Const and thread-safe after construction.
 class PreparedQuery {
  public:
   /// Keeps references to both geometries, which must not change while the query lives.
@@ -42,6 +45,12 @@ class PreparedQuery {
                               const ProbabilityRequest& request, ProbabilityResult& result) const;
 
  private:
+  // Declared for callers in fcl_prob/mixture.h.
+  friend double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
+                                     const fcl::Transform3d& pose_b,
+                                     const TruncatedGaussian& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -133,7 +133,8 @@ bool hasSolids(const PartitionObject& object) {
 
 ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
                                        const GaussianDisplacement& displacement,
-                                       const ProbabilityRequest& request) {
+                                       const ProbabilityRequest& request,
+                                       const BallTruncation* ball) {
   if (a.tree->isEmpty() || b.tree->isEmpty()) return withoutContact(request);
   ProbabilityResult result;
   StageClock clock(result.statistics);
@@ -146,7 +147,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
 
   const bool estimate = request.method == ProbabilityMethod::estimate;
   result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
-  PartitionEngine engine(frame.pair, frame.whitening.rank(), solids.get(), request,
+  PartitionEngine engine(frame.pair, frame.whitening.rank(), solids.get(), ball, request,
                          result.statistics);
   result.status = engine.run(estimate);
   clock.finish("partition");

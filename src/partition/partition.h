@@ -6,6 +6,7 @@
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
+#include "partition/ball_truncation.h"
 #include "partition/containment.h"
 #include "partition/piece_tree.h"
 
@@ -14,8 +15,12 @@ namespace fcl_prob::detail {
 /// Certified interval of the probability that `a`, displaced, meets `b`; with the request's method
 /// `estimate` also an unbiased estimate; decision and gradient as the request asks. Poses must be
 /// rigid and the request valid. Objects with a `solid` count as solids, others as surfaces.
+///
+/// With a `ball` the interval is that of the probability of meeting and being within that ball of
+/// the whitened frame at once; neither an estimate nor a gradient may then be asked for.
 ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
                                        const GaussianDisplacement& displacement,
-                                       const ProbabilityRequest& request);
+                                       const ProbabilityRequest& request,
+                                       const BallTruncation* ball = nullptr);
 
 }  // namespace fcl_prob::detail

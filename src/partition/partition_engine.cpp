@@ -26,21 +26,29 @@ constexpr std::size_t kPollEvery = 64;
 }  // namespace
 
 PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
-                                 const ProbabilityRequest& request,
+                                 const BallTruncation* ball, const ProbabilityRequest& request,
                                  ProbabilityStatistics& statistics)
     : request_(request),
       statistics_(statistics),
       obstacles_(pair),
       examiner_(pair, obstacles_, solids, request.gradient, statistics),
+      ball_(ball),
       started_(std::chrono::steady_clock::now()) {
   Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
+  const double reach = ball ? std::min(kReach, 1.001 * ball->radius()) : kReach;
   for (int i = 0; i < rank; ++i) {
-    root.lo[i] = -kReach;
-    root.hi[i] = kReach;
+    root.lo[i] = -reach;
+    root.hi[i] = reach;
   }
   // Two single pieces are a pair of leaves from the start: there is nothing to expand.
   const bool leaves = pair.a.tree->nodes[0].isLeaf() && pair.b.tree->nodes[0].isLeaf();
-  add(examiner_.examine(root, {{0, 0, leaves ? obstacles_.find(0, 0) : -1}}));
+  add(examine(root, {{0, 0, leaves ? obstacles_.find(0, 0) : -1}}));
+}
+
+Examination PartitionEngine::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
+  if (!ball_ || ball_->isInBall(cell)) return examiner_.examine(cell, inherited);
+  if (ball_->missesBall(cell)) return {};
+  return ball_->truncated(cell, inherited, examiner_.examine(cell, inherited));
 }
 
 void PartitionEngine::add(Examination&& examination) {
@@ -85,7 +93,7 @@ void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
   for (const bool upper : {false, true}) {
     Cell half = parent.cell;
     (upper ? half.lo : half.hi)[split.axis] = split.at;
-    Examination examination = examiner_.examine(half, parent.front);
+    Examination examination = examine(half, parent.front);
     if (examination.open && levels > 0 && examination.open->gap() > soon) {
       const OpenCell child = std::move(*examination.open);
       examination.open.reset();

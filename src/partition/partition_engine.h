@@ -9,7 +9,7 @@
 
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
-#include "partition/cell_examiner.h"
+#include "partition/ball_truncation.h"
 
 namespace fcl_prob::detail {
 
@@ -21,9 +21,10 @@ struct MomentBounds {
 
 class PartitionEngine {
  public:
-  /// Keeps references to all arguments.
+  /// Keeps references to all arguments. \param ball  null: the displacement is not truncated
   PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
-                  const ProbabilityRequest& request, ProbabilityStatistics& statistics);
+                  const BallTruncation* ball, const ProbabilityRequest& request,
+                  ProbabilityStatistics& statistics);
 
   /// Divides cells until the request is satisfied or a limit is reached; says which. With
   /// `estimate` the cells need only be small enough for sampling them to give the standard error
@@ -45,6 +46,7 @@ class PartitionEngine {
   SettledMass coveredPart(const OpenCell& cell) const { return examiner_.coveredPart(cell); }
 
  private:
+  Examination examine(const Cell& cell, const std::vector<FrontPair>& inherited);
   void divideLargest();
   void divide(const OpenCell& parent, double soon, int levels);
   void add(Examination&& examination);
@@ -60,6 +62,7 @@ class PartitionEngine {
   ProbabilityStatistics& statistics_;
   ObstacleTable obstacles_;
   CellExaminer examiner_;
+  const BallTruncation* ball_;
   std::vector<OpenCell> queue_;  ///< a heap by gap
   SettledMass settled_;
   Bounds open_;                 ///< sums over queue_

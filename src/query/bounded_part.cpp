@@ -32,10 +32,28 @@ double sizeFor(double reach, double plane_offset, const fcl::Transform3d& pose,
   return reach + std::fabs(plane_offset) + pose.translation().norm() + centre.norm();
 }
 
+Eigen::Vector3d middle(const PartitionObject& object, std::size_t part) {
+  return object.parts[part].pose * object.tree->parts[part].origin;
+}
+
 }  // namespace
 
+ReachedBall reachedBall(const PartitionObject& object, const GaussianDisplacement& displacement,
+                        double deviations) {
+  const Eigen::Vector3d centre = middle(object, 0);
+  double extent = 0.0;
+  for (std::size_t i = 0; i < object.parts.size(); ++i) {
+    extent = std::max(extent, (middle(object, i) - centre).norm() + object.tree->parts[i].radius);
+  }
+  const double moved =
+      displacement.mean().norm() + deviations * displacement.standardDeviations().norm();
+  return {centre, 1.01 * (moved + extent)};  // a margin for the rounding of these
+}
+
 BoundedPart boundedPart(const fcl::CollisionGeometryd& unbounded, const fcl::Transform3d& pose,
-                        const Eigen::Vector3d& centre, double reach) {
+                        const ReachedBall& ball) {
+  const Eigen::Vector3d& centre = ball.centre;
+  const double reach = ball.radius;
   if (unbounded.getNodeType() == fcl::GEOM_PLANE) {
     const auto& plane = static_cast<const fcl::Planed&>(unbounded);
     const Eigen::Vector3d normal = (pose.linear() * plane.n).normalized();

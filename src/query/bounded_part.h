@@ -8,6 +8,9 @@
 
 #include <memory>
 
+#include "fcl_prob/gaussian_displacement.h"
+#include "partition/partition_object.h"
+
 namespace fcl_prob::detail {
 
 /// A bounded geometry with its pose in the world frame.
@@ -16,10 +19,19 @@ struct BoundedPart {
   fcl::Transform3d pose;
 };
 
+/// A ball (world frame, metres) that `object` does not leave when displaced by up to `deviations`
+/// standard deviations.
+struct ReachedBall {
+  Eigen::Vector3d centre;
+  double radius;
+};
+ReachedBall reachedBall(const PartitionObject& object, const GaussianDisplacement& displacement,
+                        double deviations);
+
 /// A box (of a Halfspace) or a triangle (of a Plane) that is contained in the unbounded shape and
-/// contains all of it within `reach` (metres) of `centre` (world frame): anything that stays there
+/// contains all of it in `ball` (world frame): anything that stays there
 /// touches the one if and only if it touches the other.
 BoundedPart boundedPart(const fcl::CollisionGeometryd& unbounded, const fcl::Transform3d& pose,
-                        const Eigen::Vector3d& centre, double reach);
+                        const ReachedBall& ball);
 
 }  // namespace fcl_prob::detail

@@ -3,6 +3,7 @@
 #include "fcl_prob/collision_probability.h"
 
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/mixture.h"
 #include "query/pair_query.h"
 
 namespace fcl_prob {
@@ -30,6 +31,13 @@ double PreparedQuery::collisionProbability(const fcl::Transform3d& pose_a,
                                            const ProbabilityRequest& request,
                                            ProbabilityResult& result) const {
   result = implementation_->pair.answer(pose_a, pose_b, displacement, request);
+  return result.probability();
+}
+
+double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
+                            const fcl::Transform3d& pose_b, const TruncatedGaussian& displacement,
+                            const ProbabilityRequest& request, ProbabilityResult& result) {
+  result = query.implementation_->pair.answer(pose_a, pose_b, displacement, request);
   return result.probability();
 }
 

@@ -82,19 +82,12 @@ class PlacedGroup {
   /// Adds the unbounded members, as far as `other` can get.
   void boundBy(const detail::PartitionObject& other, const GaussianDisplacement& displacement) {
     if (!group_.anyUnbounded()) return;
-    const Eigen::Vector3d centre = middle(other, 0);
-    double reach =
-        detail::kReach * displacement.standardDeviations().norm() + displacement.mean().norm();
-    double extent = 0.0;
-    for (std::size_t i = 0; i < other.parts.size(); ++i) {
-      extent = std::max(extent, (middle(other, i) - centre).norm() + other.tree->parts[i].radius);
-    }
-    reach = 1.01 * (reach + extent);  // a margin for the rounding of these
+    const detail::ReachedBall ball = detail::reachedBall(other, displacement, detail::kReach);
     std::vector<const detail::PieceTree*> trees{&group_.tree()};
     for (std::size_t i = 0; i < group_.members().size(); ++i) {
       const PreparedGeometry& member = group_.members()[i];
       if (member.hasPieces()) continue;
-      const auto part = detail::boundedPart(member.geometry(), poses_[i], centre, reach);
+      const auto part = detail::boundedPart(member.geometry(), poses_[i], ball);
       stand_ins_.push_back(detail::buildPieceTree(*part.geometry));
       trees.push_back(stand_ins_.back().get());
       object_.parts.push_back({part.pose, nullptr});
@@ -104,10 +97,6 @@ class PlacedGroup {
   }
 
  private:
-  static Eigen::Vector3d middle(const detail::PartitionObject& object, std::size_t part) {
-    return object.parts[part].pose * object.tree->parts[part].origin;
-  }
-
   const Group& group_;
   const Poses& poses_;
   detail::PartitionObject object_;

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "fcl_prob/mixture.h"
 #include "query/query_plan.h"
 #include "query/upper_bounds.h"
 
@@ -20,6 +21,11 @@ class PairQuery {
   /// \throws what PreparedQuery::collisionProbability() does, before any work.
   ProbabilityResult answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                            const GaussianDisplacement& displacement,
+                           const ProbabilityRequest& request) const;
+
+  /// The same for a displacement that stays within an ellipsoid.
+  ProbabilityResult answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                           const TruncatedGaussian& displacement,
                            const ProbabilityRequest& request) const;
 
  private:

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Mixtures and truncated Gaussians against closed forms and rejection sampling.
+#include "fcl_prob/mixture.h"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <limits>
+
+#include "catch.h"
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/normal_mass.h"
+#include "mesh_shapes.h"
+#include "montecarlo/displaced_collider.h"
+#include "shapes.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob_test;
+
+namespace {
+
+const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+fcl::Transform3d at(double x, double y, double z) {
+  fcl::Transform3d pose = kIdentity;
+  pose.translation() = Eigen::Vector3d(x, y, z);
+  return pose;
+}
+
+void checkHolds(const ProbabilityResult& result, double expected, double tolerance) {
+  CAPTURE(*result.lower, *result.upper, expected);
+  CHECK(*result.lower <= expected * (1 + 1e-12));
+  CHECK(*result.upper >= expected * (1 - 1e-12));
+  CHECK(*result.upper - *result.lower <= tolerance);
+}
+
+/// Mass of { y_1 >= h, |y| <= k } under N(0, I) in three dimensions.
+double capMass(double h, double k) {
+  return normalIntervalMass(h, k) - (k - h) * 0.39894228040143268 * std::exp(-0.5 * k * k);
+}
+
+double ballMassOf(double k) { return normalBallMass(0.0, k).middle(); }
+
+PreparedQuery boxAndWall() {
+  return {std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2), std::make_shared<fcl::Boxd>(10, 10, 10)};
+}
+
+/// So many deviations of 0.1 m between the two.
+fcl::Transform3d wallAt(double deviations) { return at(5.1 + 0.1 * deviations, 0, 0); }
+
+const auto kIsotropic = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+
+PreparedQuery meshAndTorus() {
+  return {makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 4, 6, 1)),
+          makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5))};
+}
+
+ProbabilityRequest withTolerance(double relative) {
+  ProbabilityRequest request;
+  request.relative_tolerance = relative;
+  request.absolute_tolerance = 0.0;
+  return request;
+}
+
+}  // namespace
+
+TEST_CASE("a mixture is the sum of its components by weight") {
+  RandomBodies random(1);
+  const PreparedQuery query = meshAndTorus();
+  for (int i = 0; i < 6; ++i) {
+    const double w = random.uniform(0.1, 0.5);
+    const GaussianMixture mixture({{w, randomDisplacement(random, 0.05, 0.2)},
+                                   {0.9 - w, randomDisplacement(random, 0.05, 0.2)},
+                                   {0.1, randomDisplacement(random, 0.3, 0.4)}});
+    const fcl::Transform3d pose = random.pose(1.0);
+    ProbabilityRequest request = withTolerance(0.05);
+    request.gradient = i % 2 == 0;
+    ProbabilityResult result;
+    collisionProbability(query, pose, kIdentity, mixture, request, result);
+    CHECK(*result.upper - *result.lower <= 0.05 * *result.upper);
+    CHECK(result.gradient.has_value() == request.gradient);
+    double lower = 0.0, upper = 0.0;
+    Eigen::Vector3d least = Eigen::Vector3d::Zero(), most = least;
+    for (const auto& component : mixture.components()) {
+      ProbabilityResult one;
+      ProbabilityRequest fine = withTolerance(0.02);
+      fine.gradient = true;
+      query.collisionProbability(pose, kIdentity, component.displacement, fine, one);
+      lower += component.weight * *one.lower;
+      upper += component.weight * *one.upper;
+      least += component.weight * *one.gradient_lower;
+      most += component.weight * *one.gradient_upper;
+    }
+    CHECK(*result.lower <= upper);
+    CHECK(*result.upper >= lower);
+    if (!request.gradient) continue;
+    CHECK((result.gradient_lower->array() <= most.array()).all());
+    CHECK((result.gradient_upper->array() >= least.array()).all());
+  }
+}
+
+TEST_CASE("a mixture in the tail holds the sum of two tails; one Gaussian is itself") {
+  const PreparedQuery query = boxAndWall();
+  const GaussianMixture two(
+      {{0.75, kIsotropic}, {0.25, kIsotropic.withMean(Eigen::Vector3d(0.2, 0, 0))}});
+  ProbabilityResult result, single;
+  collisionProbability(query, kIdentity, wallAt(6.0), two, withTolerance(1e-3), result);
+  checkHolds(result, 0.75 * normalTailMass(6.0) + 0.25 * normalTailMass(4.0), 1e-8);
+  collisionProbability(query, kIdentity, wallAt(2.0), GaussianMixture({{1.0, kIsotropic}}), {},
+                       result);
+  query.collisionProbability(kIdentity, wallAt(2.0), kIsotropic, {}, single);
+  CHECK(*result.lower == Approx(*single.lower).epsilon(1e-14));
+  CHECK(*result.upper == Approx(*single.upper).epsilon(1e-14));
+  CHECK(result.status == single.status);
+}
+
+TEST_CASE("a threshold is decided by some of the components; a query can be cancelled") {
+  const PreparedQuery query = meshAndTorus();
+  const GaussianMixture mixture(
+      {{0.9, kIsotropic}, {0.1, kIsotropic.withMean(Eigen::Vector3d(0.3, 0, 0))}});
+  ProbabilityRequest request;
+  request.threshold = 0.5;
+  ProbabilityResult result;
+  collisionProbability(query, at(0.6, 0, 0), kIdentity, mixture, request, result);
+  CHECK(result.decision == Decision::above);
+  CHECK(result.status == ProbabilityStatus::decided);
+  CHECK(*result.lower > 0.5);
+  request.threshold.reset();
+  request.on_progress = [](const ProbabilityProgress&) { return false; };
+  collisionProbability(query, at(0.6, 0, 0), kIdentity, mixture, request, result);
+  CHECK(result.status == ProbabilityStatus::cancelled);
+}
+
+TEST_CASE("mixtures refuse weights that are no distribution") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(GaussianMixture({}), InvalidDistribution);
+  CHECK_THROWS_AS(GaussianMixture({{0.5, kIsotropic}}), InvalidDistribution);
+  CHECK_THROWS_AS(GaussianMixture({{1.5, kIsotropic}, {-0.5, kIsotropic}}), InvalidDistribution);
+  CHECK_THROWS_AS(GaussianMixture({{nan, kIsotropic}}), InvalidDistribution);
+  for (const double wrong : {0.0, -1.0, nan}) {
+    CHECK_THROWS_AS(TruncatedGaussian(kIsotropic, wrong), InvalidDistribution);
+  }
+}
+
+TEST_CASE("truncated: a wall cuts a cap off the ball") {
+  const PreparedQuery query = boxAndWall();
+  for (const double k : {1.0, 2.5, 4.0, 8.0}) {
+    for (const double h : {-0.5 * k, 0.0, 0.4 * k, 0.9 * k}) {
+      CAPTURE(k, h);
+      ProbabilityResult result;
+      collisionProbability(query, kIdentity, wallAt(h), TruncatedGaussian(kIsotropic, k),
+                           withTolerance(0.01), result);
+      const double expected = capMass(h, k) / ballMassOf(k);
+      checkHolds(result, expected, 0.01 * *result.upper);
+      CHECK(result.status == ProbabilityStatus::converged);
+    }
+    ProbabilityResult beyond;
+    collisionProbability(query, kIdentity, wallAt(1.01 * k), TruncatedGaussian(kIsotropic, k), {},
+                         beyond);
+    CHECK(*beyond.upper < 1e-300);
+  }
+}
+
+TEST_CASE("truncated in fewer directions, and not at all") {
+  const PreparedQuery query = boxAndWall();
+  const auto line = GaussianDisplacement::fromStandardDeviations({0.1, 0.0, 0.0});
+  ProbabilityResult result;
+  collisionProbability(query, kIdentity, wallAt(1.0), TruncatedGaussian(line, 2.0),
+                       withTolerance(1e-4), result);
+  checkHolds(result, normalIntervalMass(1.0, 2.0) / normalIntervalMass(-2.0, 2.0), 1e-4);
+  const auto plane = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.0});
+  collisionProbability(query, kIdentity, wallAt(0.0), TruncatedGaussian(plane, 2.0),
+                       withTolerance(1e-2), result);
+  checkHolds(result, 0.5, 1e-2);
+  collisionProbability(query, kIdentity, wallAt(3.0), TruncatedGaussian(kIsotropic, kInfinity), {},
+                       result);
+  checkHolds(result, normalTailMass(3.0), 1e-6);
+  collisionProbability(query, kIdentity, wallAt(-0.1), TruncatedGaussian({}, 1.0), {}, result);
+  CHECK(*result.lower == Approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE("truncated: half-spaces and planes as far as they can be reached") {
+  const PreparedQuery query(std::make_shared<fcl::Sphered>(0.2),
+                            std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), 0.0));
+  const TruncatedGaussian truncated(kIsotropic, 2.0);
+  ProbabilityResult result;
+  collisionProbability(query, at(4, 0, 0.3), kIdentity, truncated, withTolerance(0.01), result);
+  checkHolds(result, capMass(1.0, 2.0) / ballMassOf(2.0), 0.01 * *result.upper);
+  const PreparedQuery both(std::make_shared<fcl::Planed>(Eigen::Vector3d::UnitZ(), 0.0),
+                           std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), 0.0));
+  collisionProbability(both, at(4, 0, 0.1), kIdentity, truncated, {}, result);
+  const double expected = capMass(1.0, 2.0) / ballMassOf(2.0);
+  CHECK(*result.lower <= expected);
+  CHECK(*result.upper >= expected);
+}
+
+TEST_CASE("truncated: random scenes of meshes hold what rejection sampling counts") {
+  RandomBodies random(3);
+  const auto mesh_a = makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 4, 6, 1));
+  const auto mesh_b = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5));
+  const PreparedQuery query(mesh_a, mesh_b);
+  int between = 0;
+  for (int i = 0; i < 10; ++i) {
+    const auto gaussian = randomDisplacement(random, 0.05, 0.3).withMean(0.1 * random.direction());
+    const double k = random.uniform(0.7, 3.0);
+    const fcl::Transform3d pose = random.pose(1.2);
+    ProbabilityRequest request = withTolerance(0.05);
+    request.contact = i % 2 == 0 ? ContactMeaning::solid : ContactMeaning::fcl;
+    ProbabilityResult result;
+    collisionProbability(query, pose, kIdentity, TruncatedGaussian(gaussian, k), request, result);
+    const detail::DisplacedCollider collider(*mesh_a, pose, *mesh_b, kIdentity, request.contact);
+    const Eigen::Matrix3d factor = gaussian.axes() * gaussian.standardDeviations().asDiagonal();
+    constexpr int kSamples = 1000;
+    int hits = 0;
+    for (int drawn = 0; drawn < kSamples;) {
+      const Eigen::Vector3d y = random.normalVector();
+      if (y.norm() > k) continue;
+      ++drawn;
+      hits += collider.collides(gaussian.mean() + factor * y);
+    }
+    const auto deviation = [](double p) { return 5 * std::sqrt(p * (1 - p) * kSamples) + 5; };
+    CAPTURE(i, k, *result.lower, *result.upper, hits);
+    CHECK(hits >= *result.lower * kSamples - deviation(*result.lower));
+    CHECK(hits <= *result.upper * kSamples + deviation(*result.upper));
+    CHECK(*result.upper - *result.lower <= 0.05 * *result.upper);
+    between += hits > 10 && hits < kSamples - 10;
+  }
+  CHECK(between > 3);
+}
+
+TEST_CASE("truncated: thresholds are those of the conditional probability; some are refused") {
+  const PreparedQuery query = boxAndWall();
+  const TruncatedGaussian truncated(kIsotropic, 1.0);
+  const double p = capMass(0.0, 1.0) / ballMassOf(1.0);
+  CHECK(p == Approx(0.5));
+  ProbabilityResult result;
+  ProbabilityRequest request;
+  request.threshold = 0.45;
+  collisionProbability(query, kIdentity, wallAt(0.0), truncated, request, result);
+  CHECK(result.decision == Decision::above);
+  request.threshold = 0.55;
+  collisionProbability(query, kIdentity, wallAt(0.0), truncated, request, result);
+  CHECK(result.decision == Decision::below);
+  request.gradient = true;
+  CHECK_THROWS_AS(collisionProbability(query, kIdentity, kIdentity, truncated, request, result),
+                  InvalidRequest);
+  request.gradient = false;
+  request.method = ProbabilityMethod::monte_carlo;
+  CHECK_THROWS_AS(collisionProbability(query, kIdentity, kIdentity, truncated, request, result),
+                  UnsupportedGeometry);
+}
