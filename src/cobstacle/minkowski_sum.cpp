@@ -14,42 +14,86 @@ namespace {
 /// An edge that climbs by less than this fraction of its length may as well descend.
 constexpr double kTie = 4e-15;
 
-/// The vertex from which no edge climbs: the farthest one, corrected by the signs of the edges
-/// where rounding hides differences of height.
-int highestVertex(const ConvexMesh& mesh, const Eigen::Vector3d& direction,
-                  const std::int8_t* sign_of_edge) {
-  int highest = 0;
-  double height = direction.dot(mesh.vertices[0]);
-  for (std::size_t i = 1; i < mesh.vertices.size(); ++i) {
-    const double candidate = direction.dot(mesh.vertices[i]);
-    if (candidate > height) {
-      height = candidate;
-      highest = static_cast<int>(i);
-    }
+}  // namespace
+
+void MinkowskiSum::Heights::Projections::clear() {
+  x.clear();
+  y.clear();
+  z.clear();
+}
+
+void MinkowskiSum::Heights::Projections::add(const Eigen::Vector3d& vector) {
+  x.push_back(vector.x());
+  y.push_back(vector.y());
+  z.push_back(vector.z());
+}
+
+void MinkowskiSum::Heights::Projections::project(const Eigen::Vector3d& direction) {
+  const double dx = direction.x(), dy = direction.y(), dz = direction.z();
+  along.resize(x.size());
+  for (std::size_t i = 0; i < along.size(); ++i) along[i] = dx * x[i] + dy * y[i] + dz * z[i];
+}
+
+void MinkowskiSum::Heights::setTo(const ConvexMesh& mesh) {
+  edges.clear();
+  vertices.clear();
+  squared_tie.clear();
+  from.clear();
+  to.clear();
+  for (const Eigen::Vector3d& vertex : mesh.vertices) vertices.add(vertex);
+  for (const ConvexMesh::Edge& edge : mesh.edges) {
+    const Eigen::Vector3d vector = mesh.vertices[edge.to] - mesh.vertices[edge.from];
+    edges.add(vector);
+    squared_tie.push_back(kTie * kTie * vector.squaredNorm());
+    from.push_back(edge.from);
+    to.push_back(edge.to);
   }
-  bool climbing = true;
-  for (std::size_t pass = 0; climbing && pass < mesh.edges.size(); ++pass) {
-    climbing = false;
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-      const int lower = sign_of_edge[e] > 0 ? mesh.edges[e].from : mesh.edges[e].to;
-      if (lower != highest) continue;
-      highest = sign_of_edge[e] > 0 ? mesh.edges[e].to : mesh.edges[e].from;
-      climbing = true;
+}
+
+bool MinkowskiSum::Heights::haveTie() const {
+  int ties = 0;
+  for (std::size_t e = 0; e < squared_tie.size(); ++e) {
+    ties += edges.along[e] * edges.along[e] <= squared_tie[e];
+  }
+  return ties > 0;
+}
+
+void MinkowskiSum::Heights::writeSigns(std::int8_t* signs) const {
+  const double* const climb = edges.along.data();
+  const std::size_t count = edges.along.size();
+  for (std::size_t e = 0; e < count; ++e) {
+    signs[e] = static_cast<std::int8_t>(2 * (climb[e] > 0.0) - 1);
+  }
+}
+
+bool MinkowskiSum::Heights::climbsFrom(int vertex, const std::int8_t* signs) const {
+  int climbing = 0;
+  for (std::size_t e = 0; e < from.size(); ++e) {
+    climbing += signs[e] > 0 ? from[e] == vertex : to[e] == vertex;
+  }
+  return climbing > 0;
+}
+
+// The farthest vertex, corrected by the signs of the edges where rounding hides differences of
+// height.
+int MinkowskiSum::Heights::highestVertex(const Eigen::Vector3d& direction,
+                                         const std::int8_t* signs) {
+  vertices.project(direction);
+  const auto farthest = std::max_element(vertices.along.begin(), vertices.along.end());
+  int highest = static_cast<int>(farthest - vertices.along.begin());
+  for (std::size_t pass = 0; pass < from.size() && climbsFrom(highest, signs); ++pass) {
+    for (std::size_t e = 0; e < from.size(); ++e) {
+      if ((signs[e] > 0 ? from[e] : to[e]) == highest) highest = signs[e] > 0 ? to[e] : from[e];
     }
   }
   return highest;
 }
 
-}  // namespace
-
 std::optional<double> MinkowskiSum::Heights::compute(const ConvexMesh& faces_of,
                                                      const ConvexMesh& vertices_of,
                                                      const Eigen::Vector3d& turn) {
+  setTo(vertices_of);
   const std::size_t edge_count = vertices_of.edges.size();
-  edges.clear();
-  for (const ConvexMesh::Edge& edge : vertices_of.edges) {
-    edges.push_back(vertices_of.vertices[edge.to] - vertices_of.vertices[edge.from]);
-  }
   sign_of_edge.resize(faces_of.faces.size() * edge_count);
   highest.resize(faces_of.faces.size());
   double defect = 0.0;
@@ -57,15 +101,14 @@ std::optional<double> MinkowskiSum::Heights::compute(const ConvexMesh& faces_of,
     const Eigen::Vector3d& n = faces_of.faces[f].normal;
     const Eigen::Vector3d direction = n + turn.cross(n);
     std::int8_t* signs = sign_of_edge.data() + f * edge_count;
-    for (std::size_t e = 0; e < edge_count; ++e) {
-      const double climb = direction.dot(edges[e]);
-      if (climb * climb <= kTie * kTie * edges[e].squaredNorm()) return std::nullopt;
-      signs[e] = climb > 0.0 ? 1 : -1;
-    }
-    highest[f] = highestVertex(vertices_of, direction, signs);
+    edges.project(direction);
+    if (haveTie()) return std::nullopt;
+    writeSigns(signs);
+    highest[f] = highestVertex(direction, signs);
     if (turn.isZero(0.0)) continue;
+    edges.project(n);
     for (std::size_t e = 0; e < edge_count; ++e) {
-      const double climb = n.dot(edges[e]);
+      const double climb = edges.along[e];
       if ((climb > 0.0) != (signs[e] > 0)) defect = std::max(defect, std::abs(climb));
     }
   }

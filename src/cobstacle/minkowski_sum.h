@@ -31,7 +31,21 @@ class MinkowskiSum {
  private:
   /// How the vertices of one polytope lie along the face normals of the other.
   struct Heights {
-    std::vector<Eigen::Vector3d> edges;     // as vectors
+    /// Vectors coordinate by coordinate and their products with a direction: plain arrays, so that
+    /// the loops over them become vector instructions.
+    struct Projections {
+      std::vector<double> x, y, z;
+      std::vector<double> along;
+
+      void clear();
+      void add(const Eigen::Vector3d& vector);
+      void project(const Eigen::Vector3d& direction);
+    };
+
+    Projections edges;  // as vectors
+    Projections vertices;
+    std::vector<double> squared_tie;        // what is a tie for each edge
+    std::vector<int> from, to;              // of each edge
     std::vector<std::int8_t> sign_of_edge;  // face-major: +1 if the edge climbs
     std::vector<int> highest;               // vertex, per face
 
@@ -39,6 +53,16 @@ class MinkowskiSum {
     /// nothing if there is a tie.
     std::optional<double> compute(const ConvexMesh& faces_of, const ConvexMesh& vertices_of,
                                   const Eigen::Vector3d& turn);
+
+    void setTo(const ConvexMesh& mesh);
+
+    /// Whether an edge is as good as level in the direction that the edges are projected on.
+    bool haveTie() const;
+    void writeSigns(std::int8_t* signs) const;
+
+    /// The vertex from which no edge climbs.
+    int highestVertex(const Eigen::Vector3d& direction, const std::int8_t* signs);
+    bool climbsFrom(int vertex, const std::int8_t* signs) const;
   };
 
   std::optional<double> computePerturbed(const ConvexMesh& p, const ConvexMesh& q, int attempt,
