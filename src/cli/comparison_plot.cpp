@@ -69,7 +69,7 @@ void writeData(const Curves& curves, const ComparisonReference& reference, std::
       const double least = kLeastShown * reference.value;
       out << record->time_ms << ' ' << error << ' ' << std::min(error, std::max(claimed, floor))
           << ' ' << std::max(error, claimed) << ' ' << std::max(record->value, least) << ' '
-          << std::max(range.lower, least) << ' ' << range.upper << '\n';
+          << std::max(range.lower, least) << ' ' << std::max(range.upper, least) << '\n';
     }
     out << "EOD\n";
   }
