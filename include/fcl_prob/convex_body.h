@@ -30,13 +30,17 @@ class ConvexBody {
  public:
   static constexpr int kDefaultResolution = 92;
 
-  /// One of FCL's bounded convex shapes: Box, Sphere, Ellipsoid, Capsule, Cone, Cylinder, Convex
-  /// (the hull of its vertices), TriangleP. \param resolution  points on a ball (on a circle for
-  /// Cone and Cylinder) of the polytopes that stand
-  ///                    for a curved shape, at least 8
+  /// \param shape  one of FCL's bounded convex shapes: Box, Sphere, Ellipsoid, Capsule, Cone,
+  /// Cylinder, Convex (the hull of its vertices), TriangleP
+  /// \param resolution  points on a ball (on a circle for Cone and Cylinder) of the polytopes that
+  /// stand for a curved shape, at least 8
+  ///
   /// \throws InvalidGeometry if the shape is malformed (a size that is not positive and finite,
-  /// ...) \throws UnsupportedGeometry if it is no bounded convex shape \throws InvalidRequest if
-  /// `resolution` is below 8
+  /// ...)
+  ///
+  /// \throws UnsupportedGeometry if it is no bounded convex shape
+  ///
+  /// \throws InvalidRequest if `resolution` is below 8
   explicit ConvexBody(const fcl::CollisionGeometryd& shape, int resolution = kDefaultResolution);
 
   /// A bounding volume. An OBBRSS counts as its OBB; so does a kIOS.

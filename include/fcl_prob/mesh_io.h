@@ -28,7 +28,7 @@ struct ImportLimits {
 /// Reads all triangles of a STL, OBJ, PLY, OFF, DAE, glTF or GLB file (known by its extension).
 ///
 /// The transforms of the file's nodes are applied, among them a unit that the format itself
-/// declares (COLLADA's <unit>); otherwise the numbers are taken as metres, and the axes are the
+/// declares (COLLADA's `unit`); otherwise the numbers are taken as metres, and the axes are the
 /// file's. Polygons are triangulated, points and lines ignored, bitwise equal vertices welded.
 /// assimp reads in single precision: a mesh that is lost by it (further from its origin than 1e4
 /// times its size) is refused.

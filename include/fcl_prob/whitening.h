@@ -17,6 +17,7 @@ namespace fcl_prob {
 /// divided by `length_unit`, and every point that the displacement can reach has 0 there.
 class Whitening {
  public:
+  /// \param displacement  whose mean becomes the origin
   /// \param length_unit  metres, > 0: the scale of the coordinates that do not move.
   explicit Whitening(const GaussianDisplacement& displacement, double length_unit = 1.0);
 
