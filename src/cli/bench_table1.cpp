@@ -30,9 +30,9 @@ nodes no longer fill the inside: the leaves bound triangles, which have no volum
 
 **Why raw sums exceed 1.** GeneralPCD adds up the bounds of pairs of nodes as if they collided one at
 a time. Close meshes collide in tens of pairs at once, and every one of them is counted: even with
-the exact probability of every pair of triangles the sum is the mean number of colliding pairs (30
-for the bunny at 1 cm). No bounding volume can mend that, so the published sums of 20 % cannot come
-from that algorithm on scenes like these. min(parent, sum) at every node keeps the bound below the
+the exact probability of every pair of triangles the sum is the mean number of colliding pairs. No
+bounding volume can mend that: raw sums of a hundred and more are what the algorithm gives on scenes
+like these, and the published 20 % for OBBs cannot come from such a sum. min(parent, sum) at every node keeps the bound below the
 root's, but does not make it tight. A disjoint partition of the displacements (interval, estimate)
 counts nothing twice.
 
