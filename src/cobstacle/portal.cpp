@@ -24,26 +24,27 @@ Portal::Portal(const SupportObstacle& obstacle, const Eigen::Vector3d& origin,
       origin_(origin),
       direction_(direction),
       slack_(std::numeric_limits<double>::infinity()),
-      found_(discover() && orient()) {}
+      found_((discover(kLean) || discover(0.0)) && orient()) {}
 
 // Seen along the ray, the origin is inside V: a triangle of support points around it is looked for
 // as in two dimensions, by a segment that turns towards the origin. The support directions lean
-// towards the ray's, so that the triangle is already far along the ray.
-bool Portal::discover() {
+// towards the ray's, so that the triangle is already far along the ray. Where the body has an apex
+// or a corner, leaning directions may all find the same point; upright ones do not.
+bool Portal::discover(double lean) {
   auto& [a, b, c] = corners_;
   const Eigen::Vector3d along = direction_.normalized();
-  const auto support = [&](const Eigen::Vector3d& across, double lean) -> Eigen::Vector3d {
-    return obstacle_.supportPoint(across + lean * across.norm() * along) - origin_;
+  const auto support = [&](const Eigen::Vector3d& across, double leaning) -> Eigen::Vector3d {
+    return obstacle_.supportPoint(across + leaning * across.norm() * along) - origin_;
   };
   // Not in the ray's own direction: on a ball the ray would pass through that corner for ever.
-  a = support(direction_.unitOrthogonal(), 2.0);
+  a = support(direction_.unitOrthogonal(), 4.0 * lean);
   Eigen::Vector3d side = along * along.dot(a) - a;
   if (side.isZero(0.0)) side = direction_.unitOrthogonal();
-  b = support(side, kLean);
+  b = support(side, lean);
   if (direction_.dot(a.cross(b)) < 0.0) std::swap(a, b);
   for (int step = 0; step < kDiscoverySteps; ++step) {
     side = along.cross(b - a);
-    c = support(side, kLean);
+    c = support(side, lean);
     if (!(side.dot(c) > 0.0)) c = support(side, 0.0);
     if (!(side.dot(c) > 0.0)) return false;
     if (direction_.dot(b.cross(c)) < 0.0) {

@@ -41,7 +41,7 @@ class Portal {
   bool holds(const Eigen::Vector3d& point, Eigen::Vector3d& combination) const;
 
  private:
-  bool discover();
+  bool discover(double lean);
   bool orient();
   std::array<double, 3> weights() const;
 

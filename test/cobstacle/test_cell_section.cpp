@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "catch.h"
+#include "cobstacle/portal.h"
 #include "random_bodies.h"
 #include "shapes.h"
 
@@ -153,4 +154,29 @@ TEST_CASE("cells of lower rank have sections too") {
         CellSection::Relation::outside);
   CHECK(sectionOf(ball, {0.5, 0, 0}, {0.79, 0, 0}, 1).relation == CellSection::Relation::inside);
   CHECK(sectionOf(ball, {0.81, 0, 0}, {0.9, 0, 0}, 1).relation == CellSection::Relation::outside);
+}
+
+TEST_CASE("a portal is found in nearly every direction, also below an apex or a corner") {
+  RandomBodies random(14);
+  const Eigen::Matrix3d whitening = Eigen::Vector3d(3, 10, 30).asDiagonal();
+  const auto shapes = boundedShapes();
+  int rays = 0, missed = 0;
+  for (const NamedGeometry& a : shapes) {
+    for (const NamedGeometry& b : shapes) {
+      for (int i = 0; i < 30; ++i) {
+        const SupportShape of_a =
+            supportShape(*a.geometry).transformed(whitening * random.rotation());
+        const SupportShape of_b =
+            supportShape(*b.geometry).transformed(whitening * random.rotation());
+        const SupportObstacle obstacle({of_a, random.direction()}, {of_b, random.direction()},
+                                       1e-13);
+        for (int j = 0; j < 10; ++j) {
+          missed += !Portal(obstacle, obstacle.centre(), random.direction()).found();
+          ++rays;
+        }
+      }
+    }
+  }
+  CHECK(rays == 19200);
+  CHECK(missed <= 3);
 }
