@@ -7,7 +7,6 @@
 #include <fcl/broadphase/broadphase_SaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/broadphase/broadphase_interval_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -44,6 +43,7 @@ struct World {
     const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> geometries = {box, mesh, capsule};
     for (int i = 0; i < count; ++i) {
       fcl::Transform3d pose = random.pose(reach);
+      if (i == 0) pose.translation().setZero();  // the first has neighbours
       objects.push_back(std::make_unique<Object>(
           geometries[static_cast<std::size_t>(random.integer(0, 2))], pose));
       displacements[objects.back().get()] =
@@ -73,6 +73,7 @@ struct World {
   }
 };
 
+/// Without DynamicAABBTreeCollisionManager_Array, which leaks memory of its own in FCL 0.7.
 std::vector<std::unique_ptr<Manager>> managers() {
   std::vector<std::unique_ptr<Manager>> all;
   all.push_back(std::make_unique<fcl::NaiveCollisionManagerd>());
@@ -80,7 +81,6 @@ std::vector<std::unique_ptr<Manager>> managers() {
   all.push_back(std::make_unique<fcl::SaPCollisionManagerd>());
   all.push_back(std::make_unique<fcl::IntervalTreeCollisionManagerd>());
   all.push_back(std::make_unique<fcl::DynamicAABBTreeCollisionManagerd>());
-  all.push_back(std::make_unique<fcl::DynamicAABBTreeCollisionManager_Arrayd>());
   return all;
 }
 
@@ -91,7 +91,7 @@ void fill(Manager& manager, const std::vector<Object*>& objects) {
 
 }  // namespace
 
-TEST_CASE("an object against each of FCL's managers: what is culled is within the remainder") {
+TEST_CASE("an object against FCL's managers: what is culled is within the remainder") {
   const World world(24, 3.4, 1);
   const auto objects = world.pointers();
   const Object& moving = *objects[0];
@@ -131,7 +131,7 @@ TEST_CASE("an object against each of FCL's managers: what is culled is within th
 }
 
 TEST_CASE("a coarse culling probability leaves out more, and says how much that may be") {
-  const World world(22, 3.0, 2);
+  const World world(16, 2.5, 2);
   const auto objects = world.pointers();
   fcl::DynamicAABBTreeCollisionManagerd manager;
   fill(manager, objects);
@@ -141,7 +141,7 @@ TEST_CASE("a coarse culling probability leaves out more, and says how much that 
     request.culling_probability = share;
     BroadphaseResult result;
     collisionProbability(&manager, request, result);
-    CHECK(result.pairs.size() + result.pairs_culled == 22 * 21 / 2);
+    CHECK(result.pairs.size() + result.pairs_culled == 16 * 15 / 2);
     CHECK(result.pairs_culled > culled);
     culled = result.pairs_culled;
     CHECK(result.culled_upper ==
