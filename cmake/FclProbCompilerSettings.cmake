@@ -11,8 +11,6 @@ if(FCL_PROB_WERROR)
   target_compile_options(fcl_prob_settings INTERFACE -Werror)
 endif()
 if(FCL_PROB_SANITIZE)
-  target_compile_options(fcl_prob_settings INTERFACE -fsanitize=${FCL_PROB_SANITIZE}
-    -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(fcl_prob_settings INTERFACE -fsanitize=${FCL_PROB_SANITIZE})
 endif()
 

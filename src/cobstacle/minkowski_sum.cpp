@@ -181,10 +181,10 @@ void MinkowskiSum::addParallelograms(const ConvexMesh& p, const ConvexMesh& q, F
   const std::size_t edges_q = q.edges.size();
   for (std::size_t e = 0; e < edges_p; ++e) {
     const ConvexMesh::Edge& edge_p = p.edges[e];
-    const std::int8_t* left =
-        edge_p.left < 0 ? nullptr : &heights_of_q_.sign_of_edge[edge_p.left * edges_q];
-    const std::int8_t* right =
-        edge_p.left < 0 ? nullptr : &heights_of_q_.sign_of_edge[edge_p.right * edges_q];
+    // A point has no edges, so the table of signs may be empty.
+    const std::int8_t* signs = heights_of_q_.sign_of_edge.data();
+    const std::int8_t* left = edge_p.left < 0 ? nullptr : signs + edge_p.left * edges_q;
+    const std::int8_t* right = edge_p.left < 0 ? nullptr : signs + edge_p.right * edges_q;
     for (std::size_t k = 0; k < edges_q; ++k) {
       if (left && left[k] == right[k]) continue;
       const ConvexMesh::Edge& edge_q = q.edges[k];

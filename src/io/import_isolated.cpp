@@ -59,6 +59,7 @@ void limit(int resource, rlim_t soft, rlim_t hard) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
+// Sanitizers reserve terabytes of address space.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kShadowMemory = true;
 #elif defined(__has_feature)
@@ -74,7 +75,6 @@ constexpr bool kShadowMemory = false;
 void confine(const ImportLimits& limits) {
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1);
-  // Sanitizers reserve terabytes of address space.
   if (!kShadowMemory) limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) ::signal(signal, SIG_DFL);
   // What the importer prints is not for our user.
@@ -249,6 +249,8 @@ bool receive(Receiver& receiver, const std::string& path, TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+bool detail::importMemoryIsLimited() { return !kShadowMemory; }
 
 TriangleMesh detail::importIsolated(const std::string& path,
                                     const std::function<TriangleMesh()>& import,

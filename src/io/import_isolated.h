@@ -16,4 +16,8 @@ namespace fcl_prob::detail {
 TriangleMesh importIsolated(const std::string& path, const std::function<TriangleMesh()>& import,
                             const ImportLimits& limits);
 
+/// Whether the limit on memory is kept: not in a build under a sanitizer that reserves terabytes of
+/// address space.
+bool importMemoryIsLimited();
+
 }  // namespace fcl_prob::detail

@@ -169,7 +169,7 @@ TEST_CASE("bad input is refused with one line and exit code 2", "[cli]") {
   const TemporaryFolder& folder = cubes.folder;
   const std::string empty = folder.write("empty.stl", "");
   const std::string points = folder.write("points.obj", "v 0 0 0\nv 1 1 1\np 1 2\n");
-  const std::string noise = folder.write("noise.ply", std::string("ply\n\x01\x02\0\xff junk", 17));
+  const std::string noise = folder.write("noise.ply", std::string("ply\n\x01\x02\0\xff junk", 13));
   const std::string scene = folder.write("scene.json", R"({"a": {"sphere": 1}})");
 
   const auto refusal = [&](std::vector<std::string> arguments) {
