@@ -9,6 +9,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
+#include "geometry/surface_caps.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -19,24 +20,6 @@ Eigen::Matrix3d genericRotation() {
   return Eigen::Quaterniond(0.8142, 0.2931, 0.4127, -0.2839).normalized().toRotationMatrix();
 }
 
-/// For every vertex the first vertex with the same coordinates (-0 equals 0).
-std::vector<int> weld(const MeshView& mesh) {
-  std::vector<int> order(mesh.vertex_count);
-  std::iota(order.begin(), order.end(), 0);
-  const auto less = [&mesh](int a, int b) {
-    const auto& p = mesh.vertices[a];
-    const auto& q = mesh.vertices[b];
-    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
-  };
-  std::stable_sort(order.begin(), order.end(), less);
-  std::vector<int> welded(mesh.vertex_count);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && mesh.vertices[order[i]] == mesh.vertices[order[i - 1]];
-    welded[order[i]] = same ? welded[order[i - 1]] : order[i];
-  }
-  return welded;
-}
-
 struct Surface {
   std::vector<int> triangles;  // those with three different corners
   EdgePairing pairing;
@@ -44,7 +27,7 @@ struct Surface {
 
 /// Triangles with two equal corners have no inside to bound and cancel out of the pairing.
 Surface surfaceOf(const MeshView& mesh) {
-  const std::vector<int> welded = weld(mesh);
+  const std::vector<int> welded = weldVertices(mesh);
   Surface surface;
   std::vector<DirectedEdge> edges;
   for (int t = 0; t < mesh.triangle_count; ++t) {

@@ -33,6 +33,13 @@ constexpr int kMostTried = 32;
 constexpr int kMostSides = 6;
 constexpr double kLeastShare = 0.02;
 
+// Nodes opened to see how low the pairs of a cell reach below the plane of a witness.
+constexpr int kMostOpened = 1000;
+
+// Only with longer fronts than this a proof by topology is tried. It settles deep cells that no
+// pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
+constexpr std::size_t kLongFront = 50;
+
 // Bound on the mass of the part of a cell within `width` of a plane.
 double sliverMass(const Cell& cell, double width) {
   double exponent = 0.0;
@@ -105,6 +112,7 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
                            const SolidContact* solids, bool with_moments,
                            ProbabilityStatistics& statistics)
     : front_(pair, obstacles, statistics),
+      witness_(pair, solids != nullptr),
       solids_(solids),
       with_moments_(with_moments),
       statistics_(statistics) {}
@@ -112,6 +120,10 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
   ++statistics_.cells;
+  if (inherited.size() > kLongFront && witness_.usable() && witness_.covers(cell)) {
+    settle(cell);
+    return std::move(result_);
+  }
   front_.take(cell, inherited);
   for (const Cell& covered : front_.covered()) settle(covered);
   if (front_.cell().empty()) return std::move(result_);
@@ -119,13 +131,30 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
     settleFree(front_.cell());
     return std::move(result_);
   }
-  const int leader = champion();
-  if (leader >= 0) {
-    openWithPlane(front_.cutting()[leader]);
+  if (const auto leader = bestLeader()) {
+    openWithPlane(*leader);
   } else {
     openWithoutPlane();
   }
   return std::move(result_);
+}
+
+// The pair, or the proof by topology, that covers most of the cell under a single plane.
+std::optional<CuttingPair> CellExaminer::bestLeader() {
+  if (!maySkim(front_.cell())) return std::nullopt;
+  std::optional<CuttingPair> best = champion();
+  if (!witness_.usable() || front_.coarse().size() + front_.cutting().size() <= kLongFront) {
+    return best;
+  }
+  near_ = front_.coarse();
+  for (const CuttingPair& cutting : front_.cutting()) {
+    if (!cutting.pair.isHalfSpace()) near_.push_back(cutting.pair);
+  }
+  if (const auto plane = witness_.plane(front_.cell(), near_)) {
+    const CuttingPair half_space = front_.addHalfSpace(*plane);
+    if (!best || half_space.depth < best->depth) best = half_space;
+  }
+  return best;
 }
 
 // All of `cell` collides.
@@ -192,17 +221,11 @@ bool CellExaminer::maySkim(const Cell& cell) const {
   return largestWidth(cell) <= kWidestIntegrated && !(solids_ && solids_->possible(cell));
 }
 
-// The pair that covers most of the cell under a single plane; -1 if there is none.
-int CellExaminer::champion() const {
-  if (!maySkim(front_.cell())) return -1;
-  int best = -1;
-  double depth = 1.0;
-  for (int i = 0; i < static_cast<int>(front_.cutting().size()); ++i) {
-    const CuttingPair& cutting = front_.cutting()[i];
-    if (cutting.sides == 1 && cutting.depth < depth) {
-      depth = cutting.depth;
-      best = i;
-    }
+// The pair that covers most of the cell under a single plane.
+std::optional<CuttingPair> CellExaminer::champion() const {
+  std::optional<CuttingPair> best;
+  for (const CuttingPair& cutting : front_.cutting()) {
+    if (cutting.sides == 1 && cutting.depth < (best ? best->depth : 1.0)) best = cutting;
   }
   return best;
 }
@@ -274,6 +297,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   const double level = leader.layered ? leader.inner.s : leader.outer;
   const double enough = level - kSliver;
   double settled_from = level;
+  int budget = kMostOpened;
   OpenCell open;
   open.possible_from = leader.outer;
   open.front.push_back(leader.pair);
@@ -284,6 +308,8 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < enough && pair.obstacle >= 0) {
       lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+    } else if (lowest < enough && budget > 0) {
+      lowest = std::max(lowest, front_.lowestOfParts(pair, m, enough, budget));
     }
     if (lowest < enough) {
       if (!front_.clip(pair, part)) return;
@@ -298,7 +324,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
     include(part, box);
   };
   for (const CuttingPair& cutting : front_.cutting()) {
-    if (&cutting != &leader) consider(cutting.pair);
+    if (cutting.pair.obstacle != leader.pair.obstacle) consider(cutting.pair);
   }
   for (const FrontPair& pair : front_.coarse()) consider(pair);
 

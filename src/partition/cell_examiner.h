@@ -7,6 +7,7 @@
 
 #include "partition/cell_front.h"
 #include "partition/containment.h"
+#include "partition/crossing_witness.h"
 
 namespace fcl_prob::detail {
 
@@ -41,7 +42,8 @@ class CellExaminer {
   void settlePart(const Cell& cell, const CellPlane& plane, double sign);
   void settleFree(const Cell& cell);
   void settleAround(const Cell& box);
-  int champion() const;
+  std::optional<CuttingPair> champion() const;
+  std::optional<CuttingPair> bestLeader();
   void openWithoutPlane();
   bool maySkim(const Cell& cell) const;
   void addPlane(OpenCell& open) const;
@@ -49,10 +51,12 @@ class CellExaminer {
   void openWithPlane(const CuttingPair& leader);
 
   CellFront front_;
+  CrossingWitness witness_;
   const SolidContact* solids_;
   bool with_moments_;
   ProbabilityStatistics& statistics_;
   Examination result_;
+  std::vector<FrontPair> near_;
 };
 
 }  // namespace fcl_prob::detail

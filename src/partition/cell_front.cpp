@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cobstacle/cell_section.h"
 
@@ -31,6 +32,8 @@ constexpr int kCarveRounds = 8;
 // The planes of a curved obstacle closer than this count as one.
 constexpr double kThinLayer = 1e-11;
 
+constexpr NodeBox kEverywhere{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+
 // Depth of a plane that covers nothing of the cell.
 constexpr double kDeepest = 0.9999;
 
@@ -43,7 +46,9 @@ CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
       statistics_(statistics),
       kernels_(slabKernels()),
       cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
-      box_{} {}
+      box_{},
+      support_a_(pair.a),
+      support_b_(pair.b) {}
 
 void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) {
   cell_ = cell;
@@ -89,6 +94,15 @@ void CellFront::gatherLeaf(const FrontPair& pair) {
     cutting.depth = depthOf(cutting.inner);
   }
   cutting_.push_back(cutting);
+}
+
+CuttingPair CellFront::addHalfSpace(const CellPlane& plane) {
+  const FrontPair pair{-1, -1, obstacles_.addHalfSpace(plane.m, plane.s)};
+  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
+  CuttingPair cutting{pair, 1, 0.0, {plane.m, 0.0}, slabs.lo()[0], 2.0};
+  cutting.inner.s = cutting.outer + slabs.margin()[0];
+  cutting.depth = depthOf(cutting.inner);
+  return cutting;
 }
 
 void CellFront::coverAll() {
@@ -182,21 +196,27 @@ void CellFront::refine(const FrontPair& coarse, int& probes) {
   }
 }
 
-// Pushes the children of the larger node, the more central child last.
-void CellFront::expand(const FrontPair& pair) {
+// The children of the larger node with the other node.
+std::array<FrontPair, 2> CellFront::childrenOf(const FrontPair& pair) const {
   const PieceTree::Node& a = pair_.a.tree->nodes[pair.a];
   const PieceTree::Node& b = pair_.b.tree->nodes[pair.b];
   const bool first =
       b.isLeaf() || (!a.isLeaf() && pair_.a.boxes[pair.a].size() >= pair_.b.boxes[pair.b].size());
-  FrontPair children[2];
-  children[0] = first ? FrontPair{a.left, pair.b, -1} : FrontPair{pair.a, b.left, -1};
-  children[1] = first ? FrontPair{a.right, pair.b, -1} : FrontPair{pair.a, b.right, -1};
+  if (first) return {FrontPair{a.left, pair.b, -1}, FrontPair{a.right, pair.b, -1}};
+  return {FrontPair{pair.a, b.left, -1}, FrontPair{pair.a, b.right, -1}};
+}
+
+bool CellFront::isLeafPair(const FrontPair& pair) const {
+  return pair_.a.tree->nodes[pair.a].isLeaf() && pair_.b.tree->nodes[pair.b].isLeaf();
+}
+
+// Pushes the more central child last.
+void CellFront::expand(const FrontPair& pair) {
+  std::array<FrontPair, 2> children = childrenOf(pair);
   if (eccentricity(children[0]) < eccentricity(children[1])) std::swap(children[0], children[1]);
   for (FrontPair& child : children) {
     if (!overlaps(child)) continue;
-    if (pair_.a.tree->nodes[child.a].isLeaf() && pair_.b.tree->nodes[child.b].isLeaf()) {
-      child.obstacle = obstacles_.find(child.a, child.b);
-    }
+    if (isLeafPair(child)) child.obstacle = obstacles_.find(child.a, child.b);
     stack_.push_back(child);
   }
 }
@@ -256,6 +276,7 @@ void CellFront::classifyAgain() {
 }
 
 NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
+  if (pair.isHalfSpace()) return kEverywhere;
   return obstacleBox(pair_.a.boxes[pair.a], pair_.b.boxes[pair.b]);
 }
 
@@ -301,6 +322,40 @@ double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m)
   const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
   if (!slabs.outer_only) return lowest;
   return std::max(lowest, -obstacles_.support(pair.a, pair.b).supportUpper(-m));
+}
+
+double CellFront::lowestOfVertices(const FrontPair& pair, const Eigen::Vector3d& m) {
+  if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
+  const double a = support_a_.along(m, pair.a);
+  const double b = -support_b_.along(-m, pair.b);
+  const double error = 4 * (pair_.a.error + pair_.b.error) + 1e-15 * (std::fabs(a) + std::fabs(b));
+  return b - a - error;
+}
+
+// Depth first, lower children first; a pair that cannot lower the result is not opened.
+double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& m, double enough,
+                                int& budget) {
+  double result = std::numeric_limits<double>::infinity();
+  stack_.assign(1, coarse);
+  while (!stack_.empty()) {
+    const FrontPair pair = stack_.back();
+    stack_.pop_back();
+    ++statistics_.pairs_tested;
+    if (!overlaps(pair)) continue;
+    const double lowest = std::max(lowestOfBox(pair, m), lowestOfVertices(pair, m));
+    if (lowest >= result) continue;
+    if (!isLeafPair(pair) && lowest < enough && budget > 0) {
+      --budget;
+      std::array<FrontPair, 2> children = childrenOf(pair);
+      if (lowestOfBox(children[0], m) < lowestOfBox(children[1], m)) {
+        std::swap(children[0], children[1]);
+      }
+      stack_.insert(stack_.end(), children.begin(), children.end());
+      continue;
+    }
+    result = std::min(result, lowest);
+  }
+  return result;
 }
 
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {

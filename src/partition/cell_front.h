@@ -3,9 +3,11 @@
 // The pairs of pieces that may meet one cell, refined as far as the cell needs.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "fcl_prob/probability_result.h"
+#include "partition/node_support.h"
 #include "partition/obstacle_table.h"
 #include "partition/open_cell.h"
 
@@ -39,6 +41,9 @@ class CellFront {
   /// Pairs with an inner node: too large to say anything of the cell but that they may meet it.
   const std::vector<FrontPair>& coarse() const { return coarse_; }
 
+  /// Takes the part of the cell in a half-space as known to collide.
+  CuttingPair addHalfSpace(const CellPlane& plane);
+
   const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
 
   /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
@@ -46,6 +51,14 @@ class CellFront {
 
   /// The same from the slabs of a pair of leaves.
   double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
+
+  /// The same of any pair of nodes of two meshes from their vertices. Calls with the same m share
+  /// their work until another m is used.
+  double lowestOfVertices(const FrontPair& pair, const Eigen::Vector3d& m);
+
+  /// The same from the smaller pairs that a coarse pair consists of: as exact as matters below
+  /// `enough`, as long as `budget` lasts, which counts the nodes opened.
+  double lowestOfParts(const FrontPair& pair, const Eigen::Vector3d& m, double enough, int& budget);
 
   /// A box around the pair's C-obstacle ∩ cell; false if that is empty.
   bool clip(const FrontPair& pair, Cell& part) const;
@@ -59,6 +72,8 @@ class CellFront {
   void noteDepth(const CuttingPair& cutting);
   void gatherCoarse(const std::vector<FrontPair>& inherited);
   void refine(const FrontPair& coarse, int& probes);
+  std::array<FrontPair, 2> childrenOf(const FrontPair& pair) const;
+  bool isLeafPair(const FrontPair& pair) const;
   void expand(const FrontPair& pair);
   void carve();
   bool carveBy(const FrontPair& pair, double least_share);
@@ -81,6 +96,8 @@ class CellFront {
   double least_depth_ = 1.0;  ///< among the pairs with sections
   CellPlane deepest_;         ///< inner plane of the cutting pair of least depth
   std::vector<FrontPair> coarse_;
+  NodeSupport support_a_;  ///< along m
+  NodeSupport support_b_;  ///< along -m
   std::vector<FrontPair> stack_;
   std::vector<CuttingPair> previous_;
   std::vector<std::pair<double, FrontPair>> ordered_;

@@ -79,6 +79,10 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const double* uniform)
 }
 
 bool CellSampler::collides(const FrontPair& first, const CellBox& point) {
+  if (first.isHalfSpace()) {
+    return slabKernels().classify(obstacles_.slabs(first.obstacle), point).relation !=
+           CellRelation::outside;
+  }
   stack_.assign(1, first);
   while (!stack_.empty()) {
     const FrontPair pair = stack_.back();

@@ -14,6 +14,7 @@ namespace fcl_prob::detail {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kUnboundedSlab = 1e300;
 constexpr std::size_t kBlockDoubles = 1 << 16;
 
 // With more slabs than this two polytopes are quicker examined by their support functions.
@@ -68,6 +69,22 @@ int ObstacleTable::find(int a, int b) {
     obstacles_.push_back(triangles ? buildTriangles(a, b) : buildPieces(a, b));
   }
   return entry->second;
+}
+
+int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
+  constexpr int kLanes = 4;
+  const double padding = 32 * kEpsilon * kReach;
+  double* data = allocate(kLanes);
+  std::fill_n(data, kSlabFields * kLanes, 0.0);
+  for (int k = 0; k < 3; ++k) data[k * kLanes] = m[k];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    data[3 * kLanes + lane] = -kUnboundedSlab;
+    data[4 * kLanes + lane] = kUnboundedSlab;
+  }
+  data[3 * kLanes] = s - padding;
+  data[5 * kLanes] = 2 * padding;
+  obstacles_.push_back({data, kLanes});
+  return static_cast<int>(obstacles_.size()) - 1;
 }
 
 SlabArrays ObstacleTable::buildTriangles(int a, int b) {

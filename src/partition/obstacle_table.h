@@ -22,6 +22,9 @@ class ObstacleTable {
   /// Index of the C-obstacle of leaf node `a` of A and leaf node `b` of B.
   int find(int a, int b);
 
+  /// A half-space {m·y >= s} as an obstacle of its own: index of a new one.
+  int addHalfSpace(const Eigen::Vector3d& m, double s);
+
   const SlabArrays& slabs(int obstacle) const { return obstacles_[obstacle]; }
 
   /// The same C-obstacle by its support function: what its slabs leave open if they are outer_only.

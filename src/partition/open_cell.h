@@ -12,11 +12,14 @@
 namespace fcl_prob::detail {
 
 /// A pair of nodes whose C-obstacle may meet a cell. At two leaves `obstacle` is its index in the
-/// ObstacleTable, otherwise -1.
+/// ObstacleTable, otherwise -1. Without nodes (a = b = -1) it is a half-space of which the part
+/// within the cell is known to collide, whatever pairs cause that.
 struct FrontPair {
   int a;
   int b;
   int obstacle;
+
+  bool isHalfSpace() const { return a < 0; }
 };
 
 /// A half-space { m·y >= s } of the whitened frame, m a unit vector.

@@ -9,11 +9,15 @@
 #include "fcl_prob/exceptions.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
+#include "geometry/surface_caps.h"
 #include "partition/octree_pieces.h"
 
 namespace fcl_prob::detail {
 
 namespace {
+
+// With fewer triangles a mesh's own pairs cover what there is to cover.
+constexpr int kFewestForCaps = 500;
 
 template <typename Visit>
 void visitPoints(PieceTree& tree, const Visit& visit) {
@@ -71,6 +75,22 @@ std::vector<PieceTree::Node> copyTopology(const fcl::BVHModel<BV>& model) {
   return nodes;
 }
 
+// The apexes become vertices of the tree, so that they move with it.
+void fillCaps(const MeshView& view, PieceTree& tree) {
+  const SurfaceCaps surface = capsOf(view);
+  MeshCaps caps;
+  caps.component_of_vertex = surface.component_of_vertex;
+  caps.component_count = surface.component_count;
+  for (const SurfaceCaps::Cap& cap : surface.caps) {
+    const int apex = static_cast<int>(tree.vertices.size());
+    tree.vertices.push_back(cap.apex);
+    const int first = static_cast<int>(caps.triangles.size());
+    for (const auto& [i, j] : cap.rim) caps.triangles.emplace_back(i, j, apex);
+    caps.caps.push_back({first, static_cast<int>(caps.triangles.size())});
+  }
+  tree.caps = std::move(caps);
+}
+
 void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
   const MeshView view = meshView(geometry);
   tree.vertices.assign(view.vertices, view.vertices + view.vertex_count);
@@ -81,6 +101,7 @@ void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
                                 static_cast<int>(t[2]));
   }
   tree.nodes = visitMesh(geometry, [](const auto& model) { return copyTopology(model); });
+  if (view.triangle_count >= kFewestForCaps) fillCaps(view, tree);
 }
 
 // Faces and edges of the hull; parallel ones once, since a slab has two sides.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cobstacle/support_shape.h"
@@ -20,6 +21,18 @@ struct PieceShape {
   SupportShape body;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> faces;
   std::vector<Eigen::Vector3d> edges;
+};
+
+/// What closes a mesh, for the question which points are inside: caps over its open boundaries.
+struct MeshCaps {
+  struct Cap {
+    int first;  ///< of its triangles
+    int last;   ///< one behind the last
+  };
+  std::vector<Cap> caps;
+  std::vector<Eigen::Vector3i> triangles;  ///< indices into the tree's vertices
+  std::vector<int> component_of_vertex;    ///< as SurfaceCaps; of the mesh's own vertices only
+  int component_count = 0;
 };
 
 /// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
@@ -63,7 +76,9 @@ struct PieceTree {
   std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
   std::vector<Body> bodies;
   std::vector<PieceShape> shapes;  ///< in the axes of their part
+  std::optional<MeshCaps> caps;    ///< of a single mesh of many triangles
 
+  bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }
   bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
   int bodyOf(int piece) const { return piece - static_cast<int>(triangles.size()); }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Caps that close a surface, so that the parity of a ray's crossings says what is inside.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/mesh_visitor.h"
+
+namespace fcl_prob::detail {
+
+/// For every vertex the first vertex with the same coordinates (-0 equals 0).
+std::vector<int> weldVertices(const MeshView& mesh);
+
+/// A mesh and its caps together have an even number of triangles at every edge, whatever the mesh
+/// is like: then a path between two points crosses them an odd number of times if and only if the
+/// rays from the two points do in sum.
+struct SurfaceCaps {
+  struct Cap {
+    Eigen::Vector3d apex;                  ///< metres, frame of the mesh; in the hull of its rim
+    std::vector<std::pair<int, int>> rim;  ///< edges, each with the apex a triangle
+  };
+  std::vector<Cap> caps;  ///< one for every connected part of the edges with an odd number
+
+  /// Of every vertex: vertices of the same component are connected by triangles. -1 in no triangle.
+  std::vector<int> component_of_vertex;
+  int component_count = 0;
+};
+
+SurfaceCaps capsOf(const MeshView& mesh);
+
+}  // namespace fcl_prob::detail

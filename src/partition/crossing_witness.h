@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Proof, by topology, that two surfaces meet at every displacement of a cell.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "partition/capped_tree.h"
+#include "partition/open_cell.h"
+
+namespace fcl_prob::detail {
+
+/// If a vertex of one mesh stays inside the other, capped, for every displacement of a cell, while
+/// another vertex of the same component of it stays outside, then the surfaces meet throughout the
+/// cell, unless it is at a cap. Where triangles are much smaller than the cell no single pair of
+/// them could show that.
+class CrossingWitness {
+ public:
+  /// Keeps a reference to `pair`.
+  /// \param solid  whether a mesh inside the other one collides with it, too
+  CrossingWitness(const WhitenedPair& pair, bool solid);
+
+  /// Whether there is anything to try: two meshes with caps.
+  bool usable() const { return !sides_.empty(); }
+
+  /// True only if all of `cell` collides.
+  bool covers(const Cell& cell);
+
+  /// A plane beyond which all of `cell` collides, as far out as a few vertices near the pairs of
+  /// nodes `near` can show; nothing if they show none.
+  std::optional<CellPlane> plane(const Cell& cell, const std::vector<FrontPair>& near);
+
+ private:
+  /// One way round: a vertex of `inner` inside `outer`.
+  struct Side {
+    CappedTree inner;
+    CappedTree outer;
+    double sign;  ///< of the displacement of the inner mesh
+    std::vector<int> candidates;
+    std::vector<std::array<int, 6>>
+        extremes;  ///< of every component: vertices lowest and highest by axis
+    int last_found = -1;
+  };
+
+  /// A vertex of the inner mesh with all its displacements: a box.
+  struct SweptVertex {
+    double lo[3];
+    double hi[3];
+  };
+
+  struct Attempt {
+    Side* side;
+    int vertex;
+    CellPlane plane;
+    double depth;  ///< of the plane in the cell, -1 to 1: the lower the more is covered
+  };
+
+  static SweptVertex sweep(const Side& side, int vertex, const Cell& cell);
+  bool coversBy(Side& side, int vertex, const Cell& cell);
+  std::optional<bool> isInside(Side& side, const SweptVertex& swept);
+  bool crosses(Side& side, int vertex, const Cell& cell);
+  bool leaves(const Side& side, int component, const Cell& cell) const;
+  bool avoidsCaps(Side& side, const Cell& cell);
+
+  void tryNear(const Cell& cell, const std::vector<FrontPair>& near, const Eigen::Vector3d* m);
+  void tryPlane(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d* direction);
+  Eigen::Vector3d acrossTouched(const Side& side) const;
+  double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
+                        const Eigen::Vector3d& m) const;
+  bool certify(const Attempt& attempt, const Cell& cell);
+
+  bool solid_;
+  std::vector<Side> sides_;
+  std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
+  std::optional<Attempt> best_;
+};
+
+}  // namespace fcl_prob::detail
