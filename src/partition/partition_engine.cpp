@@ -21,7 +21,7 @@ constexpr double kSoon = 0.2;
 constexpr int kSoonLevels = 4;
 
 // Cells between two looks at the clock and at the caller's wishes.
-constexpr std::size_t kPollEvery = 64;
+constexpr std::size_t kPollEvery = 16;
 
 }  // namespace
 
