@@ -109,8 +109,8 @@ fcl::AABBd enlarged(const fcl::AABBd& box, const GaussianDisplacement& own,
 /// One query of a manager.
 class Broadphase {
  public:
-  Broadphase(const Manager* manager, const BroadphaseRequest& request, BroadphaseResult& result)
-      : manager_(manager), request_(request), result_(result), answers_(request) {
+  Broadphase(const Manager* manager, const BroadphaseRequest& request)
+      : manager_(manager), request_(request), answers_(request) {
     if (manager == nullptr) throw InvalidRequest("the manager is null");
     validateRequest(request.query);
     if (!(request.culling_probability > 0.0 && request.culling_probability < 0.5)) {
@@ -124,7 +124,6 @@ class Broadphase {
       known_.emplace(objects[i], Known{i, displacementOf(*objects[i], request)});
       range_.include(known_.at(objects[i]).displacement);
     }
-    result_ = BroadphaseResult();
   }
 
   std::size_t size() const { return known_.size(); }
@@ -146,14 +145,14 @@ class Broadphase {
   }
 
   /// \param pairs  in total
-  double finish(std::size_t pairs) {
+  BroadphaseResult finish(std::size_t pairs) {
     if (!result_.stopped) result_.pairs_culled = pairs - result_.pairs.size() - left_out_;
     const double each = normalTailMass(deviations_) * (1.0 + 1e-12);
     result_.culled_upper =
         std::min(1.0, static_cast<double>(result_.pairs_culled) * each * (1.0 + 1e-12));
     result_.any.upper =
         result_.stopped ? 1.0 : anyOf({result_.any, {0.0, result_.culled_upper}}).upper;
-    return result_.any.middle();
+    return std::move(result_);
   }
 
  private:
@@ -178,7 +177,7 @@ class Broadphase {
 
   const Manager* manager_;
   const BroadphaseRequest& request_;
-  BroadphaseResult& result_;
+  BroadphaseResult result_;
   PairAnswers answers_;
   std::unordered_map<const Object*, Known> known_;
   DisplacementRange range_;
@@ -195,15 +194,16 @@ class Broadphase {
 double collisionProbability(const Object* object, const Manager* manager,
                             const BroadphaseRequest& request, BroadphaseResult& result) {
   if (object == nullptr) throw InvalidGeometry("the object is null");
-  Broadphase broadphase(manager, request, result);
+  Broadphase broadphase(manager, request);
   broadphase.run(*object);
-  return broadphase.finish(broadphase.size() - (broadphase.contains(*object) ? 1 : 0));
+  result = broadphase.finish(broadphase.size() - (broadphase.contains(*object) ? 1 : 0));
+  return result.any.middle();
 }
 
 double collisionProbability(const Manager* manager_a, const Manager* manager_b,
                             const BroadphaseRequest& request, BroadphaseResult& result) {
   if (manager_a == nullptr) throw InvalidRequest("manager A is null");
-  Broadphase broadphase(manager_b, request, result);
+  Broadphase broadphase(manager_b, request);
   std::vector<Object*> objects;
   manager_a->getObjects(objects);
   std::size_t pairs = 0;
@@ -211,17 +211,19 @@ double collisionProbability(const Manager* manager_a, const Manager* manager_b,
     broadphase.run(*object);
     pairs += broadphase.size() - (broadphase.contains(*object) ? 1 : 0);
   }
-  return broadphase.finish(pairs);
+  result = broadphase.finish(pairs);
+  return result.any.middle();
 }
 
 double collisionProbability(const Manager* manager, const BroadphaseRequest& request,
                             BroadphaseResult& result) {
-  Broadphase broadphase(manager, request, result);
+  Broadphase broadphase(manager, request);
   std::vector<Object*> objects;
   manager->getObjects(objects);
   for (const Object* object : objects) broadphase.run(*object, true);
-  return broadphase.finish(objects.size() *
-                           (objects.size() - std::min<std::size_t>(1, objects.size())) / 2);
+  result = broadphase.finish(objects.size() *
+                             (objects.size() - std::min<std::size_t>(1, objects.size())) / 2);
+  return result.any.middle();
 }
 
 bool collisionProbabilityCallback(Object* a, Object* b, void* data) {

@@ -63,6 +63,21 @@ void makeConditional(const Bounds& of_joint, const BallMass& ball,
   }
 }
 
+/// The request with an on_progress that hears of the conditional probability, where the query that
+/// it is for knows the bounds that `convert` turns into those.
+template <typename Convert>
+ProbabilityRequest withConditionalProgress(const ProbabilityRequest& request,
+                                           const Convert& convert) {
+  ProbabilityRequest result = request;
+  if (!request.on_progress) return result;
+  result.on_progress = [&request, convert](const ProbabilityProgress& known) {
+    ProbabilityProgress progress = known;
+    progress.interval = convert(known.interval);
+    return request.on_progress(progress);
+  };
+  return result;
+}
+
 /// One side of the pair as the partition takes it; an unbounded shape as far as it can be reached.
 struct PairSide {
   std::shared_ptr<const PieceTree> stand_in;
@@ -97,12 +112,16 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
   // Nothing is cut off that could be noticed.
   const bool whole = gaussian.rank() == 0 || displacement.deviations() >= kReach;
   if (whole || both_unbounded) {
-    ProbabilityResult result = answer(pose_a, pose_b, gaussian, request);
+    const auto of_contact = withConditionalProgress(request, [mass](const Bounds& contact) {
+      return conditional(joint(contact, mass), mass.inside);
+    });
+    ProbabilityResult result = answer(pose_a, pose_b, gaussian, of_contact);
     makeConditional(joint({*result.lower, *result.upper}, mass), mass, request, result);
     result.plan.push_back("truncated displacement: enclosed by the mass outside the ellipsoid");
     return result;
   }
-  ProbabilityRequest of_joint = request;
+  ProbabilityRequest of_joint = withConditionalProgress(
+      request, [mass](const Bounds& joint) { return conditional(joint, mass.inside); });
   of_joint.absolute_tolerance *= mass.inside.lower;
   if (of_joint.threshold) *of_joint.threshold *= mass.inside.middle();
   if (!(of_joint.absolute_tolerance + of_joint.relative_tolerance > 0.0)) {
