@@ -23,9 +23,14 @@ class ScriptFile {
     const int descriptor = ::mkstemp(path_.data());
     if (descriptor < 0) throw FileError(path_ + ": cannot be created");
     ::close(descriptor);
-    std::ofstream file(path_);
-    file << script;
-    flushOutput(file, path_);
+    try {
+      std::ofstream file(path_);
+      file << script;
+      flushOutput(file, path_);
+    } catch (...) {
+      ::unlink(path_.c_str());
+      throw;
+    }
   }
   ~ScriptFile() { ::unlink(path_.c_str()); }
   ScriptFile(const ScriptFile&) = delete;

@@ -43,8 +43,9 @@ int parseAndRun(int argc, const char* const* argv) {
 }  // namespace
 
 int run(int argc, const char* const* argv) {
-  // A closed pipe shall be an error message, not a death.
+  // A closed pipe or a file that may not grow shall be an error message, not a death.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return parseAndRun(argc, argv);
   } catch (const std::bad_alloc&) {

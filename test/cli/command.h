@@ -32,19 +32,27 @@ inline std::string readWhole(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Runs fcl_prob with these arguments in `folder`. Standard output goes to `out_path` if given.
-inline CommandResult runCommand(const std::vector<std::string>& arguments,
-                                const TemporaryFolder& folder, const std::string& out_path = "") {
+/// Runs fcl_prob with these arguments in `folder`, after the shell's command `before`. Standard
+/// output goes to the file or the descriptor ("&5") `out_path` if given.
+inline CommandResult runCommandIn(const std::string& before,
+                                  const std::vector<std::string>& arguments,
+                                  const TemporaryFolder& folder, const std::string& out_path = "") {
   const std::string out = out_path.empty() ? folder.path("stdout") : out_path;
-  std::string line = "cd '" + folder.path("") + "' && '" + FCL_PROB_CLI + "'";
+  std::string line = "cd '" + folder.path("") + "' && " + before + " && '" + FCL_PROB_CLI + "'";
   for (const std::string& argument : arguments) line += " '" + argument + "'";
-  line += " >'" + out + "' 2>'" + folder.path("stderr") + "'";
+  line += out[0] == '&' ? " >" + out : " >'" + out + "'";
+  line += " 2>'" + folder.path("stderr") + "'";
   const int status = std::system(line.c_str());
   CommandResult result;
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   if (out_path.empty()) result.out = readWhole(out);
   result.err = readWhole(folder.path("stderr"));
   return result;
+}
+
+inline CommandResult runCommand(const std::vector<std::string>& arguments,
+                                const TemporaryFolder& folder, const std::string& out_path = "") {
+  return runCommandIn("true", arguments, folder, out_path);
 }
 
 inline std::string dataFile(const std::string& name) {
