@@ -59,10 +59,9 @@ struct BroadphaseResult {
 
 /// `object` against everything in the manager. As for FCL, objects' bounding boxes must be up to
 /// date (CollisionObject::computeAABB(), and update() of the manager) and the manager be set up;
-/// any of FCL's managers will do. `object` itself is skipped where the manager holds it. `result` is
-/// assigned only on success. \returns
-/// the middle of result.any \throws what a single query throws, InvalidRequest if
-/// culling_probability is out of range
+/// any of FCL's managers will do. `object` itself is skipped where the manager holds it. `result`
+/// is assigned only on success. \returns the middle of result.any \throws what a single query
+/// throws, InvalidRequest if culling_probability is out of range
 double collisionProbability(const fcl::CollisionObjectd* object,
                             const fcl::BroadPhaseCollisionManagerd* manager,
                             const BroadphaseRequest& request, BroadphaseResult& result);
