@@ -164,6 +164,44 @@ TEST_CASE("asked for by name, the exact method encloses curved shapes between po
   CHECK(*enclosed.upper - *enclosed.lower < 0.2 * *enclosed.upper);
 }
 
+// Their C-obstacle's facets are slivers where sides are parallel, with normals that are noise.
+TEST_CASE("the exact method of round shapes with one axis, around the origin and not") {
+  const fcl::Cylinderd cylinder(1.0, 1.3);
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::exact;
+  request.relative_tolerance = 0.05;
+  for (const double sigma : {1.0, 0.3, 0.1, 0.01}) {
+    for (const double height : {0.0, 0.9, 1.28, 1.4}) {
+      const auto displacement = GaussianDisplacement::fromStandardDeviations({sigma, sigma, sigma});
+      const auto result =
+          answer(cylinder, at({0.0, 0.0, height}), cylinder, kIdentity, displacement, request);
+      // A cylinder of twice the size; the distance from its axis has Rayleigh's distribution.
+      const double p = -std::expm1(-0.5 * (2.0 / sigma) * (2.0 / sigma)) *
+                       normalIntervalMass((-1.3 - height) / sigma, (1.3 - height) / sigma);
+      CAPTURE(sigma, height, p);
+      CHECK(*result.lower <= p * (1.0 + 1e-12));
+      CHECK(*result.upper >= p * (1.0 - 1e-12));
+      CHECK(*result.upper - *result.lower < 0.02 * p);
+    }
+  }
+  const fcl::Coned cone(1.0, 1.3);
+  const fcl::Ellipsoidd ellipsoid(1.0, 1.3, 0.7);
+  const std::vector<const fcl::ShapeBased*> shapes{&cone, &ellipsoid, &cylinder};
+  for (const fcl::ShapeBased* a : shapes) {
+    for (const fcl::ShapeBased* b : shapes) {
+      for (const double sigma : {1.0, 0.2}) {
+        const auto displacement =
+            GaussianDisplacement::fromStandardDeviations({sigma, sigma, sigma});
+        const auto enclosed = answer(*a, at({0.1, 0.1, 0.1}), *b, kIdentity, displacement, request);
+        const auto interval = answer(*a, at({0.1, 0.1, 0.1}), *b, kIdentity, displacement);
+        CHECK(*enclosed.lower <= *interval.upper);
+        CHECK(*enclosed.upper >= *interval.lower);
+        CHECK(*enclosed.upper - *enclosed.lower < 0.05);
+      }
+    }
+  }
+}
+
 TEST_CASE("displacements of rank 1 and 2 between boxes") {
   const fcl::Boxd box(1, 1, 1);
   const auto line = GaussianDisplacement::fromStandardDeviations({0.5, 0, 0});
