@@ -57,7 +57,10 @@ MassWithError boundaryMass(const PolytopeBoundary& boundary) {
   for (const BoundaryEdge& edge : boundary.edges) sum += integrateTail(boundary, edge);
   addFullAngles(boundary, sum);
   MassWithError mass = massOf(sum, boundary.edges.size());
-  if (boundary.origin_inside) mass.value += 1;
+  // The integral is the mass of the body or, around the origin, minus that of what is outside of
+  // it: its sign says which, unless it is lost in its own error.
+  const bool sign_is_certain = std::abs(mass.value) > 4 * mass.error;
+  if (sign_is_certain ? mass.value < 0 : boundary.origin_inside) mass.value += 1;
   return mass;
 }
 

@@ -179,29 +179,14 @@ void finishFaces(PolytopeBoundary& boundary) {
   }
 }
 
-// Solid angle of a triangle seen from the origin, > 0 from its inner side (Van Oosterom & Strackee
-// 1983, IEEE Trans. Biomed. Eng. 30).
-double solidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d to_a = a.normalized(), to_b = b.normalized(), to_c = c.normalized();
-  // The sides rather than the corners: their product is accurate also for a small triangle far
-  // away.
-  const double volume = to_a.dot(((b - a) / b.norm()).cross((c - a) / c.norm()));
-  return 2 * std::atan2(volume, 1 + to_a.dot(to_b) + to_b.dot(to_c) + to_c.dot(to_a));
-}
-
-// The boundary covers all directions, or each as often from inside as from outside. The signs of
-// the heights would do, were it not for slivers, whose normals are noise.
-bool isAroundOrigin(const ConvexPolytope& polytope) {
-  double sum = 0;
-  for (const ConvexPolytope::Face& face : polytope.faces) {
-    const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
-      return polytope.vertices[static_cast<std::size_t>(face.vertices[k])];
-    };
-    for (std::size_t k = 2; k < face.vertices.size(); ++k) {
-      sum += solidAngle(corner(0), corner(k - 1), corner(k));
-    }
-  }
-  return sum > 2 * M_PI;
+// Whether no face's plane has the body on one side and the origin on the other. A height below 0 is
+// not enough: the normals of slivers are noise, and their planes cut the body.
+bool isAroundOrigin(const ConvexPolytope& polytope, const std::vector<FaceFrame>& faces) {
+  return std::none_of(faces.begin(), faces.end(), [&](const FaceFrame& face) {
+    return face.height < 0 &&
+           std::all_of(polytope.vertices.begin(), polytope.vertices.end(),
+                       [&](const Eigen::Vector3d& v) { return face.normal.dot(v) < 0; });
+  });
 }
 
 }  // namespace
@@ -233,7 +218,7 @@ PolytopeBoundary polytopeBoundary(const ConvexPolytope& polytope) {
   boundary.edges.reserve(pairing.matches.size());
   for (const EdgeMatch& match : pairing.matches) addSides(polytope, match, boundary);
   finishFaces(boundary);
-  boundary.origin_inside = isAroundOrigin(polytope);
+  boundary.origin_inside = isAroundOrigin(polytope, boundary.faces);
   return boundary;
 }
 

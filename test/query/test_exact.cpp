@@ -17,6 +17,7 @@
 #include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
+#include "random_bodies.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
@@ -200,6 +201,33 @@ TEST_CASE("the exact method of round shapes with one axis, around the origin and
       }
     }
   }
+}
+
+// Whitening stretches their C-obstacle a billion times.
+TEST_CASE("the exact method of a displacement that hardly moves along one axis") {
+  RandomBodies random(11);
+  const fcl::Sphered sphere(1.7);
+  const fcl::Cylinderd cylinder(0.8, 1.5);
+  const fcl::Boxd box(7.2, 2.1, 7.7);
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::exact;
+  request.relative_tolerance = 0.1;
+  ProbabilityRequest few_cells;
+  few_cells.method = ProbabilityMethod::interval;
+  few_cells.max_cells = 40;
+  int partly = 0;
+  for (int i = 0; i < 24; ++i) {
+    const fcl::ShapeBased& shape = i % 2 == 0 ? static_cast<const fcl::ShapeBased&>(sphere)
+                                              : static_cast<const fcl::ShapeBased&>(cylinder);
+    const fcl::Transform3d pose = random.pose(8.0);
+    const auto displacement = GaussianDisplacement::fromStandardDeviations({5.0, 1.0, 1e-9});
+    const auto exact = answer(shape, pose, box, at({0.1, 0.2, 0.3}), displacement, request);
+    const auto interval = answer(shape, pose, box, at({0.1, 0.2, 0.3}), displacement, few_cells);
+    CHECK(*exact.lower <= *interval.upper);
+    CHECK(*exact.upper >= *interval.lower);
+    partly += *interval.upper < 0.9;
+  }
+  CHECK(partly > 5);
 }
 
 TEST_CASE("displacements of rank 1 and 2 between boxes") {
