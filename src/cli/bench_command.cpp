@@ -50,7 +50,9 @@ int runBench(BenchArguments arguments) {
     return kAnswered;
   }
   const Benchmark& benchmark = benchmarkNamed(arguments.name);
-  arguments.options.models_folder = modelsFolder(arguments.options.models_folder);
+  if (benchmark.needs_models) {
+    arguments.options.models_folder = modelsFolder(arguments.options.models_folder);
+  }
   noteInterrupts();
   BenchReport report;
   {
@@ -83,6 +85,9 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
       .add_option("--frames", arguments->options.frames,
                   "table1: random frames that bounds by AABBs are averaged over (the paper: "
                   "10000, hours)")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command.add_option("--cases", arguments->options.cases, "stability: scenes of each family")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of Markdown");

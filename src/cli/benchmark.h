@@ -17,6 +17,7 @@ struct BenchOptions {
   std::string only;  ///< run only scenes whose name contains this
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
+  std::size_t cases = 50;    ///< stability: scenes of each family
 };
 
 /// A table for people and the same numbers, unrounded, for programs.
@@ -35,6 +36,7 @@ using BenchProgress = std::function<bool(double fraction, const std::string& wha
 struct Benchmark {
   std::string name;
   std::string description;
+  bool needs_models;
   BenchReport (*run)(const BenchOptions& options, const BenchProgress& progress);
 };
 
@@ -43,6 +45,7 @@ const std::vector<Benchmark>& benchmarks();
 
 /// The benchmarks, one a file.
 BenchReport benchCertified(const BenchOptions& options, const BenchProgress& progress);
+BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
 
 }  // namespace fcl_prob::cli
