@@ -40,10 +40,12 @@ constexpr int kMostOpened = 1000;
 // pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
 constexpr std::size_t kLongFront = 50;
 
-// Bound on the mass of the part of a cell within `width` of a plane.
-double sliverMass(const Cell& cell, double width) {
+// Bound on the mass of the part of a cell within `width` of a plane with normal `m`. A plane that
+// hardly leans along the axes that move cuts a wide layer out of them.
+double sliverMass(const Cell& cell, const Eigen::Vector3d& m, double width) {
   double exponent = 0.0;
   double side = 1.0;
+  const double slope = m.head(cell.rank).norm();
   for (int i = 0; i < cell.rank; ++i) {
     const double nearest = std::max({cell.lo[i], -cell.hi[i], 0.0});
     exponent += nearest * nearest;
@@ -51,7 +53,9 @@ double sliverMass(const Cell& cell, double width) {
   }
   // The density is at most (2π)^{-rank/2} <= 0.4^rank, a plane's section of the cell below 3
   // side^2.
-  return width * std::pow(0.4, cell.rank) * std::exp(-0.5 * exponent) * 3 * side * side;
+  const double density = std::pow(0.4, cell.rank) * std::exp(-0.5 * exponent);
+  if (!(width > 0.0)) return 0.0;
+  return std::min(cellMass(cell).upper, width / slope * density * 3 * side * side);
 }
 
 double largestWidth(const Cell& cell) {
@@ -328,7 +332,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   }
   for (const FrontPair& pair : front_.coarse()) consider(pair);
 
-  const double sliver = sliverMass(cell, leader.inner.s - settled_from);
+  const double sliver = sliverMass(cell, m, leader.inner.s - settled_from);
   result_.settled.mass.upper += sliver;
   result_.settled.moment_error += sliver * (1.0 + kReach);
   if (open.front.size() == 1 && !leader.layered) return settlePart(cell, leader.inner, 1.0);

@@ -67,3 +67,46 @@ TEST_CASE("the truths of the stability benchmark keep their digits", "[cli]") {
   const SlantedStrip half{-1, -1, 2, 2, 1, 1.0, 1.0};
   CHECK(near(half.mass(), 0.5 * 0.6826894921370859 * 0.6826894921370859));
 }
+
+namespace {
+
+using fcl_prob::cli::StabilityCase;
+
+// Whether an answer asked for with hardly any tolerance still holds the truth.
+void checkTightAnswers(std::uint64_t seed, std::uint64_t cases, std::size_t cells) {
+  const auto families = fcl_prob::cli::stabilityFamilies();
+  int tight = 0;
+  for (std::size_t k = 0; k < families.size(); ++k) {
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      fcl_prob::cli::StabilityRandom random(seed, k, i);
+      const StabilityCase scene = families[k].make(random);
+      if (scene.displacement.size() > 1) continue;
+      fcl_prob::ProbabilityRequest request;
+      request.method = fcl_prob::ProbabilityMethod::interval;
+      request.contact = scene.contact;
+      request.relative_tolerance = 1e-13;
+      request.absolute_tolerance = 0;
+      request.max_cells = cells;
+      fcl_prob::ProbabilityResult result;
+      fcl_prob::PreparedQuery(scene.a, scene.b)
+          .collisionProbability(scene.pose_a, scene.pose_b, scene.displacement[0].displacement,
+                                request, result);
+      CAPTURE(families[k].name, families[k].objects, i, *result.lower, *result.upper);
+      REQUIRE(*result.lower <= scene.truth.upper);
+      REQUIRE(*result.upper >= scene.truth.lower);
+      tight += *result.upper - *result.lower < 1e-9 * *result.upper;
+    }
+  }
+  CAPTURE(tight);
+  CHECK(tight > 0.15 * static_cast<double>(families.size() * cases));
+}
+
+}  // namespace
+
+TEST_CASE("intervals as tight as rounding allows hold known probabilities", "[cli]") {
+  checkTightAnswers(3, 4, 300);
+}
+
+TEST_CASE("many intervals as tight as rounding allows hold known probabilities", "[cli][long]") {
+  checkTightAnswers(4, 200, 1500);
+}
