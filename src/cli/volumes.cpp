@@ -68,24 +68,9 @@ double volumeOfSlabs(const std::vector<detail::Slab>& slabs) {
 }
 
 std::vector<double> volumesByLevel(const ConvexHullTree& tree, int levels) {
-  std::vector<double> volumes;
-  std::vector<int> nodes{0};
-  for (int level = 0; level < levels; ++level) {
-    double sum = 0.0;
-    std::vector<int> next;
-    for (const int node : nodes) {
-      sum += tree.volume(node);
-      const int left = tree.tree().leftChild(node);
-      if (left < 0) {
-        next.push_back(node);
-      } else {
-        next.insert(next.end(), {left, left + 1});
-      }
-    }
-    volumes.push_back(sum);
-    nodes.swap(next);
-  }
-  return volumes;
+  return volumesByLevel(
+      levels, [&tree](int node) { return tree.volume(node); },
+      [&tree](int node) { return tree.tree().leftChild(node); });
 }
 
 }  // namespace fcl_prob::cli

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
+#include "geometry/disjoint_sets.h"
+#include "geometry/ray_crossing.h"
 #include "geometry/surface_caps.h"
 
 namespace fcl_prob::detail {
@@ -42,29 +43,18 @@ Surface surfaceOf(const MeshView& mesh) {
   return surface;
 }
 
-int rootOf(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// The first corner of one triangle of every part that hangs together by edges.
 std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh, const Surface& surface) {
-  std::vector<int> parent(mesh.triangle_count);
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets parts(mesh.triangle_count);
   for (const EdgeMatch& match : surface.pairing.matches) {
-    const int a = rootOf(parent, match.forward.polygon);
-    const int b = rootOf(parent, match.backward.polygon);
-    parent[std::max(a, b)] = std::min(a, b);
+    parts.union_set(match.forward.polygon, match.backward.polygon);
   }
   std::vector<Eigen::Vector3d> points;
   for (int t : surface.triangles) {
-    if (rootOf(parent, t) == t) points.push_back(mesh.vertex(t, 0));
+    if (static_cast<int>(parts.find_set(t)) == t) points.push_back(mesh.vertex(t, 0));
   }
   return points;
 }
-
-/// Sign of `value` if it exceeds its error, else 0.
-int certainSign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
 
 }  // namespace
 
@@ -107,33 +97,14 @@ ClosedMesh::ClosedMesh(const MeshView& mesh, const std::string& name) {
 // since moving from one to the other never carries the surface across the point's ray.
 std::optional<int> ClosedMesh::windingAlong(int axis, const Eigen::Vector3d& point,
                                             double margin) const {
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
   int winding = 0;
   const bool certain = tree_.visitRay(axis, point, 4 * margin, [&](int item) {
-    Eigen::Vector3d d[3];
-    double reach = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      d[k] = triangles_[item].corners[k] - point;
-      reach = std::max(reach, d[k].cwiseAbs().maxCoeff());
-    }
-    int positive = 0;
-    int negative = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d& a = d[k];
-      const Eigen::Vector3d& b = d[(k + 1) % 3];
-      const int sign = certainSign(a[u] * b[v] - a[v] * b[u], 16 * margin * (reach + margin));
-      positive += sign > 0;
-      negative += sign < 0;
-    }
-    if (positive > 0 && negative > 0) return true;
-    if (positive < 3 && negative < 3) return false;
-    const double volume = d[0].dot(d[1].cross(d[2]));
-    const int ahead = certainSign(volume, 96 * margin * (reach + margin) * (reach + margin));
-    if (ahead == 0) return false;
-    const int facing = positive == 3 ? 1 : -1;
-    if (ahead == facing) winding += facing;
-    return true;
+    const Triangle& triangle = triangles_[item];
+    const auto crossing = rayCrossing(
+        {triangle.corners[0] - point, triangle.corners[1] - point, triangle.corners[2] - point},
+        axis, margin);
+    winding += crossing.value_or(0);
+    return crossing.has_value();
   });
   return certain ? std::optional<int>(winding) : std::nullopt;
 }

@@ -5,30 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/disjoint_sets.h"
+
 namespace fcl_prob::detail {
 namespace {
-
-/// Sets of vertices that hang together.
-class DisjointSets {
- public:
-  explicit DisjointSets(int count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  int rootOf(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  void join(int i, int j) {
-    const int a = rootOf(i);
-    const int b = rootOf(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 using Edge = std::pair<int, int>;
 
@@ -57,7 +37,7 @@ void labelComponents(const MeshView& mesh, const std::vector<int>& welded, Surfa
   DisjointSets sets(mesh.vertex_count);
   for (int t = 0; t < mesh.triangle_count; ++t) {
     for (int k = 1; k < 3; ++k) {
-      sets.join(welded[mesh.triangles[t][0]], welded[mesh.triangles[t][k]]);
+      sets.union_set(welded[mesh.triangles[t][0]], welded[mesh.triangles[t][k]]);
     }
   }
   result.component_of_vertex.assign(mesh.vertex_count, -1);
@@ -65,7 +45,7 @@ void labelComponents(const MeshView& mesh, const std::vector<int>& welded, Surfa
   for (int t = 0; t < mesh.triangle_count; ++t) {
     for (int k = 0; k < 3; ++k) {
       const int vertex = static_cast<int>(mesh.triangles[t][k]);
-      int& component = label[sets.rootOf(welded[vertex])];
+      int& component = label[sets.find_set(welded[vertex])];
       if (component < 0) component = result.component_count++;
       result.component_of_vertex[vertex] = component;
     }
@@ -97,10 +77,10 @@ SurfaceCaps capsOf(const MeshView& mesh) {
   labelComponents(mesh, welded, result);
   const std::vector<Edge> odd = oddEdges(mesh, welded);
   DisjointSets rims(mesh.vertex_count);
-  for (const auto& [i, j] : odd) rims.join(i, j);
+  for (const auto& [i, j] : odd) rims.union_set(i, j);
   std::vector<int> cap_of(mesh.vertex_count, -1);
   for (const auto& [i, j] : odd) {
-    int& cap = cap_of[rims.rootOf(i)];
+    int& cap = cap_of[rims.find_set(i)];
     if (cap < 0) {
       cap = static_cast<int>(result.caps.size());
       result.caps.push_back({Eigen::Vector3d::Zero(), {}});

@@ -34,7 +34,7 @@ class CappedTree {
   template <typename Function>
   bool visitTriangles(const double* lo, const double* hi, Function&& function);
 
-  /// The same for the nodes of the mesh alone: false as soon as a leaf's box meets [lo, hi].
+  /// Whether the box of no triangle of the mesh, caps aside, meets [lo, hi].
   bool isFreeOfMesh(const double* lo, const double* hi);
 
   /// Whether the ray from `point` along an axis crosses the mesh and its caps an odd number of
@@ -42,6 +42,10 @@ class CappedTree {
   std::optional<bool> isInside(const Eigen::Vector3d& point, int axis);
 
  private:
+  template <typename Function>
+  bool visitMesh(const double* lo, const double* hi, Function&& function);
+  template <typename Function>
+  bool visitCaps(const double* lo, const double* hi, Function&& function) const;
   NodeBox boxOfCapTriangles(int first, int last) const;
 
   const WhitenedTree* mesh_;
@@ -52,6 +56,11 @@ class CappedTree {
 
 template <typename Function>
 bool CappedTree::visitTriangles(const double* lo, const double* hi, Function&& function) {
+  return visitMesh(lo, hi, function) && visitCaps(lo, hi, function);
+}
+
+template <typename Function>
+bool CappedTree::visitMesh(const double* lo, const double* hi, Function&& function) {
   const PieceTree& tree = *mesh_->tree;
   stack_.assign(1, 0);
   while (!stack_.empty()) {
@@ -66,6 +75,11 @@ bool CappedTree::visitTriangles(const double* lo, const double* hi, Function&& f
       return false;
     }
   }
+  return true;
+}
+
+template <typename Function>
+bool CappedTree::visitCaps(const double* lo, const double* hi, Function&& function) const {
   for (std::size_t cap = 0; cap < cap_boxes_.size(); ++cap) {
     if (isClearOf(cap_boxes_[cap], lo, hi)) continue;
     for (int t = caps().caps[cap].first; t < caps().caps[cap].last; ++t) {

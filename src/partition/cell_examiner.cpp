@@ -69,16 +69,11 @@ void include(const Cell& part, Cell& box) {
   box.hi = box.hi.cwiseMax(part.hi);
 }
 
-// The lowest corner of a cell along m.
-Eigen::Vector3d lowestCorner(const Cell& cell, const Eigen::Vector3d& m) {
-  return (m.array() > 0).select(cell.lo, cell.hi);
-}
-
 // A box around the part of a cell with from <= m·y <= to; the cell must have such a part.
 Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to) {
   Cell box = cell;
-  const double least = m.dot(lowestCorner(cell, m));
-  const double most = m.dot(lowestCorner(cell, -m));
+  const double least = m.dot(cell.lowestCorner(m));
+  const double most = m.dot(cell.lowestCorner(-m));
   for (int k = 0; k < cell.rank; ++k) {
     const double slope = std::fabs(m[k]);
     // Starting at either end of the cell along m, the planes are met after at least so much of k.
@@ -99,7 +94,7 @@ Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to
 }
 
 double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
-  return m.dot(lowestCorner(part, m)) - 1e-13;  // less its rounding
+  return m.dot(part.lowestCorner(m)) - 1e-13;  // less its rounding
 }
 
 }  // namespace
@@ -115,8 +110,8 @@ SettledMass& SettledMass::operator+=(const SettledMass& other) {
 CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
                            const SolidContact* solids, bool with_moments,
                            ProbabilityStatistics& statistics)
-    : front_(pair, obstacles, statistics),
-      witness_(pair, solids != nullptr),
+    : pair_(pair),
+      front_(pair, obstacles, statistics),
       solids_(solids),
       with_moments_(with_moments),
       statistics_(statistics) {}
@@ -124,7 +119,7 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
   ++statistics_.cells;
-  if (inherited.size() > kLongFront && witness_.usable() && witness_.covers(cell)) {
+  if (inherited.size() > kLongFront && witness() && witness()->covers(cell)) {
     settle(cell);
     return std::move(result_);
   }
@@ -147,18 +142,20 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
 std::optional<CuttingPair> CellExaminer::bestLeader() {
   if (!maySkim(front_.cell())) return std::nullopt;
   std::optional<CuttingPair> best = champion();
-  if (!witness_.usable() || front_.coarse().size() + front_.cutting().size() <= kLongFront) {
-    return best;
-  }
+  if (front_.coarse().size() + front_.cutting().size() <= kLongFront || !witness()) return best;
   near_ = front_.coarse();
   for (const CuttingPair& cutting : front_.cutting()) {
     if (!cutting.pair.isHalfSpace()) near_.push_back(cutting.pair);
   }
-  if (const auto plane = witness_.plane(front_.cell(), near_)) {
-    const CuttingPair half_space = front_.addHalfSpace(*plane);
-    if (!best || half_space.depth < best->depth) best = half_space;
-  }
+  const auto plane = witness()->plane(front_.cell(), near_);
+  if (plane && (!best || front_.depthOf(*plane) < best->depth)) return front_.addHalfSpace(*plane);
   return best;
+}
+
+// Null where there is nothing to try.
+CrossingWitness* CellExaminer::witness() {
+  if (!witness_) witness_.emplace(pair_, solids_ != nullptr);
+  return witness_->usable() ? &*witness_ : nullptr;
 }
 
 // All of `cell` collides.

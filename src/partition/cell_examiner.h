@@ -27,7 +27,7 @@ struct Examination {
 
 class CellExaminer {
  public:
-  /// \param solids  null: surfaces only
+  /// Keeps references to all arguments. \param solids  null: surfaces only
   CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
                bool with_moments, ProbabilityStatistics& statistics);
 
@@ -44,14 +44,16 @@ class CellExaminer {
   void settleAround(const Cell& box);
   std::optional<CuttingPair> champion() const;
   std::optional<CuttingPair> bestLeader();
+  CrossingWitness* witness();
   void openWithoutPlane();
   bool maySkim(const Cell& cell) const;
   void addPlane(OpenCell& open) const;
   void weigh(OpenCell& open) const;
   void openWithPlane(const CuttingPair& leader);
 
+  const WhitenedPair& pair_;
   CellFront front_;
-  CrossingWitness witness_;
+  std::optional<CrossingWitness> witness_;  ///< made when a front first is long enough for it
   const SolidContact* solids_;
   bool with_moments_;
   ProbabilityStatistics& statistics_;

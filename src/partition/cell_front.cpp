@@ -85,23 +85,25 @@ void CellFront::gatherLeaf(const FrontPair& pair) {
   if (slabs.outer_only) return gatherSection(pair);
   if (cut.relation == CellRelation::inside) return coverAll();
   CuttingPair cutting{pair, cut.sides, cut.covered, {}, 0.0, 2.0};
-  if (cut.sides == 1) {
-    const double sign = cut.upper_side ? -1.0 : 1.0;
-    const int i = cut.slab;
-    cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
-    cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
-    cutting.inner.s = cutting.outer + slabs.margin()[i];
-    cutting.depth = depthOf(cutting.inner);
-  }
+  if (cut.sides == 1) setPlane(cut, cutting);
   cutting_.push_back(cutting);
 }
 
-CuttingPair CellFront::addHalfSpace(const CellPlane& plane) {
-  const FrontPair pair{-1, -1, obstacles_.addHalfSpace(plane.m, plane.s)};
-  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
-  CuttingPair cutting{pair, 1, 0.0, {plane.m, 0.0}, slabs.lo()[0], 2.0};
-  cutting.inner.s = cutting.outer + slabs.margin()[0];
+// The one plane of a pair's slabs that cuts the cell.
+void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
+  const SlabArrays& slabs = obstacles_.slabs(cutting.pair.obstacle);
+  const double sign = cut.upper_side ? -1.0 : 1.0;
+  const int i = cut.slab;
+  cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
+  cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
+  cutting.inner.s = cutting.outer + slabs.margin()[i];
   cutting.depth = depthOf(cutting.inner);
+}
+
+CuttingPair CellFront::addHalfSpace(const CellPlane& plane) {
+  const FrontPair pair{{-1, -1}, obstacles_.addHalfSpace(plane.m, plane.s)};
+  CuttingPair cutting{pair, 1, 0.0, {}, 0.0, 2.0};
+  setPlane({CellRelation::cut, 1, 0, false, 0.0}, cutting);
   return cutting;
 }
 
@@ -114,7 +116,7 @@ void CellFront::coverAll() {
 // A pair that is known by its support function. It is examined closely only if it reaches out of
 // what the best plane so far covers.
 void CellFront::gatherSection(const FrontPair& pair) {
-  const SupportObstacle obstacle = obstacles_.support(pair.a, pair.b);
+  const SupportObstacle obstacle = obstacles_.support(pair.nodes);
   CuttingPair cutting{pair, 2, -1.0, {}, 0.0, 2.0};
   if (least_depth_ < kDeepest && -obstacle.supportUpper(-deepest_.m) >= deepest_.s) {
     cutting_.push_back(cutting);
@@ -159,7 +161,7 @@ void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
     ++statistics_.pairs_tested;
     if (!overlaps(pair)) continue;
     if (largerThanCell(pair, kProbeRatio)) {
-      ordered_.emplace_back(eccentricity(pair), pair);
+      ordered_.emplace_back(eccentricity(pair.nodes), pair);
     } else {
       coarse_.push_back(pair);
     }
@@ -196,28 +198,13 @@ void CellFront::refine(const FrontPair& coarse, int& probes) {
   }
 }
 
-// The children of the larger node with the other node.
-std::array<FrontPair, 2> CellFront::childrenOf(const FrontPair& pair) const {
-  const PieceTree::Node& a = pair_.a.tree->nodes[pair.a];
-  const PieceTree::Node& b = pair_.b.tree->nodes[pair.b];
-  const bool first =
-      b.isLeaf() || (!a.isLeaf() && pair_.a.boxes[pair.a].size() >= pair_.b.boxes[pair.b].size());
-  if (first) return {FrontPair{a.left, pair.b, -1}, FrontPair{a.right, pair.b, -1}};
-  return {FrontPair{pair.a, b.left, -1}, FrontPair{pair.a, b.right, -1}};
-}
-
-bool CellFront::isLeafPair(const FrontPair& pair) const {
-  return pair_.a.tree->nodes[pair.a].isLeaf() && pair_.b.tree->nodes[pair.b].isLeaf();
-}
-
 // Pushes the more central child last.
 void CellFront::expand(const FrontPair& pair) {
-  std::array<FrontPair, 2> children = childrenOf(pair);
+  std::array<NodePair, 2> children = childrenOf(pair_, pair.nodes);
   if (eccentricity(children[0]) < eccentricity(children[1])) std::swap(children[0], children[1]);
-  for (FrontPair& child : children) {
-    if (!overlaps(child)) continue;
-    if (isLeafPair(child)) child.obstacle = obstacles_.find(child.a, child.b);
-    stack_.push_back(child);
+  for (const NodePair& child : children) {
+    if (!overlaps({child, -1})) continue;
+    stack_.push_back({child, areLeaves(pair_, child) ? obstacles_.find(child) : -1});
   }
 }
 
@@ -277,7 +264,7 @@ void CellFront::classifyAgain() {
 
 NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
   if (pair.isHalfSpace()) return kEverywhere;
-  return obstacleBox(pair_.a.boxes[pair.a], pair_.b.boxes[pair.b]);
+  return obstacleBox(pair_, pair.nodes);
 }
 
 bool CellFront::overlaps(const FrontPair& pair) const {
@@ -289,8 +276,8 @@ bool CellFront::overlaps(const FrontPair& pair) const {
 }
 
 // How far the middle of the cell is from that of the C-obstacle's box.
-double CellFront::eccentricity(const FrontPair& pair) const {
-  const NodeBox box = obstacleBoxOf(pair);
+double CellFront::eccentricity(NodePair nodes) const {
+  const NodeBox box = obstacleBox(pair_, nodes);
   double off = 0.0;
   for (int k = 0; k < cell_.rank; ++k) {
     off += std::fabs(0.5 * (box.lo[k] + box.hi[k]) - box_.center[k]);
@@ -321,13 +308,13 @@ double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m)
   const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
   const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
   if (!slabs.outer_only) return lowest;
-  return std::max(lowest, -obstacles_.support(pair.a, pair.b).supportUpper(-m));
+  return std::max(lowest, -obstacles_.support(pair.nodes).supportUpper(-m));
 }
 
 double CellFront::lowestOfVertices(const FrontPair& pair, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
-  const double a = support_a_.along(m, pair.a);
-  const double b = -support_b_.along(-m, pair.b);
+  const double a = support_a_.along(m, pair.nodes.a);
+  const double b = -support_b_.along(-m, pair.nodes.b);
   const double error = 4 * (pair_.a.error + pair_.b.error) + 1e-15 * (std::fabs(a) + std::fabs(b));
   return b - a - error;
 }
@@ -344,13 +331,13 @@ double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& 
     if (!overlaps(pair)) continue;
     const double lowest = std::max(lowestOfBox(pair, m), lowestOfVertices(pair, m));
     if (lowest >= result) continue;
-    if (!isLeafPair(pair) && lowest < enough && budget > 0) {
+    if (!areLeaves(pair_, pair.nodes) && lowest < enough && budget > 0) {
       --budget;
-      std::array<FrontPair, 2> children = childrenOf(pair);
-      if (lowestOfBox(children[0], m) < lowestOfBox(children[1], m)) {
+      std::array<NodePair, 2> children = childrenOf(pair_, pair.nodes);
+      if (lowestOfBox({children[0], -1}, m) < lowestOfBox({children[1], -1}, m)) {
         std::swap(children[0], children[1]);
       }
-      stack_.insert(stack_.end(), children.begin(), children.end());
+      for (const NodePair& child : children) stack_.push_back({child, -1});
       continue;
     }
     result = std::min(result, lowest);

@@ -3,7 +3,6 @@
 // The pairs of pieces that may meet one cell, refined as far as the cell needs.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "fcl_prob/probability_result.h"
@@ -41,6 +40,9 @@ class CellFront {
   /// Pairs with an inner node: too large to say anything of the cell but that they may meet it.
   const std::vector<FrontPair>& coarse() const { return coarse_; }
 
+  /// Signed distance of a plane from the cell's middle: -1 covers all, 1 nothing.
+  double depthOf(const CellPlane& plane) const;
+
   /// Takes the part of the cell in a half-space as known to collide.
   CuttingPair addHalfSpace(const CellPlane& plane);
 
@@ -67,13 +69,11 @@ class CellFront {
   void gather(const std::vector<FrontPair>& inherited);
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
+  void setPlane(const CellCut& cut, CuttingPair& cutting) const;
   void coverAll();
-  double depthOf(const CellPlane& plane) const;
   void noteDepth(const CuttingPair& cutting);
   void gatherCoarse(const std::vector<FrontPair>& inherited);
   void refine(const FrontPair& coarse, int& probes);
-  std::array<FrontPair, 2> childrenOf(const FrontPair& pair) const;
-  bool isLeafPair(const FrontPair& pair) const;
   void expand(const FrontPair& pair);
   void carve();
   bool carveBy(const FrontPair& pair, double least_share);
@@ -81,7 +81,7 @@ class CellFront {
   void classifyAgain();
   NodeBox obstacleBoxOf(const FrontPair& pair) const;
   bool overlaps(const FrontPair& pair) const;
-  double eccentricity(const FrontPair& pair) const;
+  double eccentricity(NodePair nodes) const;
   bool largerThanCell(const FrontPair& pair, double ratio) const;
 
   const WhitenedPair& pair_;

@@ -23,6 +23,11 @@ struct Cell {
 
   /// Without interior along an axis that moves, or settled.
   bool empty() const;
+
+  /// The corner where m·y is least.
+  Eigen::Vector3d lowestCorner(const Eigen::Vector3d& m) const {
+    return (m.array() > 0).select(lo, hi);
+  }
 };
 
 /// Certified mass of the cell under N(0, I).

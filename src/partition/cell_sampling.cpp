@@ -87,28 +87,21 @@ bool CellSampler::collides(const FrontPair& first, const CellBox& point) {
   while (!stack_.empty()) {
     const FrontPair pair = stack_.back();
     stack_.pop_back();
-    const NodeBox box = obstacleBox(pair_.a.boxes[pair.a], pair_.b.boxes[pair.b]);
+    const NodeBox box = obstacleBox(pair_, pair.nodes);
     bool outside = false;
     for (int k = 0; k < 3; ++k) {
       outside = outside || point.center[k] < box.lo[k] || point.center[k] > box.hi[k];
     }
     if (outside) continue;
-    const PieceTree::Node& a = pair_.a.tree->nodes[pair.a];
-    const PieceTree::Node& b = pair_.b.tree->nodes[pair.b];
-    if (a.isLeaf() && b.isLeaf()) {
-      const int obstacle = pair.obstacle >= 0 ? pair.obstacle : obstacles_.find(pair.a, pair.b);
+    if (areLeaves(pair_, pair.nodes)) {
+      const int obstacle = pair.obstacle >= 0 ? pair.obstacle : obstacles_.find(pair.nodes);
       const SlabArrays& slabs = obstacles_.slabs(obstacle);
       if (slabKernels().classify(slabs, point).relation == CellRelation::outside) continue;
       if (!slabs.outer_only) return true;
       const Eigen::Vector3d y(point.center[0], point.center[1], point.center[2]);
-      if (contains(obstacles_.support(pair.a, pair.b), y)) return true;
-    } else if (b.isLeaf() ||
-               (!a.isLeaf() && pair_.a.boxes[pair.a].size() >= pair_.b.boxes[pair.b].size())) {
-      stack_.push_back({a.left, pair.b, -1});
-      stack_.push_back({a.right, pair.b, -1});
+      if (contains(obstacles_.support(pair.nodes), y)) return true;
     } else {
-      stack_.push_back({pair.a, b.left, -1});
-      stack_.push_back({pair.a, b.right, -1});
+      for (const NodePair& child : childrenOf(pair_, pair.nodes)) stack_.push_back({child, -1});
     }
   }
   return false;

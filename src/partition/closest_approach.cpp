@@ -18,8 +18,7 @@ constexpr int kMostSteps = 2000;
 
 struct Candidate {
   double distance;  // lower bound, squared
-  int a;
-  int b;
+  NodePair nodes;
   bool operator<(const Candidate& other) const { return distance > other.distance; }
 };
 
@@ -28,43 +27,36 @@ class Search {
   Search(const WhitenedPair& pair, int rank) : pair_(pair), rank_(rank), obstacles_(pair) {}
 
   Eigen::Vector3d run() {
-    push(0, 0);
+    push({0, 0});
     for (int step = 0; step < kMostSteps && !queue_.empty(); ++step) {
       const Candidate next = queue_.top();
       queue_.pop();
       if (next.distance >= nearest_) break;
-      const PieceTree::Node& a = pair_.a.tree->nodes[next.a];
-      const PieceTree::Node& b = pair_.b.tree->nodes[next.b];
-      if (a.isLeaf() && b.isLeaf()) {
-        measure(next.a, next.b);
+      if (areLeaves(pair_, next.nodes)) {
+        measure(next.nodes);
         if (nearest_ == 0.0) return Eigen::Vector3d::Zero();
-      } else if (b.isLeaf() ||
-                 (!a.isLeaf() && pair_.a.boxes[next.a].size() >= pair_.b.boxes[next.b].size())) {
-        push(a.left, next.b);
-        push(a.right, next.b);
       } else {
-        push(next.a, b.left);
-        push(next.a, b.right);
+        for (const NodePair& child : childrenOf(pair_, next.nodes)) push(child);
       }
     }
     return direction_;
   }
 
  private:
-  void push(int a, int b) {
-    const NodeBox box = obstacleBox(pair_.a.boxes[a], pair_.b.boxes[b]);
+  void push(NodePair nodes) {
+    const NodeBox box = obstacleBox(pair_, nodes);
     double distance = 0.0;
     for (int k = 0; k < 3; ++k) {
       const double outside = std::max({box.lo[k], -box.hi[k], 0.0});
       if (k >= rank_ && outside > 0) return;  // never reached: no motion along k
       distance += outside * outside;
     }
-    if (distance < nearest_) queue_.push({distance, a, b});
+    if (distance < nearest_) queue_.push({distance, nodes});
   }
 
   // The slab that keeps the origin farthest outside gives a direction and nearly the distance.
-  void measure(int a, int b) {
-    const SlabArrays& slabs = obstacles_.slabs(obstacles_.find(a, b));
+  void measure(NodePair nodes) {
+    const SlabArrays& slabs = obstacles_.slabs(obstacles_.find(nodes));
     double farthest = 0.0;
     Eigen::Vector3d direction = Eigen::Vector3d::Zero();
     for (int i = 0; i < slabs.count; ++i) {

@@ -73,22 +73,12 @@ std::vector<std::array<int, 6>> extremesOfComponents(const WhitenedTree& mesh) {
   return extremes;
 }
 
-Eigen::Vector3d lowestCorner(const Cell& cell, const Eigen::Vector3d& m) {
-  return (m.array() > 0).select(cell.lo, cell.hi);
-}
-
-double highestOfBox(const NodeBox& box, const Eigen::Vector3d& m) {
-  double highest = 0.0;
-  for (int k = 0; k < 3; ++k) highest += m[k] * (m[k] > 0 ? box.hi[k] : box.lo[k]);
-  return highest;
-}
-
 // The vertex of a node that lies about farthest along m.
 int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) {
   while (!mesh.tree->nodes[node].isLeaf()) {
     const PieceTree::Node& inner = mesh.tree->nodes[node];
     const bool left =
-        highestOfBox(mesh.boxes[inner.left], m) > highestOfBox(mesh.boxes[inner.right], m);
+        mesh.boxes[inner.left].highestAlong(m) > mesh.boxes[inner.right].highestAlong(m);
     node = left ? inner.left : inner.right;
   }
   const Eigen::Vector3i& t = mesh.tree->triangles[mesh.tree->nodes[node].piece];
@@ -221,7 +211,7 @@ void CrossingWitness::tryNear(const Cell& cell, const std::vector<FrontPair>& ne
   const std::size_t step = std::max<std::size_t>(near.size() / kTriedForPlane, 1);
   for (Side& side : sides_) {
     for (std::size_t i = step / 2; i < near.size(); i += step) {
-      const int node = side.sign > 0 ? near[i].a : near[i].b;
+      const int node = side.sign > 0 ? near[i].nodes.a : near[i].nodes.b;
       if (!m) {
         tryPlane(side, leftmostVertex(*side.inner.mesh().tree, node), cell, nullptr);
         continue;
@@ -251,8 +241,8 @@ void CrossingWitness::tryPlane(Side& side, int vertex, const Cell& cell,
   if (!(length > 0.0)) return;
   m /= length;
   const double s = highestTouched(side, vertex, swept, m);
-  const double least = m.dot(lowestCorner(cell, m));
-  const double most = m.dot(lowestCorner(cell, -m));
+  const double least = m.dot(cell.lowestCorner(m));
+  const double most = m.dot(cell.lowestCorner(-m));
   const double depth = 2 * (s - least) / (most - least) - 1;
   if (!(depth < (best_ ? best_->depth : kDeepest))) return;
   const Attempt attempt{&side, vertex, {m, s}, depth};
@@ -301,7 +291,7 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
 bool CrossingWitness::certify(const Attempt& attempt, const Cell& cell) {
   Side& side = *attempt.side;
   const Eigen::Vector3d& m = attempt.plane.m;
-  const Eigen::Vector3d corner = lowestCorner(cell, -m);
+  const Eigen::Vector3d corner = cell.lowestCorner(-m);
   const Eigen::Vector3d middle = 0.5 * (cell.lo + cell.hi);
   for (int trial = 0; trial < kTrials; ++trial) {
     const double share = 0.02 + 0.05 * trial;

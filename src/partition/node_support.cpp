@@ -7,13 +7,13 @@
 
 namespace fcl_prob::detail {
 
-NodeSupport::NodeSupport(const WhitenedTree& mesh) : mesh_(&mesh), m_(Eigen::Vector3d::Zero()) {
-  if (!mesh.tree->isMesh()) return;
-  value_.resize(mesh.boxes.size());
-  known_in_.assign(mesh.boxes.size(), 0);
-}
+NodeSupport::NodeSupport(const WhitenedTree& mesh) : mesh_(&mesh), m_(Eigen::Vector3d::Zero()) {}
 
 double NodeSupport::along(const Eigen::Vector3d& m, int node) {
+  if (value_.empty()) {
+    value_.resize(mesh_->boxes.size());
+    known_in_.assign(mesh_->boxes.size(), 0);
+  }
   if (m != m_) {
     m_ = m;
     ++direction_;
@@ -25,16 +25,10 @@ double NodeSupport::along(const Eigen::Vector3d& m, int node) {
   return value_[node];
 }
 
-double NodeSupport::ofBox(int node) const {
-  const NodeBox& box = mesh_->boxes[node];
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) sum += m_[k] * (m_[k] > 0 ? box.hi[k] : box.lo[k]);
-  return sum;
-}
-
 // Depth first, the farther child first; what cannot reach beyond the best so far is left out.
 double NodeSupport::search(int node) {
   const PieceTree& tree = *mesh_->tree;
+  const auto ofBox = [this](int index) { return mesh_->boxes[index].highestAlong(m_); };
   double best = -std::numeric_limits<double>::infinity();
   stack_.assign(1, node);
   while (!stack_.empty()) {

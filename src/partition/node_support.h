@@ -20,7 +20,6 @@ class NodeSupport {
 
  private:
   double search(int node);
-  double ofBox(int node) const;
 
   const WhitenedTree* mesh_;
   Eigen::Vector3d m_;

@@ -61,12 +61,13 @@ double* ObstacleTable::allocate(int count) {
   return data;
 }
 
-int ObstacleTable::find(int a, int b) {
-  const std::uint64_t key = (static_cast<std::uint64_t>(a) << 32) | static_cast<std::uint32_t>(b);
+int ObstacleTable::find(NodePair leaves) {
+  const std::uint64_t key =
+      (static_cast<std::uint64_t>(leaves.a) << 32) | static_cast<std::uint32_t>(leaves.b);
   const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(obstacles_.size()));
   if (is_new) {
-    const bool triangles = isTriangle(pair_.a, a) && isTriangle(pair_.b, b);
-    obstacles_.push_back(triangles ? buildTriangles(a, b) : buildPieces(a, b));
+    const bool triangles = isTriangle(pair_.a, leaves.a) && isTriangle(pair_.b, leaves.b);
+    obstacles_.push_back(triangles ? buildTriangles(leaves) : buildPieces(leaves));
   }
   return entry->second;
 }
@@ -87,7 +88,7 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
   return static_cast<int>(obstacles_.size()) - 1;
 }
 
-SlabArrays ObstacleTable::buildTriangles(int a, int b) {
+SlabArrays ObstacleTable::buildTriangles(NodePair leaves) {
   const auto corners = [](const WhitenedTree& whitened, int node, double* out) {
     const Eigen::Vector3i& t = whitened.tree->triangles[whitened.tree->nodes[node].piece];
     for (int corner = 0; corner < 3; ++corner) {
@@ -96,24 +97,24 @@ SlabArrays ObstacleTable::buildTriangles(int a, int b) {
   };
   double vertices_a[9];
   double vertices_b[9];
-  corners(pair_.a, a, vertices_a);
-  corners(pair_.b, b, vertices_b);
+  corners(pair_.a, leaves.a, vertices_a);
+  corners(pair_.b, leaves.b, vertices_b);
   double* data = allocate(kTriangleSlabs);
   slabKernels().triangleSlabs(vertices_a, vertices_b, pair_.a.error + pair_.b.error, data);
   return {data, kTriangleSlabs};
 }
 
-SlabArrays ObstacleTable::buildPieces(int a, int b) {
-  const bool few = hasFewSlabs(a, b);
-  const PieceSlabs slabs =
-      few ? pieceSlabs(pair_.a, pair_.a.tree->nodes[a].piece, pair_.b, pair_.b.tree->nodes[b].piece)
-          : supportSlabs(support(a, b));
+SlabArrays ObstacleTable::buildPieces(NodePair leaves) {
+  const bool few = hasFewSlabs(leaves);
+  const PieceSlabs slabs = few ? pieceSlabs(pair_.a, pair_.a.tree->nodes[leaves.a].piece, pair_.b,
+                                            pair_.b.tree->nodes[leaves.b].piece)
+                               : supportSlabs(support(leaves));
   double* data = allocate(slabs.count);
   std::copy(slabs.data.begin(), slabs.data.end(), data);
   return {data, slabs.count, !few};
 }
 
-bool ObstacleTable::hasFewSlabs(int a, int b) const {
+bool ObstacleTable::hasFewSlabs(NodePair leaves) const {
   struct Counts {
     std::size_t faces = 1;
     std::size_t edges = 3;
@@ -124,18 +125,18 @@ bool ObstacleTable::hasFewSlabs(int a, int b) const {
     const PieceShape& shape = shapeOf(tree, tree.tree->bodyOf(tree.tree->nodes[node].piece));
     return {shape.faces.size(), shape.edges.size(), shape.body.curved()};
   };
-  const Counts of_a = count(pair_.a, a);
-  const Counts of_b = count(pair_.b, b);
+  const Counts of_a = count(pair_.a, leaves.a);
+  const Counts of_b = count(pair_.b, leaves.b);
   if (of_a.curved || of_b.curved) return false;
   return of_a.faces + of_b.faces + of_a.edges * of_b.edges <= kMostSlabs;
 }
 
-SupportObstacle ObstacleTable::support(int a, int b) const {
-  const double reach =
-      3 * (largestCoordinate(pair_.a.boxes[a]) + largestCoordinate(pair_.b.boxes[b])) +
-      1.8 * kReach;
+SupportObstacle ObstacleTable::support(NodePair leaves) const {
+  const double reach = 3 * (largestCoordinate(pair_.a.boxes[leaves.a]) +
+                            largestCoordinate(pair_.b.boxes[leaves.b])) +
+                       1.8 * kReach;
   const double error = 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
-  return {bodyAt(pair_.a, a), bodyAt(pair_.b, b), error};
+  return {bodyAt(pair_.a, leaves.a), bodyAt(pair_.b, leaves.b), error};
 }
 
 std::size_t ObstacleTable::memory() const {

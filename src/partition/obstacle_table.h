@@ -19,8 +19,8 @@ class ObstacleTable {
   /// Keeps a reference to `pair`.
   explicit ObstacleTable(const WhitenedPair& pair);
 
-  /// Index of the C-obstacle of leaf node `a` of A and leaf node `b` of B.
-  int find(int a, int b);
+  /// Index of the C-obstacle of a leaf of A and a leaf of B.
+  int find(NodePair leaves);
 
   /// A half-space {m·y >= s} as an obstacle of its own: index of a new one.
   int addHalfSpace(const Eigen::Vector3d& m, double s);
@@ -28,16 +28,18 @@ class ObstacleTable {
   const SlabArrays& slabs(int obstacle) const { return obstacles_[obstacle]; }
 
   /// The same C-obstacle by its support function: what its slabs leave open if they are outer_only.
-  SupportObstacle support(int a, int b) const;
+  SupportObstacle support(NodePair leaves) const;
 
-  std::size_t size() const { return obstacles_.size(); }
+  /// Pairs of leaves that were asked for.
+  std::size_t pairCount() const { return index_.size(); }
+
   std::size_t memory() const;
 
  private:
   double* allocate(int count);
-  SlabArrays buildTriangles(int a, int b);
-  SlabArrays buildPieces(int a, int b);
-  bool hasFewSlabs(int a, int b) const;
+  SlabArrays buildTriangles(NodePair leaves);
+  SlabArrays buildPieces(NodePair leaves);
+  bool hasFewSlabs(NodePair leaves) const;
 
   const WhitenedPair& pair_;
   std::vector<SlabArrays> obstacles_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "partition/cell_mass.h"
+#include "partition/whitened_tree.h"
 
 namespace fcl_prob::detail {
 
@@ -15,11 +16,10 @@ namespace fcl_prob::detail {
 /// ObstacleTable, otherwise -1. Without nodes (a = b = -1) it is a half-space of which the part
 /// within the cell is known to collide, whatever pairs cause that.
 struct FrontPair {
-  int a;
-  int b;
+  NodePair nodes;
   int obstacle;
 
-  bool isHalfSpace() const { return a < 0; }
+  bool isHalfSpace() const { return nodes.a < 0; }
 };
 
 /// A half-space { m·y >= s } of the whitened frame, m a unit vector.

@@ -41,8 +41,8 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
     root.hi[i] = reach;
   }
   // Two single pieces are a pair of leaves from the start: there is nothing to expand.
-  const bool leaves = pair.a.tree->nodes[0].isLeaf() && pair.b.tree->nodes[0].isLeaf();
-  add(examine(root, {{0, 0, leaves ? obstacles_.find(0, 0) : -1}}));
+  const NodePair roots{0, 0};
+  add(examine(root, {{roots, areLeaves(pair, roots) ? obstacles_.find(roots) : -1}}));
 }
 
 Examination PartitionEngine::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
@@ -205,7 +205,7 @@ ProbabilityStatus PartitionEngine::run(bool estimate) {
   }
   recount();
   statistics_.cells_open = queue_.size();
-  statistics_.leaf_pairs = obstacles_.size();
+  statistics_.leaf_pairs = obstacles_.pairCount();
   return *status;
 }
 

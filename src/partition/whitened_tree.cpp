@@ -126,4 +126,13 @@ WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,
           whitenOne(b, whitening, reference + whitening.mean().cast<long double>())};
 }
 
+std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes) {
+  const PieceTree::Node& a = pair.a.tree->nodes[nodes.a];
+  const PieceTree::Node& b = pair.b.tree->nodes[nodes.b];
+  const bool split_a =
+      b.isLeaf() || (!a.isLeaf() && pair.a.boxes[nodes.a].size() >= pair.b.boxes[nodes.b].size());
+  if (split_a) return {NodePair{a.left, nodes.b}, NodePair{a.right, nodes.b}};
+  return {NodePair{nodes.a, b.left}, NodePair{nodes.a, b.right}};
+}
+
 }  // namespace fcl_prob::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "fcl_prob/whitening.h"
@@ -17,6 +18,13 @@ struct NodeBox {
   double hi[3];
 
   double size() const { return hi[0] - lo[0] + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
+
+  /// The largest m·y of its points, rounded.
+  double highestAlong(const Eigen::Vector3d& m) const {
+    double highest = 0.0;
+    for (int k = 0; k < 3; ++k) highest += m[k] * (m[k] > 0 ? hi[k] : lo[k]);
+    return highest;
+  }
 };
 
 /// A shape of the pieces and its extent, relative to the position of a piece.
@@ -45,10 +53,28 @@ struct WhitenedPair {
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening);
 
+/// A node of A's tree and one of B's.
+struct NodePair {
+  int a;
+  int b;
+};
+
+/// Whether both nodes are leaves.
+inline bool areLeaves(const WhitenedPair& pair, NodePair nodes) {
+  return pair.a.tree->nodes[nodes.a].isLeaf() && pair.b.tree->nodes[nodes.b].isLeaf();
+}
+
+/// The children of the larger node, each with the other node; not both may be leaves.
+std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes);
+
 /// Bounding box of the C-obstacle of two nodes: certainly contains it.
 inline NodeBox obstacleBox(const NodeBox& a, const NodeBox& b) {
   return {{b.lo[0] - a.hi[0], b.lo[1] - a.hi[1], b.lo[2] - a.hi[2]},
           {b.hi[0] - a.lo[0], b.hi[1] - a.lo[1], b.hi[2] - a.lo[2]}};
+}
+
+inline NodeBox obstacleBox(const WhitenedPair& pair, NodePair nodes) {
+  return obstacleBox(pair.a.boxes[nodes.a], pair.b.boxes[nodes.b]);
 }
 
 }  // namespace fcl_prob::detail

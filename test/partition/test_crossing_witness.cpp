@@ -49,7 +49,7 @@ class WitnessCase {
     for (int a : level(*tree_a_)) {
       for (int b : level(*tree_b_)) {
         const NodeBox box = obstacleBox(pair_.a.boxes[a], pair_.b.boxes[b]);
-        if (!isClearOf(box, cell.lo.data(), cell.hi.data())) pairs.push_back({a, b, -1});
+        if (!isClearOf(box, cell.lo.data(), cell.hi.data())) pairs.push_back({{a, b}, -1});
       }
     }
     return pairs;
