@@ -10,14 +10,6 @@
 
 namespace fcl_prob::detail {
 
-/// Whether a box is clear of [lo, hi].
-inline bool isClearOf(const NodeBox& box, const double* lo, const double* hi) {
-  for (int k = 0; k < 3; ++k) {
-    if (box.lo[k] > hi[k] || box.hi[k] < lo[k]) return true;
-  }
-  return false;
-}
-
 class CappedTree {
  public:
   /// Keeps a reference to `mesh`, which must have caps.

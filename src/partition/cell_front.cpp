@@ -68,7 +68,7 @@ void CellFront::gather(const std::vector<FrontPair>& inherited) {
   for (const FrontPair& pair : inherited) {
     if (pair.obstacle < 0) continue;
     ++statistics_.pairs_tested;
-    if (overlaps(pair)) gatherLeaf(pair);
+    if (meetsCell(obstacleBoxOf(pair))) gatherLeaf(pair);
     if (cell_.empty()) return;
   }
   carve();
@@ -159,9 +159,10 @@ void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
   for (const FrontPair& pair : inherited) {
     if (pair.obstacle >= 0) continue;
     ++statistics_.pairs_tested;
-    if (!overlaps(pair)) continue;
-    if (largerThanCell(pair, kProbeRatio)) {
-      ordered_.emplace_back(eccentricity(pair.nodes), pair);
+    const NodeBox box = obstacleBox(pair_, pair.nodes);
+    if (!meetsCell(box)) continue;
+    if (largerThanCell(box, kProbeRatio)) {
+      ordered_.emplace_back(eccentricity(box), BoxedPair{pair, box});
     } else {
       coarse_.push_back(pair);
     }
@@ -169,19 +170,20 @@ void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
   std::sort(ordered_.begin(), ordered_.end(),
             [](const auto& x, const auto& y) { return x.first < y.first; });
   int probes = kProbes;
-  for (const auto& [unused, pair] : ordered_) {
-    refine(pair, probes);
+  for (const auto& [unused, coarse] : ordered_) {
+    refine(coarse, probes);
     if (cell_.empty()) return;
   }
 }
 
-void CellFront::refine(const FrontPair& coarse, int& probes) {
+void CellFront::refine(const BoxedPair& coarse, int& probes) {
   stack_.push_back(coarse);
   while (!stack_.empty()) {
-    const FrontPair pair = stack_.back();
+    const BoxedPair boxed = stack_.back();
+    const FrontPair& pair = boxed.pair;
     stack_.pop_back();
     ++statistics_.pairs_tested;
-    if (!overlaps(pair)) continue;
+    if (!meetsCell(boxed.box)) continue;
     if (pair.obstacle >= 0) {
       --probes;
       const std::size_t before = cutting_.size();
@@ -190,8 +192,8 @@ void CellFront::refine(const FrontPair& coarse, int& probes) {
         carveBy(pair, kImmediateShare);
       }
       if (cell_.empty()) return;
-    } else if (largerThanCell(pair, probes > 0 ? kProbeRatio : kRefineRatio)) {
-      expand(pair);
+    } else if (largerThanCell(boxed.box, probes > 0 ? kProbeRatio : kRefineRatio)) {
+      expand(boxed);
     } else {
       coarse_.push_back(pair);
     }
@@ -199,12 +201,14 @@ void CellFront::refine(const FrontPair& coarse, int& probes) {
 }
 
 // Pushes the more central child last.
-void CellFront::expand(const FrontPair& pair) {
-  std::array<NodePair, 2> children = childrenOf(pair_, pair.nodes);
-  if (eccentricity(children[0]) < eccentricity(children[1])) std::swap(children[0], children[1]);
-  for (const NodePair& child : children) {
-    if (!overlaps({child, -1})) continue;
-    stack_.push_back({child, areLeaves(pair_, child) ? obstacles_.find(child) : -1});
+void CellFront::expand(const BoxedPair& boxed) {
+  const std::array<NodePair, 2> children = childrenOf(pair_, boxed.pair.nodes);
+  std::array<NodeBox, 2> boxes{obstacleBox(pair_, children[0]), obstacleBox(pair_, children[1])};
+  const int last = eccentricity(boxes[0]) < eccentricity(boxes[1]) ? 0 : 1;
+  for (const int i : {1 - last, last}) {
+    if (!meetsCell(boxes[i])) continue;
+    const int obstacle = areLeaves(pair_, children[i]) ? obstacles_.find(children[i]) : -1;
+    stack_.push_back({{children[i], obstacle}, boxes[i]});
   }
 }
 
@@ -257,7 +261,7 @@ void CellFront::classifyAgain() {
   cutting_.clear();
   least_depth_ = kDeepest;
   for (const CuttingPair& cutting : previous_) {
-    if (overlaps(cutting.pair)) gatherLeaf(cutting.pair);
+    if (meetsCell(obstacleBoxOf(cutting.pair))) gatherLeaf(cutting.pair);
     if (cell_.empty()) return;
   }
 }
@@ -267,17 +271,12 @@ NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
   return obstacleBox(pair_, pair.nodes);
 }
 
-bool CellFront::overlaps(const FrontPair& pair) const {
-  const NodeBox box = obstacleBoxOf(pair);
-  for (int k = 0; k < 3; ++k) {
-    if (box.lo[k] > cell_.hi[k] || box.hi[k] < cell_.lo[k]) return false;
-  }
-  return true;
+bool CellFront::meetsCell(const NodeBox& box) const {
+  return !isClearOf(box, cell_.lo.data(), cell_.hi.data());
 }
 
 // How far the middle of the cell is from that of the C-obstacle's box.
-double CellFront::eccentricity(NodePair nodes) const {
-  const NodeBox box = obstacleBox(pair_, nodes);
+double CellFront::eccentricity(const NodeBox& box) const {
   double off = 0.0;
   for (int k = 0; k < cell_.rank; ++k) {
     off += std::fabs(0.5 * (box.lo[k] + box.hi[k]) - box_.center[k]);
@@ -285,16 +284,14 @@ double CellFront::eccentricity(NodePair nodes) const {
   return off;
 }
 
-bool CellFront::largerThanCell(const FrontPair& pair, double ratio) const {
-  const NodeBox box = obstacleBoxOf(pair);
+bool CellFront::largerThanCell(const NodeBox& box, double ratio) const {
   for (int k = 0; k < cell_.rank; ++k) {
     if (box.hi[k] - box.lo[k] < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;
 }
 
-double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
-  const NodeBox box = obstacleBoxOf(pair);
+double CellFront::lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const {
   double lowest = -1e-13;  // rounding of the sum
   for (int k = 0; k < 3; ++k) {
     const double lo = std::max(box.lo[k], cell_.lo[k]);
@@ -304,6 +301,10 @@ double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) c
   return lowest;
 }
 
+double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
+  return lowestInCell(obstacleBoxOf(pair), m);
+}
+
 double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const {
   const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
   const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
@@ -311,10 +312,12 @@ double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m)
   return std::max(lowest, -obstacles_.support(pair.nodes).supportUpper(-m));
 }
 
-double CellFront::lowestOfVertices(const FrontPair& pair, const Eigen::Vector3d& m) {
+// Lower bound of m·y over the C-obstacle of two nodes of meshes from their vertices. Calls with the
+// same m share their work until another m is used.
+double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
-  const double a = support_a_.along(m, pair.nodes.a);
-  const double b = -support_b_.along(-m, pair.nodes.b);
+  const double a = support_a_.along(m, nodes.a);
+  const double b = -support_b_.along(-m, nodes.b);
   const double error = 4 * (pair_.a.error + pair_.b.error) + 1e-15 * (std::fabs(a) + std::fabs(b));
   return b - a - error;
 }
@@ -323,24 +326,27 @@ double CellFront::lowestOfVertices(const FrontPair& pair, const Eigen::Vector3d&
 double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& m, double enough,
                                 int& budget) {
   double result = std::numeric_limits<double>::infinity();
-  stack_.assign(1, coarse);
+  stack_.assign(1, {coarse, obstacleBox(pair_, coarse.nodes)});
   while (!stack_.empty()) {
-    const FrontPair pair = stack_.back();
+    const BoxedPair boxed = stack_.back();
+    const NodePair nodes = boxed.pair.nodes;
     stack_.pop_back();
     ++statistics_.pairs_tested;
-    if (!overlaps(pair)) continue;
-    const double lowest = std::max(lowestOfBox(pair, m), lowestOfVertices(pair, m));
+    if (!meetsCell(boxed.box)) continue;
+    double lowest = lowestInCell(boxed.box, m);
     if (lowest >= result) continue;
-    if (!areLeaves(pair_, pair.nodes) && lowest < enough && budget > 0) {
-      --budget;
-      std::array<NodePair, 2> children = childrenOf(pair_, pair.nodes);
-      if (lowestOfBox({children[0], -1}, m) < lowestOfBox({children[1], -1}, m)) {
-        std::swap(children[0], children[1]);
-      }
-      for (const NodePair& child : children) stack_.push_back({child, -1});
+    lowest = std::max(lowest, lowestOfVertices(nodes, m));
+    if (lowest >= result) continue;
+    if (areLeaves(pair_, nodes) || lowest >= enough || budget <= 0) {
+      result = lowest;
       continue;
     }
-    result = std::min(result, lowest);
+    --budget;
+    const std::array<NodePair, 2> children = childrenOf(pair_, nodes);
+    const std::array<NodeBox, 2> boxes{obstacleBox(pair_, children[0]),
+                                       obstacleBox(pair_, children[1])};
+    const int last = lowestInCell(boxes[0], m) < lowestInCell(boxes[1], m) ? 0 : 1;
+    for (const int i : {1 - last, last}) stack_.push_back({{children[i], -1}, boxes[i]});
   }
   return result;
 }

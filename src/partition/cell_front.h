@@ -54,10 +54,6 @@ class CellFront {
   /// The same from the slabs of a pair of leaves.
   double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
 
-  /// The same of any pair of nodes of two meshes from their vertices. Calls with the same m share
-  /// their work until another m is used.
-  double lowestOfVertices(const FrontPair& pair, const Eigen::Vector3d& m);
-
   /// The same from the smaller pairs that a coarse pair consists of: as exact as matters below
   /// `enough`, as long as `budget` lasts, which counts the nodes opened.
   double lowestOfParts(const FrontPair& pair, const Eigen::Vector3d& m, double enough, int& budget);
@@ -66,6 +62,11 @@ class CellFront {
   bool clip(const FrontPair& pair, Cell& part) const;
 
  private:
+  struct BoxedPair {
+    FrontPair pair;
+    NodeBox box;  ///< of its C-obstacle
+  };
+
   void gather(const std::vector<FrontPair>& inherited);
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
@@ -73,16 +74,18 @@ class CellFront {
   void coverAll();
   void noteDepth(const CuttingPair& cutting);
   void gatherCoarse(const std::vector<FrontPair>& inherited);
-  void refine(const FrontPair& coarse, int& probes);
-  void expand(const FrontPair& pair);
+  void refine(const BoxedPair& coarse, int& probes);
+  void expand(const BoxedPair& pair);
   void carve();
   bool carveBy(const FrontPair& pair, double least_share);
   void cover(const CellSlice& slice);
   void classifyAgain();
   NodeBox obstacleBoxOf(const FrontPair& pair) const;
-  bool overlaps(const FrontPair& pair) const;
-  double eccentricity(NodePair nodes) const;
-  bool largerThanCell(const FrontPair& pair, double ratio) const;
+  bool meetsCell(const NodeBox& box) const;
+  double eccentricity(const NodeBox& box) const;
+  bool largerThanCell(const NodeBox& box, double ratio) const;
+  double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
+  double lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m);
 
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
@@ -98,9 +101,9 @@ class CellFront {
   std::vector<FrontPair> coarse_;
   NodeSupport support_a_;  ///< along m
   NodeSupport support_b_;  ///< along -m
-  std::vector<FrontPair> stack_;
+  std::vector<BoxedPair> stack_;
   std::vector<CuttingPair> previous_;
-  std::vector<std::pair<double, FrontPair>> ordered_;
+  std::vector<std::pair<double, BoxedPair>> ordered_;
 };
 
 }  // namespace fcl_prob::detail

@@ -8,7 +8,6 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
-#include "cobstacle/cell_section.h"
 #include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
@@ -27,27 +26,47 @@ double truncatedNormal(double lo, double hi, double u) {
   return std::clamp(y, lo, hi);
 }
 
-// Three numbers in (0, 1) for a sample of a cell.
-void uniforms(std::uint64_t seed, std::uint64_t cell, std::uint64_t sample, double* out) {
+// Sets of samples a cell: their differences give the variance.
+constexpr int kSets = 8;
+
+// No cell gets more samples than this in one set.
+constexpr double kMostInSet = 4096;
+
+// A point of the unit cube for one set of samples of a cell.
+Eigen::Vector3d uniformPoint(std::uint64_t seed, std::uint64_t cell, std::uint64_t set) {
   using Generator = r123::Philox4x64;
   Generator generator;
-  const Generator::ctr_type counter = {{cell, sample, 0x63656c6c, 0}};
+  const Generator::ctr_type counter = {{cell, set, 0x63656c6c, 0}};
   const Generator::key_type key = {{seed, 0}};
   const Generator::ctr_type bits = generator(counter, key);
+  Eigen::Vector3d point;
   for (int k = 0; k < 3; ++k) {
-    out[k] = (static_cast<double>(bits[static_cast<std::size_t>(k)] >> 11) + 0.5) * 0x1p-53;
+    point[k] = (static_cast<double>(bits[static_cast<std::size_t>(k)] >> 11) + 0.5) * 0x1p-53;
   }
+  return point;
+}
+
+// Point `index` of an additive sequence that fills the unit cube evenly: multiples of the powers of
+// 1 / 1.2207..., the root of x⁴ = x + 1, shifted at random, which makes each of them uniform
+// (Cranley and Patterson 1976).
+Eigen::Vector3d evenPoint(const Eigen::Vector3d& shift, int index) {
+  static const Eigen::Vector3d step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
+  Eigen::Vector3d point = shift + index * step;
+  for (int k = 0; k < 3; ++k) {
+    point[k] = std::clamp(point[k] - std::floor(point[k]), 0x1p-54, 1.0 - 0x1p-53);
+  }
+  return point;
 }
 
 }  // namespace
 
 CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
                          const SolidContact* solids, std::uint64_t seed)
-    : pair_(pair), obstacles_(obstacles), solids_(solids), seed_(seed) {}
+    : tester_(pair, obstacles, solids), seed_(seed) {}
 
 // A point of the uncertain part with the density of the normal distribution up to `weight`: the
 // axis along which the plane is steepest is drawn last, between the planes.
-CellSampler::Draw CellSampler::draw(const OpenCell& open, const double* uniform) const {
+CellSampler::Draw CellSampler::draw(const OpenCell& open, const Eigen::Vector3d& uniform) const {
   const Cell& cell = open.cell;
   Draw result{Eigen::Vector3d::Zero(), 1.0};
   int steepest = -1;
@@ -78,69 +97,57 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const double* uniform)
   return result;
 }
 
-bool CellSampler::collides(const FrontPair& first, const CellBox& point) {
-  if (first.isHalfSpace()) {
-    return slabKernels().classify(obstacles_.slabs(first.obstacle), point).relation !=
-           CellRelation::outside;
-  }
-  stack_.assign(1, first);
-  while (!stack_.empty()) {
-    const FrontPair pair = stack_.back();
-    stack_.pop_back();
-    const NodeBox box = obstacleBox(pair_, pair.nodes);
-    bool outside = false;
-    for (int k = 0; k < 3; ++k) {
-      outside = outside || point.center[k] < box.lo[k] || point.center[k] > box.hi[k];
-    }
-    if (outside) continue;
-    if (areLeaves(pair_, pair.nodes)) {
-      const int obstacle = pair.obstacle >= 0 ? pair.obstacle : obstacles_.find(pair.nodes);
-      const SlabArrays& slabs = obstacles_.slabs(obstacle);
-      if (slabKernels().classify(slabs, point).relation == CellRelation::outside) continue;
-      if (!slabs.outer_only) return true;
-      const Eigen::Vector3d y(point.center[0], point.center[1], point.center[2]);
-      if (contains(obstacles_.support(pair.nodes), y)) return true;
-    } else {
-      for (const NodePair& child : childrenOf(pair_, pair.nodes)) stack_.push_back({child, -1});
+// The sums over the sets of their means.
+CellSampler::CellSums CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index,
+                                              int in_set) {
+  points_.clear();
+  weights_.clear();
+  for (int set = 0; set < kSets; ++set) {
+    const std::uint64_t number = kSets * calls_ + static_cast<std::uint64_t>(set);
+    const Eigen::Vector3d shift = uniformPoint(seed_, index, number);
+    for (int i = 0; i < in_set; ++i) {
+      const Draw drawn = draw(cell, evenPoint(shift, i));
+      const bool counted = drawn.weight > 0.0 && !cell.covers(drawn.point);
+      points_.push_back({drawn.point, !counted});
+      weights_.push_back(counted ? drawn.weight / in_set : 0.0);
     }
   }
-  return false;
+  tester_.test(cell.front, points_);
+  CellSums sums;
+  for (int set = 0; set < kSets; ++set) {
+    double mass = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (int i = set * in_set; i < (set + 1) * in_set; ++i) {
+      if (!points_[i].collides) continue;
+      mass += weights_[i];
+      moment += weights_[i] * points_[i].y;
+    }
+    sums.mass += mass;
+    sums.mass_squares += mass * mass;
+    sums.moment += moment;
+    sums.moment_squares += moment.cwiseAbs2();
+  }
+  return sums;
 }
 
-bool CellSampler::collides(const OpenCell& cell, const Eigen::Vector3d& y) {
-  const CellBox point{{y[0], y[1], y[2]}, {0.0, 0.0, 0.0}};
-  // The leaves first: they are the cheapest to test.
-  for (const FrontPair& pair : cell.front) {
-    if (pair.obstacle >= 0 && collides(pair, point)) return true;
-  }
-  for (const FrontPair& pair : cell.front) {
-    if (pair.obstacle < 0 && collides(pair, point)) return true;
-  }
-  return solids_ && solids_->at(y) == Containment::inside;
-}
-
-SampledMass CellSampler::sample(const std::vector<OpenCell>& cells) {
-  constexpr int kSamples = 2;
+SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count) {
+  double deviation = 0.0;
+  for (const OpenCell& cell : cells) deviation += cell.samplingDeviation();
+  const double sets_per_deviation = deviation > 0.0 ? count / kSets / deviation : 0.0;
+  constexpr double kMean = 1.0 / kSets;
+  constexpr double kVariance = 1.0 / (kSets * (kSets - 1.0));
   SampledMass total;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    double masses[kSamples];
-    Eigen::Vector3d moments[kSamples];
-    for (int j = 0; j < kSamples; ++j) {
-      double uniform[3];
-      uniforms(seed_, i, static_cast<std::uint64_t>(j), uniform);
-      const Draw drawn = draw(cells[i], uniform);
-      const bool open = drawn.weight > 0.0 && !cells[i].covers(drawn.point);
-      masses[j] = open && collides(cells[i], drawn.point) ? drawn.weight : 0.0;
-      moments[j] = masses[j] * drawn.point;
-    }
-    const double difference = 0.5 * (masses[0] - masses[1]);
-    const Eigen::Vector3d moment_difference = 0.5 * (moments[0] - moments[1]);
-    total.mass += 0.5 * (masses[0] + masses[1]);
-    total.variance += difference * difference;
-    total.moment += 0.5 * (moments[0] + moments[1]);
-    total.moment_variance += moment_difference.cwiseAbs2();
-    total.samples += kSamples;
+    const double in_set = sets_per_deviation * cells[i].samplingDeviation();
+    const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
+    const CellSums sums = sampleCell(cells[i], i, n);
+    total.mass += kMean * sums.mass;
+    total.variance += kVariance * (sums.mass_squares - kMean * sums.mass * sums.mass);
+    total.moment += kMean * sums.moment;
+    total.moment_variance += kVariance * (sums.moment_squares - kMean * sums.moment.cwiseAbs2());
+    total.samples += kSets * static_cast<std::size_t>(n);
   }
+  ++calls_;
   return total;
 }
 

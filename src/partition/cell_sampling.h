@@ -6,9 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "partition/containment.h"
-#include "partition/obstacle_table.h"
-#include "partition/open_cell.h"
+#include "partition/point_tester.h"
 
 namespace fcl_prob::detail {
 
@@ -21,29 +19,36 @@ struct SampledMass {
 };
 
 /// Unbiased estimate of the mass (and of ∫ y φ(y) dy) that collides in the uncertain part of each
-/// open cell: what lies below its covered half-space. Two samples a cell, fixed by the seed; a
-/// sample is tested against the cell's own front only.
+/// open cell: what lies below its covered half-space. Some sets of samples a cell, fixed by the
+/// seed, whose differences give the variance; each set is spread evenly over the cell. A sample is
+/// tested against the cell's own front only.
 class CellSampler {
  public:
   CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
               std::uint64_t seed);
 
-  SampledMass sample(const std::vector<OpenCell>& cells);
+  /// About `count` samples, at least a few a cell. Every call draws others.
+  SampledMass sample(const std::vector<OpenCell>& cells, double count);
 
  private:
+  struct CellSums {
+    double mass = 0.0;
+    double mass_squares = 0.0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    Eigen::Vector3d moment_squares = Eigen::Vector3d::Zero();
+  };
   struct Draw {
     Eigen::Vector3d point;
     double weight;
   };
-  Draw draw(const OpenCell& cell, const double* uniforms) const;
-  bool collides(const OpenCell& cell, const Eigen::Vector3d& y);
-  bool collides(const FrontPair& pair, const CellBox& point);
+  CellSums sampleCell(const OpenCell& cell, std::uint64_t index, int in_set);
+  Draw draw(const OpenCell& cell, const Eigen::Vector3d& uniform) const;
 
-  const WhitenedPair& pair_;
-  ObstacleTable& obstacles_;
-  const SolidContact* solids_;
+  PointTester tester_;
   std::uint64_t seed_;
-  std::vector<FrontPair> stack_;
+  std::uint64_t calls_ = 0;
+  std::vector<TestedPoint> points_;
+  std::vector<double> weights_;
 };
 
 }  // namespace fcl_prob::detail

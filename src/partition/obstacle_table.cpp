@@ -66,10 +66,18 @@ int ObstacleTable::find(NodePair leaves) {
       (static_cast<std::uint64_t>(leaves.a) << 32) | static_cast<std::uint32_t>(leaves.b);
   const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(obstacles_.size()));
   if (is_new) {
-    const bool triangles = isTriangle(pair_.a, leaves.a) && isTriangle(pair_.b, leaves.b);
-    obstacles_.push_back(triangles ? buildTriangles(leaves) : buildPieces(leaves));
+    obstacles_.push_back(areTriangles(leaves) ? buildTriangles(leaves, allocate(kTriangleSlabs))
+                                              : buildPieces(leaves));
   }
   return entry->second;
+}
+
+SlabArrays ObstacleTable::slabsOnce(NodePair leaves) {
+  return areTriangles(leaves) ? buildTriangles(leaves, once_.data()) : slabs(find(leaves));
+}
+
+bool ObstacleTable::areTriangles(NodePair leaves) const {
+  return isTriangle(pair_.a, leaves.a) && isTriangle(pair_.b, leaves.b);
 }
 
 int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
@@ -88,7 +96,7 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
   return static_cast<int>(obstacles_.size()) - 1;
 }
 
-SlabArrays ObstacleTable::buildTriangles(NodePair leaves) {
+SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   const auto corners = [](const WhitenedTree& whitened, int node, double* out) {
     const Eigen::Vector3i& t = whitened.tree->triangles[whitened.tree->nodes[node].piece];
     for (int corner = 0; corner < 3; ++corner) {
@@ -99,7 +107,6 @@ SlabArrays ObstacleTable::buildTriangles(NodePair leaves) {
   double vertices_b[9];
   corners(pair_.a, leaves.a, vertices_a);
   corners(pair_.b, leaves.b, vertices_b);
-  double* data = allocate(kTriangleSlabs);
   slabKernels().triangleSlabs(vertices_a, vertices_b, pair_.a.error + pair_.b.error, data);
   return {data, kTriangleSlabs};
 }

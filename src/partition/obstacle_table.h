@@ -3,6 +3,7 @@
 // The C-obstacles of pairs of convex pieces, built when a cell first needs them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -22,6 +23,9 @@ class ObstacleTable {
   /// Index of the C-obstacle of a leaf of A and a leaf of B.
   int find(NodePair leaves);
 
+  /// The slabs of two leaves that are looked at once: valid until the next call.
+  SlabArrays slabsOnce(NodePair leaves);
+
   /// A half-space {m·y >= s} as an obstacle of its own: index of a new one.
   int addHalfSpace(const Eigen::Vector3d& m, double s);
 
@@ -37,7 +41,8 @@ class ObstacleTable {
 
  private:
   double* allocate(int count);
-  SlabArrays buildTriangles(NodePair leaves);
+  bool areTriangles(NodePair leaves) const;
+  SlabArrays buildTriangles(NodePair leaves, double* data) const;
   SlabArrays buildPieces(NodePair leaves);
   bool hasFewSlabs(NodePair leaves) const;
 
@@ -46,6 +51,7 @@ class ObstacleTable {
   std::unordered_map<std::uint64_t, int> index_;
   std::deque<std::vector<double>> blocks_;
   std::size_t block_used_ = 0;
+  std::array<double, kTriangleSlabs * kSlabFields> once_;
 };
 
 }  // namespace fcl_prob::detail

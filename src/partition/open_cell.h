@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -52,11 +53,11 @@ struct OpenCell {
            (y.array() <= within.hi.array()).all();
   }
 
-  /// Bound on the variance of the mean of two samples of the open mass: a sample is drawn from a
-  /// set of mass `drawn` and is 0 or that mass, with a mean of at most the gap.
-  double samplingVariance() const {
-    const double mean = std::min(gap(), 0.5 * drawn);
-    return 0.5 * mean * (drawn - mean);
+  /// Bound on the standard deviation of one sample of the open mass: it is drawn from a set of mass
+  /// `drawn` and is 0 or that mass, with a mean of at most the gap.
+  double samplingDeviation() const {
+    const double mean = std::clamp(gap(), 0.0, 0.5 * drawn);
+    return std::sqrt(mean * (drawn - mean));
   }
   std::size_t memory() const { return sizeof(OpenCell) + front.capacity() * sizeof(FrontPair); }
 };

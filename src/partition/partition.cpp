@@ -71,9 +71,7 @@ void fillGradient(const QueryFrame& frame, const MomentBounds& moment, Probabili
 
 void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
                   const SampledMass& sampled, bool with_gradient, ProbabilityResult& result) {
-  double mass = engine.settled().mass.middle() + sampled.mass;
-  for (const OpenCell& cell : engine.openCells()) mass += cell.lower;
-  result.estimate = std::clamp(mass, *result.lower, *result.upper);
+  result.estimate = engine.estimate(sampled);
   result.standard_error = std::sqrt(sampled.variance);
   result.statistics.samples = sampled.samples;
   if (!with_gradient) return;
@@ -124,6 +122,24 @@ ProbabilityResult withoutContact(const ProbabilityRequest& request) {
   return result;
 }
 
+// Samples what the engine leaves open. Where that varies more than expected, more cells are
+// divided.
+SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
+                            ProbabilityStatus& status) {
+  constexpr int kMostRounds = 4;
+  constexpr double kReserve = 1.1;
+  SampledMass sampled = sampler.sample(engine.openCells(), engine.samplesToDraw(status));
+  for (int round = 1; round < kMostRounds && status == ProbabilityStatus::converged; ++round) {
+    const double target = engine.targetError(engine.estimate(sampled));
+    const double ratio = std::sqrt(sampled.variance) / target;
+    if (!(ratio > 1.0)) break;
+    engine.expectDeviation(kReserve * ratio);
+    status = engine.run(true);
+    sampled = sampler.sample(engine.openCells(), engine.samplesToDraw(status));
+  }
+  return sampled;
+}
+
 bool hasSolids(const PartitionObject& object) {
   return std::any_of(object.parts.begin(), object.parts.end(),
                      [](const PlacedPart& part) { return part.solid != nullptr; });
@@ -151,15 +167,17 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
                          result.statistics);
   result.status = engine.run(estimate);
   clock.finish("partition");
+  SampledMass sampled;
+  if (estimate) {
+    CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), request.seed);
+    sampled = sampleOpenCells(engine, sampler, result.status);
+    clock.finish("sampling");
+  }
   const Bounds interval = engine.interval();
   result.lower = interval.lower;
   result.upper = interval.upper;
   if (request.gradient) fillGradient(frame, engine.moment(), result);
-  if (estimate) {
-    CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), request.seed);
-    fillEstimate(frame, engine, sampler.sample(engine.openCells()), request.gradient, result);
-    clock.finish("sampling");
-  }
+  if (estimate) fillEstimate(frame, engine, sampled, request.gradient, result);
   decide(request, result);
   describe(frame, solids != nullptr, result);
   return result;

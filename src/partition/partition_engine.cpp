@@ -20,6 +20,17 @@ constexpr double kSoon = 0.2;
 // Not deeper than this, so that limits are looked at often enough.
 constexpr int kSoonLevels = 4;
 
+// Samples drawn for every cell examined. Measured on the benchmark scenes: with 25 an estimate
+// takes half the time that it takes with the least number; from 15 to 40 it hardly matters.
+constexpr double kSamplesPerCell = 25;
+
+// The standard deviation of samples, which lie evenly in their cells, over the bound on that of
+// samples drawn anywhere in them. Measured on the benchmark scenes: 0.4 to 0.7.
+constexpr double kDeviationShare = 0.6;
+
+// The share of the time limit that is for dividing cells; what remains is for sampling them.
+constexpr double kShareForDividing = 0.8;
+
 // Cells between two looks at the clock and at the caller's wishes.
 constexpr std::size_t kPollEvery = 16;
 
@@ -57,7 +68,7 @@ void PartitionEngine::add(Examination&& examination) {
   OpenCell& cell = *examination.open;
   open_.lower += cell.lower;
   open_.upper += cell.upper;
-  open_variance_ += cell.samplingVariance();
+  open_deviation_ += cell.samplingDeviation();
   cell_memory_ += cell.memory();
   queue_.push_back(std::move(cell));
   std::push_heap(queue_.begin(), queue_.end(), smallerGap);
@@ -66,7 +77,7 @@ void PartitionEngine::add(Examination&& examination) {
 void PartitionEngine::remove(const OpenCell& cell) {
   open_.lower -= cell.lower;
   open_.upper -= cell.upper;
-  open_variance_ -= cell.samplingVariance();
+  open_deviation_ -= cell.samplingDeviation();
   cell_memory_ -= cell.memory();
 }
 
@@ -108,11 +119,11 @@ void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
 // Sums of many additions and removals drift: every so often they are taken anew.
 void PartitionEngine::recount() {
   open_ = {0.0, 0.0};
-  open_variance_ = 0.0;
+  open_deviation_ = 0.0;
   for (const OpenCell& cell : queue_) {
     open_.lower += cell.lower;
     open_.upper += cell.upper;
-    open_variance_ += cell.samplingVariance();
+    open_deviation_ += cell.samplingDeviation();
   }
   changes_since_recount_ = 0;
 }
@@ -156,12 +167,36 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   const double tolerance =
       std::max(request_.absolute_tolerance, request_.relative_tolerance * now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
-  if (!estimate) return std::nullopt;
-  const double error_allowed =
-      std::max(request_.absolute_tolerance, request_.relative_tolerance * now.lower);
-  const double target = error_allowed * sampling_target_;
-  if (open_variance_ <= target * target) return ProbabilityStatus::converged;
+  if (estimate && samplesNeeded() <= samplesAffordable()) return ProbabilityStatus::converged;
   return std::nullopt;
+}
+
+double PartitionEngine::targetError(double probability) const {
+  return std::max(request_.absolute_tolerance, request_.relative_tolerance * probability);
+}
+
+double PartitionEngine::estimate(const SampledMass& sampled) const {
+  double mass = settled_.mass.middle() + sampled.mass;
+  for (const OpenCell& cell : queue_) mass += cell.lower;
+  const Bounds bounds = interval();
+  return std::clamp(mass, bounds.lower, bounds.upper);
+}
+
+// With n_i samples in cell i in proportion to the deviations s_i, the variance is (Σ s_i)² / Σ n_i
+// (Neyman 1934).
+double PartitionEngine::samplesNeeded() const {
+  const double ratio =
+      kDeviationShare * deviation_share_ * open_deviation_ / targetError(interval().middle());
+  return ratio * ratio;
+}
+
+double PartitionEngine::samplesAffordable() const {
+  return kSamplesPerCell * static_cast<double>(statistics_.cells);
+}
+
+double PartitionEngine::samplesToDraw(ProbabilityStatus status) const {
+  if (status == ProbabilityStatus::time_limit || status == ProbabilityStatus::cancelled) return 0.0;
+  return std::min(samplesNeeded(), samplesAffordable());
 }
 
 double PartitionEngine::secondsSoFar() const {
@@ -180,10 +215,11 @@ bool PartitionEngine::cancelled(const Bounds& now) const {
   return !request_.on_progress(progress);
 }
 
-std::optional<ProbabilityStatus> PartitionEngine::limited() const {
+std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
   if (statistics_.cells >= request_.max_cells) return ProbabilityStatus::cell_limit;
   if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
-  if (request_.time_limit && secondsSoFar() >= *request_.time_limit) {
+  const double share = estimate ? kShareForDividing : 1.0;
+  if (request_.time_limit && secondsSoFar() >= share * *request_.time_limit) {
     return ProbabilityStatus::time_limit;
   }
   if (cancelled(interval())) return ProbabilityStatus::cancelled;
@@ -199,7 +235,7 @@ ProbabilityStatus PartitionEngine::run(bool estimate) {
       recount();
       status = satisfied(estimate);
     }
-    if (!status && step % kPollEvery == 0) status = limited();
+    if (!status && step % kPollEvery == 0) status = limited(estimate);
     if (!status) divideLargest();
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
   }

@@ -10,6 +10,7 @@
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "partition/ball_truncation.h"
+#include "partition/cell_sampling.h"
 
 namespace fcl_prob::detail {
 
@@ -28,7 +29,7 @@ class PartitionEngine {
 
   /// Divides cells until the request is satisfied or a limit is reached; says which. With
   /// `estimate` the cells need only be small enough for sampling them to give the standard error
-  /// asked for. May be called again after tightenEstimate().
+  /// asked for. May be called again after expectDeviation().
   ProbabilityStatus run(bool estimate);
 
   /// Certified; valid at every moment.
@@ -36,8 +37,18 @@ class PartitionEngine {
 
   MomentBounds moment() const;
 
-  /// Asks for a sampling error smaller by `factor` < 1 than so far.
-  void tightenEstimate(double factor) { sampling_target_ *= factor; }
+  /// The standard error asked for where P is about `probability`.
+  double targetError(double probability) const;
+
+  /// The certain part of P and what was sampled of the rest.
+  double estimate(const SampledMass& sampled) const;
+
+  /// How many samples of the open cells give about that error, or as many as are in proportion to
+  /// the cells examined; none beyond the least if there is no time left.
+  double samplesToDraw(ProbabilityStatus status) const;
+
+  /// Samples turned out to deviate `factor` times as much as expected so far.
+  void expectDeviation(double factor) { deviation_share_ *= factor; }
 
   const SettledMass& settled() const { return settled_; }
   const std::vector<OpenCell>& openCells() const { return queue_; }
@@ -53,7 +64,9 @@ class PartitionEngine {
   void remove(const OpenCell& cell);
   void recount();
   std::optional<ProbabilityStatus> satisfied(bool estimate) const;
-  std::optional<ProbabilityStatus> limited() const;
+  double samplesNeeded() const;
+  double samplesAffordable() const;
+  std::optional<ProbabilityStatus> limited(bool estimate) const;
   bool cancelled(const Bounds& now) const;
   double secondsSoFar() const;
   std::size_t memory() const;
@@ -65,9 +78,9 @@ class PartitionEngine {
   const BallTruncation* ball_;
   std::vector<OpenCell> queue_;  ///< a heap by gap
   SettledMass settled_;
-  Bounds open_;                 ///< sums over queue_
-  double open_variance_ = 0.0;  ///< of an estimate from queue_, bound on it
-  double sampling_target_ = 1.0;
+  Bounds open_;                  ///< sums over queue_
+  double open_deviation_ = 0.0;  ///< sum over queue_ of bounds on the deviation of one sample
+  double deviation_share_ = 1.0;
   bool indivisible_ = false;
   std::size_t cell_memory_ = 0;
   std::size_t changes_since_recount_ = 0;

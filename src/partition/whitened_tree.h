@@ -27,6 +27,14 @@ struct NodeBox {
   }
 };
 
+/// Whether a box is clear of [lo, hi].
+inline bool isClearOf(const NodeBox& box, const double* lo, const double* hi) {
+  for (int k = 0; k < 3; ++k) {
+    if (box.lo[k] > hi[k] || box.hi[k] < lo[k]) return true;
+  }
+  return false;
+}
+
 /// A shape of the pieces and its extent, relative to the position of a piece.
 struct WhitenedShape {
   PieceShape shape;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Which of many displacements collide, tested against one front.
+#pragma once
+
+#include <vector>
+
+#include "partition/containment.h"
+#include "partition/obstacle_table.h"
+#include "partition/open_cell.h"
+
+namespace fcl_prob::detail {
+
+struct TestedPoint {
+  Eigen::Vector3d y;
+  bool collides = false;
+};
+
+class PointTester {
+ public:
+  /// Keeps references to its arguments. \param solids  null: surfaces only
+  PointTester(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids);
+
+  /// Sets `collides` of every point; one that has it set already is left alone. All of them must be
+  /// within the cell that the front is of.
+  void test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points);
+
+ private:
+  /// A pair to be tested against the first `count` of the undecided points.
+  struct Task {
+    FrontPair pair;
+    int count;
+  };
+
+  void testPair(const FrontPair& pair, std::vector<TestedPoint>& points);
+  void testLeaves(const FrontPair& pair, int count, std::vector<TestedPoint>& points);
+  int moveForward(const FrontPair& pair, int count, const std::vector<TestedPoint>& points);
+
+  const WhitenedPair& pair_;
+  ObstacleTable& obstacles_;
+  const SolidContact* solids_;
+  std::vector<int> undecided_;  ///< indices of points
+  std::vector<Task> stack_;
+};
+
+}  // namespace fcl_prob::detail
