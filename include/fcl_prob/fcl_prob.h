@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Everything a user of the query needs.
+// Every query that needs no file: of pairs, groups, managers, batches and mixtures.
 #pragma once
 
+#include "fcl_prob/batch.h"
+#include "fcl_prob/broadphase.h"
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/group.h"
+#include "fcl_prob/mixture.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"

@@ -13,6 +13,8 @@ const std::vector<Benchmark>& benchmarks() {
       {"certified",
        "intervals, estimates and decisions against 10,000 calls of fcl::collide, on six scenes",
        true, benchCertified},
+      {"robot", "decisions for robot links beside an arm, groups of links, batches of poses", true,
+       benchRobot},
       {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,
        benchStability},
       {"table1", "the paper's Table I on six scenes, with all of its rows and more", true,

@@ -78,8 +78,11 @@ struct SlabKernels {
   void (*triangleSlabs)(const double* a, const double* b, double error, double* out);
 };
 
-/// The fastest kernels that this processor runs.
+/// The fastest kernels that this processor runs. All give the same bits.
 const SlabKernels& slabKernels();
+
+/// Those that every processor runs.
+SlabKernels portableSlabKernels();
 
 /// Cells lie within this distance of the origin along every axis; beyond it no mass is left in
 /// double precision.

@@ -79,12 +79,14 @@ int greater(const Vector4& a, const Vector4& b) {
 SlabKernels avx2SlabKernels();
 #endif
 
+SlabKernels portableSlabKernels() { return SlabKernelsOver<Vector4>::table(); }
+
 const SlabKernels& slabKernels() {
   static const SlabKernels kernels = [] {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) return avx2SlabKernels();
 #endif
-    return SlabKernelsOver<Vector4>::table();
+    return portableSlabKernels();
   }();
   return kernels;
 }

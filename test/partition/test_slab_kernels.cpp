@@ -122,6 +122,42 @@ TEST_CASE("a cell is classified as its points are", "[slabs]") {
   CHECK(slices > 2000);
 }
 
+TEST_CASE("the kernels for this processor give the bits of those for every processor", "[slabs]") {
+  const fcl_prob::detail::SlabKernels portable = fcl_prob::detail::portableSlabKernels();
+  const fcl_prob::detail::SlabKernels& fastest = slabKernels();
+  fcl_prob_test::RandomBodies random(9);
+  for (int i = 0; i < 5000; ++i) {
+    const TrianglePair pair = randomPair(random, random.logUniform(1e-3, 10.0));
+    TrianglePair same = pair;
+    portable.triangleSlabs(same.a.data(), same.b.data(), 0.0, same.data.data());
+    REQUIRE(same.data == pair.data);
+    const CellBox cell = cellAround(pointOf(pair, random) + 0.5 * random.normalVector(),
+                                    random.logUniform(0.02, 2.0));
+    const CellCut cut = fastest.classify(pair.slabs(), cell);
+    const CellCut portable_cut = portable.classify(pair.slabs(), cell);
+    REQUIRE(cut.relation == portable_cut.relation);
+    REQUIRE(cut.sides == portable_cut.sides);
+    REQUIRE(cut.covered == portable_cut.covered);
+    const CellSlice slice = fastest.coveredSlice(pair.slabs(), cell);
+    const CellSlice portable_slice = portable.coveredSlice(pair.slabs(), cell);
+    REQUIRE(slice.axis == portable_slice.axis);
+    REQUIRE(slice.width == portable_slice.width);
+    const Eigen::Vector3d m = random.direction();
+    REQUIRE(fastest.minimumAlong(pair.slabs(), cell, m.data()) ==
+            portable.minimumAlong(pair.slabs(), cell, m.data()));
+    std::array<double, 3> lo, hi;
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = cell.center[k] - cell.half[k];
+      hi[k] = cell.center[k] + cell.half[k];
+    }
+    std::array<double, 3> portable_lo = lo, portable_hi = hi;
+    fastest.contract(pair.slabs(), cell, lo.data(), hi.data());
+    portable.contract(pair.slabs(), cell, portable_lo.data(), portable_hi.data());
+    REQUIRE(lo == portable_lo);
+    REQUIRE(hi == portable_hi);
+  }
+}
+
 TEST_CASE("pairs without volume contain nothing and exclude nothing of themselves", "[slabs]") {
   fcl_prob_test::RandomBodies random(8);
   for (int i = 0; i < 500; ++i) {
