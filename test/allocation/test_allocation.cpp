@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Repeated queries keep no memory. The global operator new is replaced here, hence an executable of
-// its own.
+// Repeated queries keep no memory, and queries that run out of it leave no half of a result. The
+// global operator new is replaced here, hence an executable of its own.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <malloc.h>
@@ -22,7 +22,13 @@ namespace {
 
 std::atomic<long long> live_bytes{0};
 
+/// Allocations until one fails; below 0 none does.
+std::atomic<long long> until_failure{-1};
+
+bool failsNow() { return until_failure >= 0 && until_failure-- == 0; }
+
 void* allocate(std::size_t size) {
+  if (failsNow()) throw std::bad_alloc();
   void* const memory = std::malloc(size > 0 ? size : 1);
   if (memory == nullptr) throw std::bad_alloc();
   live_bytes += static_cast<long long>(malloc_usable_size(memory));
@@ -105,6 +111,55 @@ TEST_CASE("repeated prepared queries keep no memory") {
   checkNoGrowth(boxes(), 1000);
   checkNoGrowth(boxAndCylinder(), 400);
   checkNoGrowth(meshAndTorus(), 300);
+}
+
+TEST_CASE("out of memory, a query throws, keeps no memory and leaves the result alone") {
+  const auto a = makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 4, 6, 1));
+  const auto b = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5));
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.translation() = Eigen::Vector3d(0.9, 0.1, 0.1);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.05, 0.08});
+  for (const auto method : {ProbabilityMethod::interval, ProbabilityMethod::estimate,
+                            ProbabilityMethod::general_pcd, ProbabilityMethod::monte_carlo}) {
+    ProbabilityRequest request;
+    request.method = method;
+    request.samples = 100;
+    request.max_cells = 500;
+    request.gradient = true;
+    ProbabilityResult result;
+    result.estimate = 42.0;
+    const auto ask = [&] {
+      collisionProbability(a.get(), pose, b.get(), fcl::Transform3d::Identity(), displacement,
+                           request, result);
+    };
+    CAPTURE(toString(method));
+    // oneTBB waits for ever for an initialisation of its own that has run out of memory.
+    ask();
+    result = ProbabilityResult();
+    result.estimate = 42.0;
+    int failures = 0;
+    bool complete = false;
+    // Every allocation at first, then fewer and fewer of them.
+    for (long long n = 0; !complete; n += 1 + n / 16) {
+      const long long before = live_bytes;
+      until_failure = n;
+      try {
+        ask();
+        complete = true;
+      } catch (const std::bad_alloc&) {
+        ++failures;
+      }
+      until_failure = -1;
+      if (complete) break;
+      REQUIRE(result.estimate == 42.0);
+      REQUIRE(!result.upper);
+      REQUIRE(result.plan.empty());
+      // Statics and thread-local scratch may stay.
+      if (n > 1000) REQUIRE(live_bytes <= before + 4096);
+    }
+    CHECK(failures > 20);
+    CHECK(result.estimate != 42.0);
+  }
 }
 
 TEST_CASE("a million prepared queries keep no memory", "[long]") {

@@ -158,8 +158,10 @@ bool requireSamplesAgree(const PairScene& scene, const ProbabilityResult& result
   const double margin = 1e-5 * (scene.a->aabb_radius + scene.b->aabb_radius);
   const Eigen::Vector3d& sigma = scene.displacement.standardDeviations();
   if (!fclIsReliable(scene) || sigma.minCoeff() < 10.0 * margin) return false;
+  // Upper bounds of solids ask for no closed meshes, so that nobody has looked.
+  const bool bound = scene.request.method == ProbabilityMethod::convex_pcd;
   const detail::DisplacedCollider collider(*scene.a, scene.pose_a, *scene.b, scene.pose_b,
-                                           scene.request.contact);
+                                           bound ? ContactMeaning::fcl : scene.request.contact);
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> normal;
   double hits = 0.0, misses = 0.0;
