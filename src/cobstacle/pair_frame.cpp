@@ -12,6 +12,9 @@ namespace {
 /// doubled.
 constexpr double kRoundings = 128.0;
 
+/// The cube of this, and what a sum of many of them has, is finite.
+constexpr double kLargestWhitened = 1e100;
+
 /// The coordinates that do not move are in metres.
 constexpr double kLengthUnit = 1.0;
 
@@ -33,6 +36,7 @@ PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transf
   const double largest = size_a + size_b + pose_a.translation().norm() +
                          pose_b.translation().norm() + displacement.mean().norm();
   error = kRoundings * std::numeric_limits<double>::epsilon() * largest;
+  fits = largest * whitening.cwiseAbs().maxCoeff() <= kLargestWhitened;
 }
 
 Eigen::Vector3d PairFrame::whitened(double error_in_metres) const {

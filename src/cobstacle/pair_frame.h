@@ -38,6 +38,10 @@ struct PairFrame {
   /// volumes included, which miss their own contents by 1e-15 of their size.
   double error;
 
+  /// Whether products of three whitened lengths stay finite. Where they do not (a standard
+  /// deviation of 1e-100 of the objects' size), nothing is known of P from this frame.
+  bool fits;
+
   /// By how much an error of so many metres can change each whitened coordinate.
   Eigen::Vector3d whitened(double error_in_metres) const;
 };

@@ -10,7 +10,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
 #include "fcl_prob/exceptions.h"
 #include "geometry/convex_vertices.h"
@@ -25,9 +24,13 @@ struct Farthest {
 };
 
 Farthest farthest(const SupportShape& shape, const Eigen::Vector3d& direction, double swept) {
-  Farthest best{-1, -std::numeric_limits<double>::infinity()};
-  for (int i = 0; i < static_cast<int>(shape.points.size()); ++i) {
-    const double height = direction.dot(shape.points[i]) + (i < shape.swept ? swept : 0.0);
+  const auto heightOf = [&](int i) {
+    return direction.dot(shape.points[i]) + (i < shape.swept ? swept : 0.0);
+  };
+  // The first one also where the direction has overflowed and no height is above another.
+  Farthest best{0, heightOf(0)};
+  for (int i = 1; i < static_cast<int>(shape.points.size()); ++i) {
+    const double height = heightOf(i);
     if (height > best.height) best = {i, height};
   }
   return best;

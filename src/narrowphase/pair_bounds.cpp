@@ -116,6 +116,7 @@ Eigen::Matrix3d PairBounds::prepareFaces(const CObstacle& obstacle) {
 
 ConvexPcdBounds PairBounds::bounds(const CObstacle& obstacle, double enough) {
   const int rank = obstacle.frame().rank;
+  if (!obstacle.frame().fits) return {};
   const auto ball = obstacle.ellipsoid();
   if (ball && rank == 3) return ellipsoidBounds(obstacle, *ball);
 

@@ -55,6 +55,7 @@ Bounds PairBounds::massOfSection(int rank, const Eigen::Vector3d& error) {
 
 Bounds PairBounds::mass(const CObstacle& obstacle) {
   const PairFrame& frame = obstacle.frame();
+  if (!frame.fits) return {0.0, 1.0};
   const Eigen::Vector3d error = frame.whitened(obstacle.outerFaces(scratch_));
   Bounds mass = frame.rank < 3 ? massOfSection(frame.rank, error)
                                : polytopeMass(toClosedPolytope(scratch_.faces), error.norm());

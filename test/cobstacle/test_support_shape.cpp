@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "catch.h"
 #include "cobstacle/support_obstacle.h"
@@ -158,4 +159,11 @@ TEST_CASE("the C-obstacle of two bodies contains differences of their points onl
 
 TEST_CASE("unbounded shapes have no support function") {
   CHECK_THROWS_AS(supportShape(fcl::Halfspaced(0, 0, 1, 0)), fcl_prob::UnsupportedGeometry);
+}
+
+TEST_CASE("a direction that has overflowed has a point of the shape and no height", "[cobstacle]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const SupportShape shape = supportShape(fcl::Cylinderd(0.5, 1.0));
+  CHECK(std::abs(shape.supportPoint({nan, nan, nan}).z()) == 0.5);
+  CHECK(std::isnan(shape.supportValue({nan, nan, nan})));
 }

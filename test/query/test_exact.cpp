@@ -230,6 +230,30 @@ TEST_CASE("the exact method of a displacement that hardly moves along one axis")
   CHECK(partly > 5);
 }
 
+TEST_CASE("a standard deviation so small that whitened lengths overflow") {
+  const fcl::Boxd box(1, 2, 3);
+  const fcl::Cylinderd cylinder(0.5, 1.0);
+  for (const double sigma : {1e-80, 1e-110, 1e-160, 1e-300}) {
+    const auto displacement = GaussianDisplacement::fromStandardDeviations({sigma, 1.0, 1.0});
+    // Without it along x: how far A may move along y before the cylinder's side is no longer met
+    // depends on x only.
+    const double reach = 1.0 + std::sqrt(0.25 - 0.4 * 0.4);
+    const double p = normalIntervalMass(-reach - 0.5, reach - 0.5) * normalIntervalMass(-2.2, 1.8);
+    for (const auto method : {ProbabilityMethod::automatic, ProbabilityMethod::interval,
+                              ProbabilityMethod::exact, ProbabilityMethod::convex_pcd}) {
+      CAPTURE(sigma, toString(method), p);
+      ProbabilityRequest request;
+      request.method = method;
+      request.max_cells = 100;
+      const auto result =
+          answer(box, at({0.9, 0.5, 0.2}), cylinder, kIdentity, displacement, request);
+      CHECK(result.lower.value_or(0.0) <= p);
+      CHECK(*result.upper >= p);
+      CHECK(*result.upper <= 1.0);
+    }
+  }
+}
+
 TEST_CASE("displacements of rank 1 and 2 between boxes") {
   const fcl::Boxd box(1, 1, 1);
   const auto line = GaussianDisplacement::fromStandardDeviations({0.5, 0, 0});
