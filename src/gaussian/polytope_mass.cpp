@@ -32,6 +32,9 @@ constexpr double kPoorRelativeWidth = 1e-10;
 constexpr double kSliverRelativeWidth = 1e-3;
 constexpr int kMaxPieces = 512;
 
+// Planes of a body that are tried for its narrowest side.
+constexpr std::size_t kMostPlanes = 1024;
+
 Bounds widened(const MassWithError& mass, const detail::SlabMass& slabs) {
   const double margin =
       mass.error + 4 * std::numeric_limits<double>::epsilon() * std::abs(mass.value) + kUnderflow;
@@ -85,8 +88,10 @@ Bounds combined(const Bounds& a, const Bounds& b) {
 // to say of a sliver that rounding has made of nothing.
 double massBetweenPlanes(const ConvexPolytope& polytope, double vertex_error) {
   double least = 1;
-  for (const ConvexPolytope::Face& face : polytope.faces) {
-    const Eigen::Vector3d normal = face.normal.normalized();
+  // Some of many faces, or the time would be their number squared.
+  const std::size_t step = 1 + polytope.faces.size() / kMostPlanes;
+  for (std::size_t f = 0; f < polytope.faces.size(); f += step) {
+    const Eigen::Vector3d normal = polytope.faces[f].normal.normalized();
     double lo = std::numeric_limits<double>::infinity(), hi = -lo, reach = 0;
     for (const Eigen::Vector3d& v : polytope.vertices) {
       lo = std::min(lo, normal.dot(v));

@@ -23,7 +23,9 @@ double logStandardNormal(const Eigen::Vector3d& y, int rank) {
 
 /// Log of the normalising constant of a t distribution of unit scatter.
 double logStudentConstant(int rank) {
-  return std::lgamma(0.5 * (kDegreesOfFreedom + rank)) - std::lgamma(0.5 * kDegreesOfFreedom) -
+  // Not std::lgamma, which writes to a global variable (signgam).
+  return boost::math::lgamma(0.5 * (kDegreesOfFreedom + rank)) -
+         boost::math::lgamma(0.5 * kDegreesOfFreedom) -
          0.5 * rank * std::log(kDegreesOfFreedom * kPi);
 }
 
