@@ -25,6 +25,13 @@ tolerance of the family, with at most 20,000 cells. `answered` is the share that
 the tolerance allows of it); for an upper bound the largest excess over P, which is no error.
 `violated`: intervals and bounds that do not hold P. `failed`: exceptions, NaN, or an interval that is
 none. Poses turned in space are rounded, which moves P a little: there, P is an interval too.
+
+What falls short does so for one of these reasons. Where σ is many orders below sizes or positions,
+rounding of those is no longer small beside σ. Where nothing moves along an axis and faces touch to
+the last bit, contact cannot be told from none within rounding: the interval holds both. Far out in
+the tail a slanted or curved surface takes more cells than the limit. An estimate's standard error
+comes from two samples a cell, and is too small where all of them happen to agree: such an estimate
+can be off by more than that, though never by more than its interval.
 )";
 
 struct Row {
