@@ -40,28 +40,27 @@ constexpr int kMostOpened = 1000;
 // pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
 constexpr std::size_t kLongFront = 50;
 
-// Bound on the mass of the part of a cell within `width` of a plane with normal `m`. A plane that
-// hardly leans along the axes that move cuts a wide layer out of them.
-double sliverMass(const Cell& cell, const Eigen::Vector3d& m, double width) {
-  double exponent = 0.0;
-  double side = 1.0;
-  const double slope = m.head(cell.rank).norm();
-  for (int i = 0; i < cell.rank; ++i) {
-    const double nearest = std::max({cell.lo[i], -cell.hi[i], 0.0});
-    exponent += nearest * nearest;
-    side = std::max(side, cell.hi[i] - cell.lo[i]);
-  }
-  // The density is at most (2π)^{-rank/2} <= 0.4^rank, a plane's section of the cell below 3
-  // side^2.
-  const double density = std::pow(0.4, cell.rank) * std::exp(-0.5 * exponent);
-  if (!(width > 0.0)) return 0.0;
-  return std::min(cellMass(cell).upper, width / slope * density * 3 * side * side);
-}
-
 double largestWidth(const Cell& cell) {
   double width = 0.0;
   for (int i = 0; i < cell.rank; ++i) width = std::max(width, cell.hi[i] - cell.lo[i]);
   return width;
+}
+
+// Bound on the mass of the part of a cell within `width` of a plane with normal `m`. A plane that
+// hardly leans along the axes that move cuts a wide layer out of them.
+double sliverMass(const Cell& cell, const Eigen::Vector3d& m, double width) {
+  if (!(width > 0.0)) return 0.0;
+  double exponent = 0.0;
+  for (int i = 0; i < cell.rank; ++i) {
+    const double nearest = std::max({cell.lo[i], -cell.hi[i], 0.0});
+    exponent += nearest * nearest;
+  }
+  // The density is at most (2π)^{-rank/2} <= 0.4^rank; a plane's section of a cube of side 1 is at
+  // most √2 long or large.
+  const double section = 1.5 * std::pow(largestWidth(cell), cell.rank - 1);
+  const double density = std::pow(0.4, cell.rank) * std::exp(-0.5 * exponent);
+  const double thickness = width / m.head(cell.rank).norm();
+  return std::min(cellMass(cell).upper, thickness * density * section);
 }
 
 void include(const Cell& part, Cell& box) {
