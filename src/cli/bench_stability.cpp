@@ -30,7 +30,7 @@ What falls short does so for one of these reasons. Where σ is many orders below
 rounding of those is no longer small beside σ. Where nothing moves along an axis and faces touch to
 the last bit, contact cannot be told from none within rounding: the interval holds both. Far out in
 the tail a slanted or curved surface takes more cells than the limit. An estimate's standard error
-comes from two samples a cell, and is too small where all of them happen to agree: such an estimate
+comes from few samples a cell, and is too small where all of them happen to agree: such an estimate
 can be off by more than that, though never by more than its interval.
 )";
 
@@ -73,7 +73,8 @@ Precise distanceFrom(const Truth& truth, double value) {
 bool isSound(const ProbabilityResult& result) {
   const double lower = result.lower.value_or(0.0);
   return result.upper && lower >= 0.0 && lower <= *result.upper && *result.upper <= 1.0 &&
-         (!result.estimate || (*result.estimate >= lower && *result.estimate <= *result.upper));
+         (!result.estimate || (*result.estimate >= lower && *result.estimate <= *result.upper)) &&
+         (!result.standard_error || *result.standard_error >= 0.0);
 }
 
 void judge(const Truth& truth, ProbabilityMethod method, double absolute_tolerance,

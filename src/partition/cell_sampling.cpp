@@ -97,9 +97,10 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const Eigen::Vector3d&
   return result;
 }
 
-// The sums over the sets of their means.
-CellSampler::CellSums CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index,
-                                              int in_set) {
+// Means and spreads are updated set by set (Welford): a difference of sums of squares may come out
+// negative where all sets agree.
+CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index,
+                                               int in_set) {
   points_.clear();
   weights_.clear();
   for (int set = 0; set < kSets; ++set) {
@@ -113,7 +114,7 @@ CellSampler::CellSums CellSampler::sampleCell(const OpenCell& cell, std::uint64_
     }
   }
   tester_.test(cell.front, points_);
-  CellSums sums;
+  CellMeans means;
   for (int set = 0; set < kSets; ++set) {
     double mass = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -122,29 +123,31 @@ CellSampler::CellSums CellSampler::sampleCell(const OpenCell& cell, std::uint64_
       mass += weights_[i];
       moment += weights_[i] * points_[i].y;
     }
-    sums.mass += mass;
-    sums.mass_squares += mass * mass;
-    sums.moment += moment;
-    sums.moment_squares += moment.cwiseAbs2();
+    const double share = 1.0 / (set + 1);
+    const double off = mass - means.mass;
+    const Eigen::Vector3d moment_off = moment - means.moment;
+    means.mass += share * off;
+    means.mass_spread += set * share * off * off;
+    means.moment += share * moment_off;
+    means.moment_spread += set * share * moment_off.cwiseAbs2();
   }
-  return sums;
+  return means;
 }
 
 SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count) {
   double deviation = 0.0;
   for (const OpenCell& cell : cells) deviation += cell.samplingDeviation();
   const double sets_per_deviation = deviation > 0.0 ? count / kSets / deviation : 0.0;
-  constexpr double kMean = 1.0 / kSets;
   constexpr double kVariance = 1.0 / (kSets * (kSets - 1.0));
   SampledMass total;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const double in_set = sets_per_deviation * cells[i].samplingDeviation();
     const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
-    const CellSums sums = sampleCell(cells[i], i, n);
-    total.mass += kMean * sums.mass;
-    total.variance += kVariance * (sums.mass_squares - kMean * sums.mass * sums.mass);
-    total.moment += kMean * sums.moment;
-    total.moment_variance += kVariance * (sums.moment_squares - kMean * sums.moment.cwiseAbs2());
+    const CellMeans means = sampleCell(cells[i], i, n);
+    total.mass += means.mass;
+    total.variance += kVariance * means.mass_spread;
+    total.moment += means.moment;
+    total.moment_variance += kVariance * means.moment_spread;
     total.samples += kSets * static_cast<std::size_t>(n);
   }
   ++calls_;

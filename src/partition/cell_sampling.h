@@ -31,17 +31,18 @@ class CellSampler {
   SampledMass sample(const std::vector<OpenCell>& cells, double count);
 
  private:
-  struct CellSums {
+  /// Means over the sets, and the sums of the squares of what the sets are off them.
+  struct CellMeans {
     double mass = 0.0;
-    double mass_squares = 0.0;
+    double mass_spread = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    Eigen::Vector3d moment_squares = Eigen::Vector3d::Zero();
+    Eigen::Vector3d moment_spread = Eigen::Vector3d::Zero();
   };
   struct Draw {
     Eigen::Vector3d point;
     double weight;
   };
-  CellSums sampleCell(const OpenCell& cell, std::uint64_t index, int in_set);
+  CellMeans sampleCell(const OpenCell& cell, std::uint64_t index, int in_set);
   Draw draw(const OpenCell& cell, const Eigen::Vector3d& uniform) const;
 
   PointTester tester_;
