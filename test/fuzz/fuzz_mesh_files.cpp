@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<const char*, 7> kEndings = {".stl",  ".obj", ".ply", ".off",
                                                  ".gltf", ".glb", ".dae"};
 /// A process takes some hundred times as long as the checks.
-constexpr std::uint64_t kImportOneIn = 256;
+constexpr std::uint64_t kImportOneIn = 16;
 
 std::string_view textOf(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};

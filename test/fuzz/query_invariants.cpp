@@ -85,6 +85,8 @@ std::optional<ProbabilityResult> answerOf(const PairScene& scene) {
   } catch (const OpenMesh&) {
   } catch (const InvalidGeometry&) {
   } catch (const InvalidRequest&) {
+  } catch (const InvalidDistribution&) {
+    // Shapes so large that the squares of their lengths overflow.
   }
   return std::nullopt;
 }
