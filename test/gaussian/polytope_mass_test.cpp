@@ -258,7 +258,7 @@ TEST_CASE("a body around the origin has nearly all mass and never more than 1") 
   }
 }
 
-TEST_CASE("mass of random simplices against nested quadrature") {
+TEST_CASE("mass of random simplices against nested quadrature", "[slow]") {
   std::mt19937 random(5);
   int tail = 0, inside = 0;
   double worst = 0;

@@ -47,7 +47,7 @@ void checkWithin(const ProbabilityResult& result, double expected, double standa
 
 }  // namespace
 
-TEST_CASE("the benchmark scenes agree with their reference") {
+TEST_CASE("the benchmark scenes agree with their reference", "[slow]") {
   for (const std::string& name : benchmarkSceneNames()) {
     const auto scene = benchmarkSceneOrSkip(name);
     if (!scene) return;

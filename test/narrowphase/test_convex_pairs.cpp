@@ -114,7 +114,7 @@ void checkRepresentative(const std::vector<Outcome>& all) {
         }) > 500);
 }
 
-TEST_CASE("every bound of 100,000 convex pairs is above P") {
+TEST_CASE("every bound of 100,000 convex pairs is above P", "[slow]") {
   RandomBodies random(71);
   std::printf("\nbound / P (median, 90 %%, largest)\n%-26s %6s | %-29s | %-29s | %-29s | %s\n",
               "pairs", "number", "least", "half-space", "whitened box", "divergence");

@@ -51,7 +51,7 @@ const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
 
 }  // namespace
 
-TEST_CASE("two spheres under an isotropic covariance: the closed form") {
+TEST_CASE("two spheres under an isotropic covariance: the closed form", "[slow]") {
   RandomBodies random(1);
   const fcl::Sphered a(0.4), b(0.3);
   int rare = 0, likely = 0;

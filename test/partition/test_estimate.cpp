@@ -47,7 +47,7 @@ Coverage coverageOf(const PartitionQuery& query, const GaussianDisplacement& dis
 
 }  // namespace
 
-TEST_CASE("estimates with many seeds scatter around P as their standard errors say") {
+TEST_CASE("estimates with many seeds scatter around P as their standard errors say", "[slow]") {
   PartitionQuery query(fcl_prob_test::bumpyMesh(0.5, 12, 20, 3),
                        fcl_prob_test::bumpyMesh(0.7, 14, 22, 4));
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});

@@ -14,7 +14,7 @@ using fcl_prob_test::PartitionQuery;
 
 }  // namespace
 
-TEST_CASE("the gradient agrees with central differences on 20 scenes", "[gradient]") {
+TEST_CASE("the gradient agrees with central differences on 20 scenes", "[gradient][slow]") {
   fcl_prob_test::RandomBodies random(3);
   int tested = 0;
   for (int i = 0; i < 20; ++i) {

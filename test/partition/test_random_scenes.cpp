@@ -192,7 +192,7 @@ void checkScenes(int count, unsigned seed, std::size_t most_cells) {
 
 }  // namespace
 
-TEST_CASE("intervals hold sampled probabilities on 60 random scenes", "[random]") {
+TEST_CASE("intervals hold sampled probabilities on 60 random scenes", "[random][slow]") {
   checkScenes(60, 1, 1'000);
 }
 

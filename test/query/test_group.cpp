@@ -117,7 +117,7 @@ GroupScene randomScene(RandomBodies& random) {
 
 }  // namespace
 
-TEST_CASE("random groups hold what FCL counts, and lie between largest pair and sum") {
+TEST_CASE("random groups hold what FCL counts, and lie between largest pair and sum", "[slow]") {
   RandomBodies random(1);
   constexpr int kSamples = 400;
   int representative = 0, below_sum = 0;

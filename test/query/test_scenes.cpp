@@ -16,7 +16,7 @@ bool certified(ProbabilityMethod method) {
 
 }  // namespace
 
-TEST_CASE("every method agrees with the reference of the benchmark scenes") {
+TEST_CASE("every method agrees with the reference of the benchmark scenes", "[slow]") {
   for (const std::string& name : benchmarkSceneNames()) {
     const auto scene = benchmarkSceneOrSkip(name);
     if (!scene) return;

@@ -52,13 +52,13 @@ void checkEveryRow(const BenchmarkScene& scene) {
   checkRow(scene, "hull", a, b);
 }
 
-TEST_CASE("on a benchmark scene every bound of every bounding volume is above P") {
+TEST_CASE("on a benchmark scene every bound of every bounding volume is above P", "[slow]") {
   const std::optional<BenchmarkScene> scene = benchmarkSceneOrSkip("bunny_5cm");
   if (scene) checkEveryRow(*scene);
   std::fflush(stdout);
 }
 
-TEST_CASE("on all six benchmark scenes the bounds of boxes and 26-DOPs are above P") {
+TEST_CASE("on all six benchmark scenes the bounds of boxes and 26-DOPs are above P", "[slow]") {
   for (const std::string& name : benchmarkSceneNames()) {
     const std::optional<BenchmarkScene> scene = benchmarkSceneOrSkip(name);
     if (!scene) continue;
