@@ -60,19 +60,15 @@ double LookSchedule::finalConfidence() const {
 
 Bounds gammaInterval(const WeightedHits& hits, double largest_weight, double confidence) {
   const double tail = 0.5 * (1.0 - confidence);
-  const auto scaledQuantile = [](double mean, double variance, auto inverse) {
-    const double scale = variance / mean;
-    return scale * inverse(mean / scale);
-  };
-  Bounds bounds;
-  if (hits.hits > 0) {
-    bounds.lower = scaledQuantile(hits.sum, hits.sum_squares, [tail](double shape) {
-      return boost::math::gamma_p_inv(shape, tail);
-    });
+  constexpr double kLeastSquare = 1e-290;  // below that a sum of squares has lost its digits
+  Bounds bounds{0.0, 0.0};
+  if (hits.sum_squares > kLeastSquare) {
+    const double scale = hits.sum_squares / hits.sum;
+    bounds.lower = scale * boost::math::gamma_p_inv(hits.sum / scale, tail);
   }
-  bounds.upper =
-      scaledQuantile(hits.sum + largest_weight, hits.sum_squares + largest_weight * largest_weight,
-                     [tail](double shape) { return boost::math::gamma_q_inv(shape, tail); });
+  const double mean = hits.sum + largest_weight;
+  const double scale = (hits.sum_squares + largest_weight * largest_weight) / mean;
+  bounds.upper = scale * boost::math::gamma_q_inv(mean / scale, tail);
   return bounds;
 }
 

@@ -45,7 +45,8 @@ struct WeightedHits {
 };
 
 /// Confidence interval of a sum of weights, each at most `largest_weight` (Fay & Feuer 1997, gamma
-/// intervals of weighted Poisson counts); exact for equal weights, conservative for others.
+/// intervals of weighted Poisson counts); exact for equal weights, conservative for others. The
+/// square of the largest weight must not underflow; those of others may.
 Bounds gammaInterval(const WeightedHits& hits, double largest_weight, double confidence);
 
 }  // namespace fcl_prob::detail

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "fcl_prob/exceptions.h"
@@ -123,21 +124,20 @@ class RareEventRun : public SamplingRun {
         whitening_(whitening),
         request_(request),
         points_(kSlots),
-        weights_(kSlots) {}
+        weights_(kSlots),
+        unit_(std::max(density.largestWeight(), std::numeric_limits<double>::min())) {}
 
   ProbabilityResult result(const Stopwatch& watch) {
     ProbabilityResult result = run(watch);
     const auto n = static_cast<double>(counted());
     const double mean = hits_.sum / n;
     // Without hits the standard error is that of half a hit of the largest weight.
-    const double second = hits_.hits > 0
-                              ? hits_.sum_squares
-                              : 0.5 * density_.largestWeight() * density_.largestWeight();
-    result.estimate = mean;
-    result.standard_error = std::sqrt(std::max(0.0, second / n - mean * mean) / n);
+    const double second = hits_.hits > 0 ? hits_.sum_squares : 0.5;
+    result.estimate = unit_ * mean;
+    result.standard_error = unit_ * std::sqrt(std::max(0.0, second / n - mean * mean) / n);
     result.statistics.hits = hits_.hits;
     result.statistics.effective_samples =
-        hits_.hits > 0 ? hits_.sum * hits_.sum / hits_.sum_squares : 0.0;
+        hits_.sum_squares > 0.0 ? hits_.sum * hits_.sum / hits_.sum_squares : 0.0;
     if (request_.gradient) gradient_.report(whitening_, counted(), result);
     return result;
   }
@@ -150,14 +150,14 @@ class RareEventRun : public SamplingRun {
 
   void count(std::size_t, std::size_t slot) override {
     if (weights_[slot] == 0.0) return;
-    hits_.add(weights_[slot]);
+    hits_.add(weights_[slot] / unit_);
     if (request_.gradient) gradient_.add(points_[slot], weights_[slot]);
   }
 
   Bounds interval(double confidence) const override {
     const auto n = static_cast<double>(counted());
-    const Bounds of_sum = gammaInterval(hits_, density_.largestWeight(), confidence);
-    return {of_sum.lower / n, std::min(1.0, of_sum.upper / n)};
+    const Bounds of_sum = gammaInterval(hits_, 1.0, confidence);
+    return {unit_ * (of_sum.lower / n), std::min(1.0, unit_ * (of_sum.upper / n))};
   }
 
   const WhitenedCollider& collider_;
@@ -166,7 +166,8 @@ class RareEventRun : public SamplingRun {
   const ProbabilityRequest& request_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> weights_;
-  WeightedHits hits_;
+  double unit_;        ///< the largest weight
+  WeightedHits hits_;  ///< in that unit, so that their squares do not underflow
   GradientSum gradient_;
 };
 

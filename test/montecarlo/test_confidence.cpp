@@ -67,6 +67,14 @@ TEST_CASE("gamma intervals of equal weights are the exact Poisson intervals") {
   CHECK(none.upper == Approx(-3.0 * std::log(0.025)).epsilon(1e-9));
 }
 
+TEST_CASE("gamma intervals of weights whose squares underflow are still intervals") {
+  WeightedHits hits;
+  for (int i = 0; i < 5; ++i) hits.add(1e-180);
+  const Bounds interval = gammaInterval(hits, 1.0, 0.95);
+  CHECK(interval.lower == 0.0);
+  CHECK(interval.upper == Approx(-std::log(0.025)).epsilon(1e-9));
+}
+
 TEST_CASE("gamma intervals of unequal weights cover") {
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> uniform(0, 1);
