@@ -15,7 +15,7 @@ namespace {
 // The constants below only steer; no bound depends on them. Measured on the benchmark scenes.
 
 // A pair can cover (a slice of) a cell only if its C-obstacle is about as large as the cell: pairs
-// are probed for that, most central first, up to kProbes leaf pairs a cell.
+// are probed for that, most central first, until kProbes pairs a cell were leaves or too small.
 constexpr double kProbeRatio = 0.5;
 constexpr int kProbes = 100;
 
@@ -195,6 +195,7 @@ void CellFront::refine(const BoxedPair& coarse, int& probes) {
     } else if (largerThanCell(boxed.box, probes > 0 ? kProbeRatio : kRefineRatio)) {
       expand(boxed);
     } else {
+      --probes;
       coarse_.push_back(pair);
     }
   }
