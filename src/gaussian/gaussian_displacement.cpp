@@ -88,7 +88,9 @@ Eigen::Matrix3d rotationMatrix(const Eigen::Quaterniond& axes) {
         "quaternion of the standard deviations' axes is not a rotation: w = " +
         numberText(axes.w()) + ", xyz = " + numberText(axes.vec()));
   }
-  return Eigen::Quaterniond(axes.coeffs().stableNormalized()).toRotationMatrix();
+  // Divided first: of denormal coefficients the inverse of the length overflows.
+  const Eigen::Vector4d scaled = axes.coeffs() / axes.coeffs().cwiseAbs().maxCoeff();
+  return Eigen::Quaterniond(Eigen::Vector4d(scaled.normalized())).toRotationMatrix();
 }
 
 Eigen::Matrix3d covarianceOf(const detail::PrincipalAxes& axes) {

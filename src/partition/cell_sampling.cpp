@@ -58,6 +58,15 @@ Eigen::Vector3d evenPoint(const Eigen::Vector3d& shift, int index) {
   return point;
 }
 
+// Of the mean of samples that all collide, or none of which does: as if the next two were one of
+// each kind (Laplace's rule of succession), and no more than the open mass can vary.
+double varianceWhereAllAgree(const OpenCell& cell, int samples) {
+  if (!(cell.drawn > 0.0)) return 0.0;
+  const double open_share = std::clamp(cell.gap() / cell.drawn, 0.0, 1.0);
+  const double other = std::min(1.0 / (samples + 2.0), open_share);
+  return cell.drawn * cell.drawn * other * (1.0 - other) / samples;
+}
+
 }  // namespace
 
 CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
@@ -115,6 +124,9 @@ CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64
   }
   tester_.test(cell.front, points_);
   CellMeans means;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) hits += points_[i].collides && weights_[i] > 0.0;
+  means.agree = hits == 0 || hits == points_.size();
   for (int set = 0; set < kSets; ++set) {
     double mass = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -145,7 +157,8 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
     const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
     const CellMeans means = sampleCell(cells[i], i, n);
     total.mass += means.mass;
-    total.variance += kVariance * means.mass_spread;
+    const double least = means.agree ? varianceWhereAllAgree(cells[i], kSets * n) : 0.0;
+    total.variance += std::max(least, kVariance * means.mass_spread);
     total.moment += means.moment;
     total.moment_variance += kVariance * means.moment_spread;
     total.samples += kSets * static_cast<std::size_t>(n);

@@ -37,6 +37,7 @@ class CellSampler {
     double mass_spread = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     Eigen::Vector3d moment_spread = Eigen::Vector3d::Zero();
+    bool agree = false;  ///< all samples collide, or none does
   };
   struct Draw {
     Eigen::Vector3d point;

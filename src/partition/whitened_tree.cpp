@@ -73,16 +73,18 @@ WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear
   return result;
 }
 
-// The middles of the parts relative to `reference`, whitened.
-std::vector<Eigen::Vector3d> partOffsets(const PartitionObject& object, const Whitening& whitening,
-                                         const LongVector& reference) {
+/// The middle of a part relative to the origin of a whitened frame.
+struct PartOffset {
+  Eigen::Vector3d whitened;
+  double reach;  ///< bound on the terms that the coordinates are sums of: they may cancel
+};
+
+PartOffset partOffset(const PieceTree::Part& part, const fcl::Transform3d& pose,
+                      const Whitening& whitening, const LongVector& reference) {
+  const LongVector offset = worldOrigin(part, pose) - reference;
   const LongMatrix matrix = whitening.matrix().cast<long double>();
-  std::vector<Eigen::Vector3d> offsets;
-  for (std::size_t i = 0; i < object.parts.size(); ++i) {
-    const LongVector origin = worldOrigin(object.tree->parts[i], object.parts[i].pose);
-    offsets.push_back((matrix * (origin - reference)).cast<double>());
-  }
-  return offsets;
+  return {(matrix * offset).cast<double>(),
+          static_cast<double>((matrix.cwiseAbs() * offset.cwiseAbs()).maxCoeff())};
 }
 
 void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& linear,
@@ -104,12 +106,13 @@ WhitenedTree whitenOne(const PartitionObject& object, const Whitening& whitening
   WhitenedTree result;
   result.tree = object.tree;
   result.vertices.reserve(object.tree->vertices.size());
-  const std::vector<Eigen::Vector3d> offsets = partOffsets(object, whitening, reference);
   double farthest = 0.0;
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     const Eigen::Matrix3d linear = whitening.matrix() * object.parts[i].pose.linear();
-    whitenPart(object.tree->parts[i], linear, offsets[i], result);
-    farthest = std::max(farthest, offsets[i].cwiseAbs().maxCoeff());
+    const PieceTree::Part& part = object.tree->parts[i];
+    const PartOffset offset = partOffset(part, object.parts[i].pose, whitening, reference);
+    whitenPart(part, linear, offset.whitened, result);
+    farthest = std::max(farthest, offset.reach);
   }
   const double size = largestRowSum(whitening.matrix()) * 1.8 * object.tree->radius();
   result.error = 16 * kEpsilon * (2 * size + farthest) + std::numeric_limits<double>::min();

@@ -263,4 +263,17 @@ TEST_CASE("reversing mirrors the mean, rotating turns mean, axes and covariance"
   }
 }
 
+TEST_CASE("a quaternion of any length, as small or large as doubles go, is the same rotation") {
+  const Eigen::Vector4d coefficients(0.25, -0.5, 0.75, 1.0);
+  const auto axesFor = [&](double length) {
+    const Eigen::Quaterniond axes(Eigen::Vector4d(length * coefficients));
+    return GaussianDisplacement::fromStandardDeviations({3, 2, 1}, axes).axes();
+  };
+  const Matrix3d expected = axesFor(1.0);
+  for (const double length : {0x1p-1060, 0x1p-1030, 0x1p-300, 0x1p300, 0x1p1020}) {
+    CAPTURE(length);
+    CHECK(axesFor(length) == expected);
+  }
+}
+
 }  // namespace fcl_prob
