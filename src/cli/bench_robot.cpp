@@ -104,7 +104,8 @@ double timeCollide(const Geometry& a, const fcl::Transform3d& pose_a, const Geom
 
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  return values[static_cast<std::size_t>(
+      std::ceil(share * static_cast<double>(values.size() - 1)))];
 }
 
 class RobotTable {
@@ -120,7 +121,9 @@ class RobotTable {
         "stands at a random pose up to 30 cm from a point of the arm, its error has standard\n"
         "deviations from 5 to 50 mm along random axes. A ratio is the time over that of what it "
         "is\n"
-        "compared with, scene by scene in the same run; for batches it is the speed-up.\n";
+        "compared with, scene by scene in the same run; for batches it is the speed-up. Links of "
+        "groups are\n"
+        "up to 1 m away. 99 % of fewer than 100 scenes is the largest.\n";
   }
 
   void addDecisions() {
@@ -162,13 +165,14 @@ class RobotTable {
     for (std::size_t i = 0; i < kLinks; ++i) links.push_back(robot_.links[i % robot_.links.size()]);
     const GroupQuery group(links, {robot_.arm});
     ProbabilityRequest request;
-    request.absolute_tolerance = 0.0;
+    request.absolute_tolerance = 1e-4;
+    request.max_cells = 50'000;
     std::vector<double> times, ratios;
     double most_of_sum = 0.0;
     for (int scene = 0; scene < kScenes; ++scene) {
       std::vector<fcl::Transform3d> poses;
       for (std::size_t i = 0; i < kLinks; ++i) {
-        poses.push_back(poseNear(robot_.arm_mesh, 0.5, random));
+        poses.push_back(poseNear(robot_.arm_mesh, 1.0, random));
       }
       const GaussianDisplacement error = randomError(random);
       ProbabilityResult result;
@@ -187,7 +191,7 @@ class RobotTable {
       ratios.push_back(times.back() / dearest);
       most_of_sum = std::max(most_of_sum, *result.lower / sum);
     }
-    add("20 links as one group, 1 %", times, "its dearest pair", ratios,
+    add("20 links as one group, 1 % or 1e-4", times, "its dearest pair", ratios,
         "P at most " + numberText(most_of_sum, 3) + " of the sum");
   }
 
@@ -202,6 +206,7 @@ class RobotTable {
     }
     BatchRequest request;
     request.query.threshold = 0.05;
+    request.query.max_cells = 500;
     double times[2];
     BatchResult results[2];
     for (const unsigned threads : {1u, 2u}) {
@@ -215,8 +220,8 @@ class RobotTable {
       same = same && results[0].waypoints[i]->lower == results[1].waypoints[i]->lower &&
              results[0].waypoints[i]->upper == results[1].waypoints[i]->upper;
     }
-    add("10,000 decisions on two threads", {times[1]}, "the same on one", {times[0] / times[1]},
-        same ? "identical results" : "RESULTS DIFFER");
+    add("10,000 decisions of at most 500 cells, two threads", {times[1]}, "the same on one",
+        {times[0] / times[1]}, same ? "identical results" : "RESULTS DIFFER");
   }
 
   BenchReport take() { return std::move(report_); }
