@@ -185,6 +185,7 @@ double PartitionEngine::estimate(const SampledMass& sampled) const {
 // With n_i samples in cell i in proportion to the deviations s_i, the variance is (Σ s_i)² / Σ n_i
 // (Neyman 1934).
 double PartitionEngine::samplesNeeded() const {
+  if (!(open_deviation_ > 0.0)) return 0.0;  // the target may be 0, too: P below the least double
   const double ratio =
       kDeviationShare * deviation_share_ * open_deviation_ / targetError(interval().middle());
   return ratio * ratio;

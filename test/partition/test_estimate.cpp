@@ -67,6 +67,26 @@ TEST_CASE("estimates with many seeds scatter around P as their standard errors s
   }
 }
 
+TEST_CASE("an estimate of a probability below the least double ends at once") {
+  PartitionQuery query(fcl_prob_test::boxMesh({1, 1, 1}), fcl_prob_test::boxMesh({1, 1, 1}));
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::estimate;
+  request.absolute_tolerance = 0.0;
+  request.max_cells = 20'000;
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  for (const double distance : {4.7, 4.8, 4.85, 4.9, 5.0, 6.0}) {
+    query.pose_a.translation() = Eigen::Vector3d(distance, 0.0, 0.0);
+    for (const double tolerance : {0.01, 1e-9}) {
+      request.relative_tolerance = tolerance;
+      const ProbabilityResult result = query.run(displacement, request);
+      CAPTURE(distance, tolerance, *result.upper);
+      CHECK(result.statistics.cells < 20'000);
+      CHECK(*result.upper < 1e-290);
+      CHECK(*result.estimate >= 0.0);
+    }
+  }
+}
+
 TEST_CASE("an estimate whose time is up still has its samples and a valid interval") {
   PartitionQuery query(fcl_prob_test::bumpyMesh(0.5, 12, 20, 3),
                        fcl_prob_test::bumpyMesh(0.7, 14, 22, 4));
