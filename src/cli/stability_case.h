@@ -16,6 +16,12 @@
 
 namespace fcl_prob::cli {
 
+/// The absolute tolerance asked for where P itself is not small.
+inline constexpr double kAbsoluteTolerance = 1e-12;
+
+/// The same where small P is what the family is about.
+inline constexpr double kTinyTolerance = 1e-303;
+
 /// Random numbers that a seed, a family and the number of a case determine.
 class StabilityRandom {
  public:

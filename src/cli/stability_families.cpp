@@ -11,12 +11,6 @@ namespace {
 using Eigen::Vector3d;
 using Method = ProbabilityMethod;
 
-// What is asked for where P itself is not small.
-constexpr double kAbsoluteTolerance = 1e-12;
-
-// Where small P is what the family is about.
-constexpr double kTinyTolerance = 1e-303;
-
 /// A multiple of 2^-10: sums and differences of such numbers are exact.
 double dyadic(double value) { return std::round(value * 1024) / 1024; }
 

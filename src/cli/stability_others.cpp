@@ -16,9 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using Method = ProbabilityMethod;
 
-constexpr double kAbsoluteTolerance = 1e-12;
-constexpr double kTinyTolerance = 1e-303;
-
 /// The corners (0, 0, 0), (width, 0, 0) and (0, height, 0).
 std::shared_ptr<const fcl::CollisionGeometryd> oneTriangle(double width, double height) {
   TriangleMesh mesh;
