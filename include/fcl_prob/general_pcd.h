@@ -7,6 +7,7 @@
 #include <fcl/geometry/collision_geometry.h>
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 
 #include "fcl_prob/convex_hull_tree.h"
@@ -41,6 +42,10 @@ struct GeneralPcdRequest {
   /// they have, so the result stays an upper bound; 1 is the bound of the root volumes.
   std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
 
+  /// Asked at every pair; once it returns true (for good), no more pairs are refined, as if
+  /// max_pairs were reached. Empty: never.
+  std::function<bool()> interruption;
+
   /// Stop as soon as the sum exceeds 1 (variant `sum`): then raw_sum is not complete.
   bool stop_at_one = false;
 };
@@ -50,7 +55,7 @@ struct GeneralPcdResult {
   double raw_sum = 0.0;  ///< before clipping
   double root = 1.0;     ///< the bound of the root volumes
 
-  /// False if max_pairs or stop_at_one ended the refinement.
+  /// False if max_pairs, the interruption or stop_at_one ended the refinement.
   bool complete = true;
 
   std::size_t pairs_bounded = 0;  ///< ConvexPCD evaluated

@@ -53,10 +53,10 @@ Eigen::Vector3d CObstacle::supportPoint(const Eigen::Vector3d& direction) const 
   return frame_.whitening * worldSupportPoint(frame_.whitening.transpose() * direction);
 }
 
-double CObstacle::outerFaces(ObstacleScratch& scratch) const {
+EnclosingFaces CObstacle::outerFaces(ObstacleScratch& scratch) const {
   if (const auto defect = worldFaces(scratch)) {
     scratch.faces.transform(frame_.whitening, Eigen::Vector3d::Zero());
-    return frame_.error + *defect;
+    return {frame_.error + *defect, false};
   }
   Eigen::Vector3d lower;
   Eigen::Vector3d upper;
@@ -65,7 +65,7 @@ double CObstacle::outerFaces(ObstacleScratch& scratch) const {
     upper[k] = support(Eigen::Vector3d::Unit(k));
   }
   setToBox(lower, upper, scratch.faces);
-  return 0.0;
+  return {0.0, true};
 }
 
 ZonotopeObstacle::ZonotopeObstacle(const PairFrame& frame, const RoundedZonotope& a,
@@ -113,7 +113,8 @@ std::optional<double> ConvexSetObstacle::worldFaces(ObstacleScratch& scratch) co
   const ConvexMesh& mesh_b = outer ? b_.outerMesh() : b_.innerMesh();
   const Eigen::Matrix3d& rotation_b = frame().rotation_b;
   reflect(mesh_a, rotation_b.transpose() * frame().rotation_a, scratch.reflected);
-  const auto defect = scratch.sum.compute(mesh_b, scratch.reflected, scratch.faces);
+  const auto defect =
+      scratch.sum.compute(mesh_b, scratch.reflected, scratch.faces, scratch.interruption);
   scratch.faces.transform(rotation_b, frame().offset);
   return defect;
 }

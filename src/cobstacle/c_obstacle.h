@@ -21,6 +21,13 @@ struct ObstacleScratch {
   FaceSet faces;
   MinkowskiSum sum;
   ConvexMesh reflected;
+  Interruption interruption;  ///< when it is due, faces are those of a box
+};
+
+/// What faces that enclose a C-obstacle say of it.
+struct EnclosingFaces {
+  double error = 0.0;     ///< how far it may still reach out of them (metres, world frame)
+  bool only_box = false;  ///< they are a box around it, for want of better ones
 };
 
 /// The image of a ball under the whitening.
@@ -47,9 +54,8 @@ class CObstacle {
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
 
   /// Writes the (whitened) faces of an enclosing polytope to scratch.faces; if they cannot be had
-  /// (rounding), those of an enclosing box. Returns how far V may still reach out of them, in
-  /// metres of the world frame.
-  double outerFaces(ObstacleScratch& scratch) const;
+  /// (rounding, an interruption), those of an enclosing box.
+  EnclosingFaces outerFaces(ObstacleScratch& scratch) const;
 
   /// Whether that polytope is V itself (and not a circumscribed one).
   virtual bool isPolytope() const = 0;

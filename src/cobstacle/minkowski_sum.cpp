@@ -91,13 +91,15 @@ int MinkowskiSum::Heights::highestVertex(const Eigen::Vector3d& direction,
 
 std::optional<double> MinkowskiSum::Heights::compute(const ConvexMesh& faces_of,
                                                      const ConvexMesh& vertices_of,
-                                                     const Eigen::Vector3d& turn) {
+                                                     const Eigen::Vector3d& turn,
+                                                     const Interruption& interruption) {
   setTo(vertices_of);
   const std::size_t edge_count = vertices_of.edges.size();
   sign_of_edge.resize(faces_of.faces.size() * edge_count);
   highest.resize(faces_of.faces.size());
   double defect = 0.0;
   for (std::size_t f = 0; f < faces_of.faces.size(); ++f) {
+    if (isDue(interruption)) return std::nullopt;
     const Eigen::Vector3d& n = faces_of.faces[f].normal;
     const Eigen::Vector3d direction = n + turn.cross(n);
     std::int8_t* signs = sign_of_edge.data() + f * edge_count;
@@ -115,8 +117,8 @@ std::optional<double> MinkowskiSum::Heights::compute(const ConvexMesh& faces_of,
   return defect;
 }
 
-std::optional<double> MinkowskiSum::compute(const ConvexMesh& p, const ConvexMesh& q,
-                                            FaceSet& sum) {
+std::optional<double> MinkowskiSum::compute(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum,
+                                            const Interruption& interruption) {
   p_ = &p;
   q_ = &q;
   const std::size_t pairs = p.vertices.size() * q.vertices.size();
@@ -125,28 +127,29 @@ std::optional<double> MinkowskiSum::compute(const ConvexMesh& p, const ConvexMes
     vertex_stamp_.resize(pairs, 0);
   }
   for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
-    if (const auto defect = computePerturbed(p, q, attempt, sum)) return defect;
+    if (const auto defect = computePerturbed(p, q, attempt, sum, interruption)) return defect;
   }
   return std::nullopt;
 }
 
 std::optional<double> MinkowskiSum::computePerturbed(const ConvexMesh& p, const ConvexMesh& q,
-                                                     int attempt, FaceSet& sum) {
+                                                     int attempt, FaceSet& sum,
+                                                     const Interruption& interruption) {
   sum.clear();
   if (++stamp_ == 0) {  // wrapped around: old stamps would look new
     std::fill(vertex_stamp_.begin(), vertex_stamp_.end(), 0u);
     stamp_ = 1;
   }
   const Eigen::Vector3d turn = perturbation(0, attempt);
-  const auto defect_of_q = heights_of_q_.compute(p, q, -turn);
+  const auto defect_of_q = heights_of_q_.compute(p, q, -turn, interruption);
   if (!defect_of_q) return std::nullopt;
-  const auto defect_of_p = heights_of_p_.compute(q, p, turn);
+  const auto defect_of_p = heights_of_p_.compute(q, p, turn, interruption);
   if (!defect_of_p) return std::nullopt;
   // A chain of edges may be in the wrong order as a whole, so the defects of all of them count.
   const double defect = *defect_of_q * static_cast<double>(q.edges.size()) +
                         *defect_of_p * static_cast<double>(p.edges.size());
   addTranslatedFaces(p, q, sum);
-  addParallelograms(p, q, sum);
+  if (!addParallelograms(p, q, sum, interruption)) return std::nullopt;
   if (sum.faceCount() == 0) addVertices(p, q, sum);
   if (!sum.closed()) return std::nullopt;
   // Both the sum with Q turned and the surface, whose vertices are not moved, are within one
@@ -176,10 +179,12 @@ void MinkowskiSum::addTranslatedFaces(const ConvexMesh& p, const ConvexMesh& q, 
 // which is
 // -|e_P|² e_Q·n: so e_Q climbs along the left face's normal and descends along the right one's; for
 // e_Q the other way round. With all four signs reversed it is a facet of normal -m.
-void MinkowskiSum::addParallelograms(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum) {
+bool MinkowskiSum::addParallelograms(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum,
+                                     const Interruption& interruption) {
   const std::size_t edges_p = p.edges.size();
   const std::size_t edges_q = q.edges.size();
   for (std::size_t e = 0; e < edges_p; ++e) {
+    if (isDue(interruption)) return false;
     const ConvexMesh::Edge& edge_p = p.edges[e];
     // A point has no edges, so the table of signs may be empty.
     const std::int8_t* signs = heights_of_q_.sign_of_edge.data();
@@ -201,6 +206,7 @@ void MinkowskiSum::addParallelograms(const ConvexMesh& p, const ConvexMesh& q, F
       if (against) addParallelogram(edge_p, edge_q, false, sum);
     }
   }
+  return true;
 }
 
 void MinkowskiSum::addParallelogram(const ConvexMesh::Edge& edge_p, const ConvexMesh::Edge& edge_q,

@@ -9,6 +9,7 @@
 
 #include "cobstacle/convex_mesh.h"
 #include "cobstacle/face_set.h"
+#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 
@@ -23,10 +24,11 @@ namespace fcl_prob::detail {
 class MinkowskiSum {
  public:
   /// Writes the facets of the sum. Returns how far the sum may reach out of them because of ties
-  /// (beyond rounding; nearly always 0), or nothing if rounding spoilt the surface (`sum` is then
-  /// unusable): it is checked to be closed, and a closed surface of facets of the sum is its whole
-  /// boundary.
-  std::optional<double> compute(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum);
+  /// (beyond rounding; nearly always 0), or nothing if rounding spoilt the surface or the
+  /// interruption is due (`sum` is then unusable): it is checked to be closed, and a closed surface
+  /// of facets of the sum is its whole boundary.
+  std::optional<double> compute(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum,
+                                const Interruption& interruption = {});
 
  private:
   /// How the vertices of one polytope lie along the face normals of the other.
@@ -50,9 +52,9 @@ class MinkowskiSum {
     std::vector<int> highest;               // vertex, per face
 
     /// Normals are turned by turn × normal. Returns by how much the turn has made a wrong order;
-    /// nothing if there is a tie.
+    /// nothing if there is a tie or an interruption.
     std::optional<double> compute(const ConvexMesh& faces_of, const ConvexMesh& vertices_of,
-                                  const Eigen::Vector3d& turn);
+                                  const Eigen::Vector3d& turn, const Interruption& interruption);
 
     void setTo(const ConvexMesh& mesh);
 
@@ -66,9 +68,11 @@ class MinkowskiSum {
   };
 
   std::optional<double> computePerturbed(const ConvexMesh& p, const ConvexMesh& q, int attempt,
-                                         FaceSet& sum);
+                                         FaceSet& sum, const Interruption& interruption);
   void addTranslatedFaces(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum);
-  void addParallelograms(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum);
+  /// \return false if the interruption is due
+  bool addParallelograms(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum,
+                         const Interruption& interruption);
   void addParallelogram(const ConvexMesh::Edge& edge_p, const ConvexMesh::Edge& edge_q, bool along,
                         FaceSet& sum);
   void addVertices(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum);

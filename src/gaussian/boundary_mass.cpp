@@ -48,13 +48,15 @@ double areaMass(const FaceFrame& face, double reach) {
 
 }  // namespace
 
-MassWithError boundaryMass(const PolytopeBoundary& boundary) {
+std::optional<MassWithError> boundaryMass(const PolytopeBoundary& boundary,
+                                          const Interruption& interruption) {
   EdgeSum sum;
-  if (!(boundary.distance >= kTailDistance)) {
-    for (const BoundaryEdge& edge : boundary.edges) sum += integrateCore(boundary, edge);
-    return massOf(sum, boundary.edges.size());
+  const bool core = !(boundary.distance >= kTailDistance);
+  for (const BoundaryEdge& edge : boundary.edges) {
+    if (isDue(interruption)) return std::nullopt;
+    sum += core ? integrateCore(boundary, edge) : integrateTail(boundary, edge);
   }
-  for (const BoundaryEdge& edge : boundary.edges) sum += integrateTail(boundary, edge);
+  if (core) return massOf(sum, boundary.edges.size());
   addFullAngles(boundary, sum);
   MassWithError mass = massOf(sum, boundary.edges.size());
   // The integral is the mass of the body or, around the origin, minus that of what is outside of

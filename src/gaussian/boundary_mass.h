@@ -3,6 +3,9 @@
 // Mass of a polytope under N(0, I) as a sum over its edges, with a bound on every error.
 #pragma once
 
+#include <optional>
+
+#include "gaussian/interruption.h"
 #include "gaussian/polytope_boundary.h"
 
 namespace fcl_prob::detail {
@@ -25,7 +28,10 @@ struct MassWithError {
 /// accuracy far from the origin, the second has no singularity where the origin is on the boundary.
 /// At its foot (e = t = 0) an integrand of the first is taken apart into erfc(|h|/√2)/|h|, whose
 /// angles are added exactly, and a smooth remainder.
-MassWithError boundaryMass(const PolytopeBoundary& boundary);
+///
+/// Returns nothing if the interruption is due.
+std::optional<MassWithError> boundaryMass(const PolytopeBoundary& boundary,
+                                          const Interruption& interruption = {});
 
 /// Bounds on what a body gains and loses when its surface moves by up to a distance.
 struct SlabMass {

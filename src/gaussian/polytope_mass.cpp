@@ -13,6 +13,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/boundary_mass.h"
 #include "gaussian/number_text.h"
+#include "gaussian/polytope_effort.h"
 #include "gaussian/solid_mass.h"
 
 namespace fcl_prob {
@@ -68,9 +69,9 @@ double expectedPieces(const ConvexPolytope& polytope, const PolytopeBoundary& bo
 }
 
 bool isWorthCubature(const ConvexPolytope& polytope, const PolytopeBoundary& boundary,
-                     const Bounds& bounds) {
+                     const Bounds& bounds, double enough) {
   const double relative_width = bounds.width() / bounds.upper;
-  if (!(relative_width > kGoodRelativeWidth)) return false;
+  if (!(relative_width > std::max(enough, kGoodRelativeWidth))) return false;
   const double limit = relative_width > kPoorRelativeWidth   ? 256
                        : relative_width > kFairRelativeWidth ? 32
                                                              : 2;
@@ -104,16 +105,20 @@ double massBetweenPlanes(const ConvexPolytope& polytope, double vertex_error) {
   return least * (1 + kIntervalMassRelativeError) + kUnderflow;
 }
 
-// A point, a segment or a flat polygon: nothing, but for what the errors of its vertices may hide.
-Bounds flatMass(const ConvexPolytope& polytope, double vertex_error) {
-  if (polytope.vertices.empty() || vertex_error == 0) return {0, 0};
+double massOfEnclosingBox(const ConvexPolytope& polytope, double vertex_error) {
   Eigen::Vector3d lo = polytope.vertices.front(), hi = lo;
   for (const Eigen::Vector3d& v : polytope.vertices) {
     lo = lo.cwiseMin(v);
     hi = hi.cwiseMax(v);
   }
   const double mass = normalBoxMass(lo.array() - vertex_error, hi.array() + vertex_error);
-  return {0, std::min(1.0, mass * (1 + 4 * kIntervalMassRelativeError) + kUnderflow)};
+  return std::min(1.0, mass * (1 + 4 * kIntervalMassRelativeError) + kUnderflow);
+}
+
+// A point, a segment or a flat polygon: nothing, but for what the errors of its vertices may hide.
+Bounds flatMass(const ConvexPolytope& polytope, double vertex_error) {
+  if (polytope.vertices.empty() || vertex_error == 0) return {0, 0};
+  return {0, massOfEnclosingBox(polytope, vertex_error)};
 }
 
 void requireVertexError(double vertex_error) {
@@ -125,18 +130,20 @@ void requireVertexError(double vertex_error) {
 
 }  // namespace
 
-Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error) {
+Bounds detail::polytopeMass(const ConvexPolytope& polytope, double vertex_error,
+                            const MassEffort& effort) {
   requireVertexError(vertex_error);
   if (polytope.faces.empty()) return flatMass(polytope, vertex_error);
-  const PolytopeBoundary boundary = detail::polytopeBoundary(polytope);
-  Bounds bounds = widened(detail::boundaryMass(boundary),
-                          detail::surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error));
-  if (isWorthCubature(polytope, boundary, bounds)) {
-    const std::optional<detail::SolidMass> solid =
-        detail::solidMass(polytope, bounds.lower, kMaxPieces);
+  const PolytopeBoundary boundary = polytopeBoundary(polytope);
+  const std::optional<MassWithError> by_boundary = boundaryMass(boundary, effort.interruption);
+  if (!by_boundary) return {0, massOfEnclosingBox(polytope, vertex_error)};
+  Bounds bounds =
+      widened(*by_boundary, surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error));
+  if (isWorthCubature(polytope, boundary, bounds, effort.enough)) {
+    const std::optional<SolidMass> solid = solidMass(polytope, bounds.lower, kMaxPieces, effort);
     if (solid) {
-      const detail::SlabMass slabs = detail::surfaceSlabMass(boundary, &FaceFrame::unevenness,
-                                                             vertex_error + solid->cut_error);
+      const SlabMass slabs =
+          surfaceSlabMass(boundary, &FaceFrame::unevenness, vertex_error + solid->cut_error);
       bounds = combined(bounds, widened(solid->mass, slabs));
     }
   }
@@ -145,6 +152,10 @@ Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error) {
         std::max(bounds.lower, std::min(bounds.upper, massBetweenPlanes(polytope, vertex_error)));
   }
   return bounds;
+}
+
+Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error) {
+  return detail::polytopeMass(polytope, vertex_error, {});
 }
 
 }  // namespace fcl_prob

@@ -17,9 +17,12 @@ using Eigen::Vector3d;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// Bounds of a piece's cubature and of what is left out, relative to the mass.
+// Bounds of a piece's cubature and of what is left out, relative to the mass; or to the width that
+// is enough.
 constexpr double kPieceTolerance = 1e-15;
+constexpr double kPieceShareOfEnough = 1e-3;
 constexpr double kNegligible = 1e-17;
+constexpr double kNegligibleShareOfEnough = 1e-5;
 
 // How far a cut may move a vertex, in units of the size of the body: no plane is farther from the
 // anchor.
@@ -44,6 +47,9 @@ struct Piece {
       density_lower = std::min(density_lower, t.densityLower());
     }
   }
+
+  // Bound on its mass.
+  double most() const { return (volume + volume_error) * density_upper; }
 
   void addFan(const Vector3d& anchor, const std::vector<int>& loop) {
     if (std::find(loop.begin(), loop.end(), 0) != loop.end()) return;
@@ -76,8 +82,11 @@ HalfSpace middlePlane(const Vector3d& anchor, const ConvexPolytope& body) {
 
 class SolidIntegral {
  public:
-  SolidIntegral(const ConvexPolytope& polytope, double lower_bound)
-      : anchor_(polytope.vertices.front()) {
+  SolidIntegral(const ConvexPolytope& polytope, double lower_bound, const MassEffort& effort)
+      : anchor_(polytope.vertices.front()),
+        piece_tolerance_(std::max(kPieceTolerance, kPieceShareOfEnough * effort.enough)),
+        negligible_(std::max(kNegligible, kNegligibleShareOfEnough * effort.enough)),
+        interruption_(effort.interruption) {
     ConvexPolytope body = polytope;
     for (Vector3d& vertex : body.vertices) {
       vertex -= anchor_;
@@ -90,35 +99,55 @@ class SolidIntegral {
   std::optional<SolidMass> integrate(int max_pieces) {
     int pieces = 0;
     while (!open_.empty()) {
-      if (++pieces > max_pieces) return std::nullopt;
-      const Piece piece = std::move(open_.back());
-      open_.pop_back();
-      const double most = (piece.volume + piece.volume_error) * piece.density_upper;
-      if (most <= kNegligible * known_) {
+      if (++pieces > max_pieces || interrupted_) return std::nullopt;
+      const Piece piece = takeHeaviest();
+      const double most = piece.most();
+      if (most <= negligible_ * known_) {
         sum_.error += most;
       } else if (!integratePiece(piece)) {
         cut(piece);
       }
     }
+    if (interrupted_) return std::nullopt;
     sum_.error += pieces * kEpsilon * sum_.value;
     return SolidMass{sum_, pieces > 1 ? kCutRounding * size_ : 0.0};
   }
 
  private:
+  // First, so that it is soon known what the rest is to be measured by.
+  Piece takeHeaviest() {
+    const auto heaviest =
+        std::max_element(open_.begin(), open_.end(),
+                         [](const Piece& p, const Piece& q) { return p.most() < q.most(); });
+    std::swap(*heaviest, open_.back());
+    Piece piece = std::move(open_.back());
+    open_.pop_back();
+    return piece;
+  }
+
+  bool mustStop() {
+    interrupted_ = interrupted_ || isDue(interruption_);
+    return interrupted_;
+  }
+
+  // False if the piece has to be cut first.
   bool integratePiece(const Piece& piece) {
     std::vector<CubaturePlan> plans;
     for (const Tetrahedron& t : piece.tetrahedra) {
+      if (mustStop()) return true;
       const double share = t.volume / piece.volume;
       const double least = piece.volume * piece.density_lower;
-      const double tolerance = kPieceTolerance * std::max(share * least, 1e-2 * known_);
+      const double tolerance = piece_tolerance_ * std::max(share * least, 1e-2 * known_);
       plans.push_back(planCubature(t, tolerance));
       if (plans.back().points == 0) return false;
     }
     for (std::size_t k = 0; k < plans.size(); ++k) {
+      if (mustStop()) return true;
       const MassWithError mass = tetrahedronMass(piece.tetrahedra[k], plans[k]);
       sum_.value += mass.value;
       sum_.error += mass.error;
     }
+    known_ = std::max(known_, sum_.value - sum_.error);
     return true;
   }
 
@@ -140,13 +169,17 @@ class SolidIntegral {
   MassWithError sum_;
   double known_ = 0.0;
   double size_ = 0.0;
+  double piece_tolerance_;
+  double negligible_;
+  const Interruption& interruption_;
+  bool interrupted_ = false;
 };
 
 }  // namespace
 
 std::optional<SolidMass> solidMass(const ConvexPolytope& polytope, double lower_bound,
-                                   int max_pieces) {
-  return SolidIntegral(polytope, lower_bound).integrate(max_pieces);
+                                   int max_pieces, const MassEffort& effort) {
+  return SolidIntegral(polytope, lower_bound, effort).integrate(max_pieces);
 }
 
 }  // namespace fcl_prob::detail

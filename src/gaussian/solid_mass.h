@@ -7,6 +7,7 @@
 
 #include "fcl_prob/convex_polytope.h"
 #include "gaussian/boundary_mass.h"
+#include "gaussian/polytope_effort.h"
 
 namespace fcl_prob::detail {
 
@@ -20,12 +21,12 @@ struct SolidMass {
 /// boundaryMass() nothing cancels, however small the polytope is against its distance from the
 /// origin; but a polytope of many standard deviations takes many pieces. `lower_bound` of the mass
 /// (0 if unknown) tells which pieces do not matter. Returns nothing if more than `max_pieces`
-/// pieces are needed.
+/// pieces are needed or the effort's interruption is due.
 ///
 /// Over a tetrahedron one direction is integrated in closed form and two by a Gauss rule whose
 /// error is bounded by the size of the density on a Bernstein ellipse; the polytope is cut in
-/// halves until that bound is within rounding.
+/// halves until that bound is within rounding, or far below what is enough.
 std::optional<SolidMass> solidMass(const ConvexPolytope& polytope, double lower_bound,
-                                   int max_pieces);
+                                   int max_pieces, const MassEffort& effort = {});
 
 }  // namespace fcl_prob::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "fcl_prob/exceptions.h"
@@ -20,7 +21,8 @@ namespace {
 using namespace detail;
 
 constexpr std::uint64_t kPilots = 4;
-constexpr double kPilotShare = 0.05;  // of the samples, each
+constexpr double kPilotShare = 0.05;                // of the samples, each, ...
+constexpr std::size_t kMostPilotSamples = 1 << 15;  // ... for more do not make a mixture better
 constexpr double kCoverShareOfPilots = 0.4;
 constexpr double kCoverShare = 0.2;
 constexpr int kMostComponents = 8;
@@ -53,12 +55,19 @@ std::vector<MixtureComponent> firstGuess(const WhitenedObstacle& obstacle) {
 class DensityAdaptation {
  public:
   DensityAdaptation(const WhitenedCollider& collider, const WhitenedObstacle& obstacle,
-                    const ProbabilityRequest& request)
-      : collider_(collider), obstacle_(obstacle), request_(request), loop_(request.threads) {}
+                    const ProbabilityRequest& request, const Stopwatch& watch)
+      : collider_(collider),
+        obstacle_(obstacle),
+        request_(request),
+        watch_(watch),
+        loop_(request.threads),
+        samples_of_pilot_(std::min(
+            kMostPilotSamples,
+            static_cast<std::size_t>(kPilotShare * static_cast<double>(request.samples)))) {}
 
   ImportanceDensity adapt() {
     std::vector<MixtureComponent> mixture = firstGuess(obstacle_);
-    for (std::uint64_t pilot = 1; pilot <= kPilots; ++pilot) {
+    for (std::uint64_t pilot = 1; pilot <= kPilots && !interruption_; ++pilot) {
       densities_.push_back(densityOf(kCoverShareOfPilots, mixture));
       draw({request_.seed, pilot});
       const auto fitted = fitMixture(weightedHits(), obstacle_.whitening.rank(), kMostComponents);
@@ -67,31 +76,39 @@ class DensityAdaptation {
     return densityOf(kCoverShare, mixture);
   }
 
-  std::size_t samplesUsed() const { return kPilots * samplesOfPilot(); }
+  std::size_t samplesUsed() const { return used_; }
+
+  /// Whether a limit came before the last pilot: the density is what was learnt by then.
+  std::optional<ProbabilityStatus> interruption() const { return interruption_; }
 
  private:
-  std::size_t samplesOfPilot() const {
-    return static_cast<std::size_t>(kPilotShare * static_cast<double>(request_.samples));
-  }
-
   ImportanceDensity densityOf(double cover_share,
                               const std::vector<MixtureComponent>& mixture) const {
     return {obstacle_.whitening.rank(), obstacle_.cover, cover_share, mixture};
   }
 
   void draw(RandomStream stream) {
-    std::vector<Eigen::Vector3d> points(samplesOfPilot());
+    std::vector<Eigen::Vector3d> points(samples_of_pilot_);
     std::vector<unsigned char> collided(points.size());
-    loop_.run(
+    const std::size_t used_before = used_;
+    const std::size_t drawn = loop_.run(
         0, points.size(),
         [&](std::size_t i) {
           points[i] = densities_.back().sample(stream, i);
           collided[i] = collider_.collides(points[i]);
         },
-        [](std::size_t) { return true; });
-    for (std::size_t i = 0; i < points.size(); ++i) {
+        [&](std::size_t done) {
+          used_ = used_before + done;
+          interruption_ = interruptionOf(request_, {{0.0, 1.0}, fraction(), watch_.seconds()});
+          return !interruption_;
+        });
+    for (std::size_t i = 0; i < drawn; ++i) {
       if (collided[i]) hits_.push_back(points[i]);
     }
+  }
+
+  double fraction() const {
+    return static_cast<double>(used_) / static_cast<double>(request_.samples);
   }
 
   /// Weighted as if every hit had been drawn from the mean of all densities so far, which keeps the
@@ -109,7 +126,11 @@ class DensityAdaptation {
   const WhitenedCollider& collider_;
   const WhitenedObstacle& obstacle_;
   const ProbabilityRequest& request_;
+  const Stopwatch& watch_;
   SampleLoop loop_;
+  std::size_t samples_of_pilot_;
+  std::size_t used_ = 0;
+  std::optional<ProbabilityStatus> interruption_;
   std::vector<ImportanceDensity> densities_;
   std::vector<Eigen::Vector3d> hits_;
 };
@@ -190,10 +211,11 @@ ProbabilityResult sampleRareEvent(const DisplacedCollider& displaced,
                                   const WhitenedObstacle& obstacle,
                                   const ProbabilityRequest& request, const Stopwatch& watch) {
   const WhitenedCollider collider(displaced, obstacle.whitening);
-  DensityAdaptation adaptation(collider, obstacle, request);
+  DensityAdaptation adaptation(collider, obstacle, request, watch);
   const ImportanceDensity density = adaptation.adapt();
   RareEventRun run(collider, density, obstacle.whitening, request,
                    request.samples - adaptation.samplesUsed());
+  if (adaptation.interruption()) run.interrupt(*adaptation.interruption());
   ProbabilityResult result = run.result(watch);
   result.statistics.samples += adaptation.samplesUsed();
   const bool shell = obstacle.cover.shell_radius > 0.0;

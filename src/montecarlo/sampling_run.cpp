@@ -7,6 +7,16 @@
 
 namespace fcl_prob::detail {
 
+std::optional<ProbabilityStatus> interruptionOf(const ProbabilityRequest& request,
+                                                ProbabilityProgress progress) {
+  if (request.time_limit) {
+    if (progress.seconds >= *request.time_limit) return ProbabilityStatus::time_limit;
+    progress.fraction = std::max(progress.fraction, progress.seconds / *request.time_limit);
+  }
+  if (request.on_progress && !request.on_progress(progress)) return ProbabilityStatus::cancelled;
+  return std::nullopt;
+}
+
 SamplingRun::SamplingRun(const ProbabilityRequest& request, std::size_t samples,
                          double absolute_tolerance)
     : request_(request),
@@ -43,12 +53,7 @@ ProbabilityResult SamplingRun::run(const Stopwatch& watch) {
 
 bool SamplingRun::countUpTo(std::size_t done, const Stopwatch& watch) {
   for (; counted_ < done; ++counted_) count(counted_, counted_ % kSlots);
-  if (done == samples_) return true;
-  if (request_.time_limit && watch.seconds() >= *request_.time_limit) {
-    interruption_ = ProbabilityStatus::time_limit;
-  } else if (request_.on_progress && !request_.on_progress(progress(watch))) {
-    interruption_ = ProbabilityStatus::cancelled;
-  }
+  if (!interruption_ && done < samples_) interruption_ = interruptionOf(request_, progress(watch));
   return !interruption_;
 }
 
@@ -57,9 +62,6 @@ ProbabilityProgress SamplingRun::progress(const Stopwatch& watch) const {
   progress.interval = interval(looks_.finalConfidence());
   progress.seconds = watch.seconds();
   progress.fraction = static_cast<double>(counted_) / static_cast<double>(samples_);
-  if (request_.time_limit) {
-    progress.fraction = std::max(progress.fraction, progress.seconds / *request_.time_limit);
-  }
   return progress;
 }
 

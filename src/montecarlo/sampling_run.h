@@ -14,6 +14,10 @@
 
 namespace fcl_prob::detail {
 
+/// Looks at the clock and asks on_progress: `time_limit`, `cancelled` or nothing.
+std::optional<ProbabilityStatus> interruptionOf(const ProbabilityRequest& request,
+                                                ProbabilityProgress progress);
+
 /// Draws samples 0, 1, 2, ... on the threads asked for and counts them in that order, so that sums
 /// do not depend on how the samples were divided among threads.
 class SamplingRun {
@@ -26,6 +30,9 @@ class SamplingRun {
 
   /// Sets confidence_interval, decision and status, and statistics.samples.
   ProbabilityResult run(const Stopwatch& watch);
+
+  /// What came before has met a limit already: run() then draws as few samples as make an answer.
+  void interrupt(ProbabilityStatus reason) { interruption_ = reason; }
 
  protected:
   static constexpr std::size_t kSlots = SampleLoop::kLargestChunk;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
+#include "narrowphase/convex_pair_mass.h"
+
 #include <algorithm>
 
 #include "cobstacle/convex_body_data.h"
-#include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/normal_mass.h"
 #include "narrowphase/pair_bounds.h"
 
 namespace fcl_prob {
 namespace {
+
+/// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
+constexpr double kSandwichWidth = 1e-4;
 
 /// Mass of a ball whose centre is known to within `error` (metres); the deviations differ by
 /// rounding only. The mass falls with the distance and grows with the radius.
@@ -24,21 +28,28 @@ Bounds ballMass(const detail::Ellipsoid& ball, double error, const Eigen::Vector
 
 }  // namespace
 
-Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
-                      const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement) {
-  const detail::PairFrame frame = detail::pairFrame(a, pose_a, b, pose_b, displacement);
-  const detail::PairObstacle obstacle(frame, a.data(), b.data());
-  detail::PairBounds pair;
-  if (obstacle->isPolytope()) return pair.mass(*obstacle);
+Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                              const ConvexBody& b, const fcl::Transform3d& pose_b,
+                              const GaussianDisplacement& displacement,
+                              const Interruption& interruption) {
+  const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
+  const PairObstacle obstacle(frame, a.data(), b.data());
+  PairBounds pair;
+  if (obstacle->isPolytope()) return pair.mass(*obstacle, {0.0, interruption});
   const auto ball = obstacle->ellipsoid();
   if (ball && displacement.isotropic()) {
     return ballMass(*ball, frame.error, displacement.standardDeviations());
   }
-  using detail::ConvexSetObstacle;
   using Faces = ConvexSetObstacle::Faces;
   const ConvexSetObstacle outer(frame, a.data().set(), b.data().set(), Faces::outer);
   const ConvexSetObstacle inner(frame, a.data().set(), b.data().set(), Faces::inner);
-  return {pair.mass(inner).lower, pair.mass(outer).upper};
+  const MassEffort effort{kSandwichWidth, interruption};
+  return {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper};
+}
+
+Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                      const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement) {
+  return detail::convexPairMass(a, pose_a, b, pose_b, displacement, {});
 }
 
 }  // namespace fcl_prob

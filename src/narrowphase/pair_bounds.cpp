@@ -107,7 +107,7 @@ ConvexPcdBounds scaled(ConvexPcdBounds bounds, double factor) {
 
 Eigen::Matrix3d PairBounds::prepareFaces(const CObstacle& obstacle) {
   const PairFrame& frame = obstacle.frame();
-  const double error_in_metres = obstacle.outerFaces(scratch_);
+  const double error_in_metres = obstacle.outerFaces(scratch_).error;
   if (frame.rank == 3) return error_in_metres * frame.whitening;
   const Eigen::Vector3d error = frame.whitened(error_in_metres);
   replaceBySection(frame.rank, error, scratch_.faces);

@@ -9,6 +9,7 @@
 #include "cobstacle/c_obstacle.h"
 #include "cobstacle/nearest.h"
 #include "fcl_prob/convex_pcd.h"
+#include "gaussian/polytope_effort.h"
 #include "narrowphase/tail_mean.h"
 
 namespace fcl_prob::detail {
@@ -23,7 +24,7 @@ class PairBounds {
   ConvexPcdBaselines baselines(const CObstacle& obstacle);
 
   /// Certified mass of the polytope whose faces the C-obstacle gives.
-  Bounds mass(const CObstacle& obstacle);
+  Bounds mass(const CObstacle& obstacle, const MassEffort& effort = {});
 
  private:
   /// Brings the faces of `obstacle` into scratch_, cut and extruded if the displacement has rank 1
@@ -31,7 +32,7 @@ class PairBounds {
   /// 2. The body reaches out of them by no more than the image of the unit ball under the result.
   Eigen::Matrix3d prepareFaces(const CObstacle& obstacle);
 
-  Bounds massOfSection(int rank, const Eigen::Vector3d& error);
+  Bounds massOfSection(int rank, const Eigen::Vector3d& error, const MassEffort& effort);
   ConvexPcdBounds ellipsoidBounds(const CObstacle& obstacle, const Ellipsoid& ball);
 
   ObstacleScratch scratch_;

@@ -32,10 +32,10 @@ void shrink(double error, FaceSet& faces) {
   for (Eigen::Vector3d& v : faces.vertices()) v = centre + scale * (v - centre);
 }
 
-Bounds massOfPrism(int rank, double error, const FaceSet& faces) {
+Bounds massOfPrism(int rank, double error, const FaceSet& faces, const MassEffort& effort) {
   if (faces.vertices().empty()) return {0.0, 0.0};
   if (rank == 0) return {1.0, 1.0};
-  Bounds mass = polytopeMass(toClosedPolytope(faces), error);
+  Bounds mass = polytopeMass(toClosedPolytope(faces), error, effort);
   mass.lower /= prismMass(rank) * (1.0 + 8.0 * kIntervalMassRelativeError);
   mass.upper /= prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError);
   return mass;
@@ -43,23 +43,26 @@ Bounds massOfPrism(int rank, double error, const FaceSet& faces) {
 
 }  // namespace
 
-Bounds PairBounds::massOfSection(int rank, const Eigen::Vector3d& error) {
+Bounds PairBounds::massOfSection(int rank, const Eigen::Vector3d& error, const MassEffort& effort) {
   const double moving_error = errorOfMoving(rank, error);
   FaceSet inner = scratch_.faces;
   shrink(error.norm(), inner);
   replaceBySection(rank, Eigen::Vector3d::Zero(), inner);
   replaceBySection(rank, error, scratch_.faces);
-  return {massOfPrism(rank, moving_error, inner).lower,
-          massOfPrism(rank, moving_error, scratch_.faces).upper};
+  return {massOfPrism(rank, moving_error, inner, effort).lower,
+          massOfPrism(rank, moving_error, scratch_.faces, effort).upper};
 }
 
-Bounds PairBounds::mass(const CObstacle& obstacle) {
+Bounds PairBounds::mass(const CObstacle& obstacle, const MassEffort& effort) {
   const PairFrame& frame = obstacle.frame();
   if (!frame.fits) return {0.0, 1.0};
-  const Eigen::Vector3d error = frame.whitened(obstacle.outerFaces(scratch_));
-  Bounds mass = frame.rank < 3 ? massOfSection(frame.rank, error)
-                               : polytopeMass(toClosedPolytope(scratch_.faces), error.norm());
-  mass.lower = std::max(mass.lower, 0.0);
+  scratch_.interruption = effort.interruption;
+  const EnclosingFaces enclosing = obstacle.outerFaces(scratch_);
+  const Eigen::Vector3d error = frame.whitened(enclosing.error);
+  Bounds mass = frame.rank < 3
+                    ? massOfSection(frame.rank, error, effort)
+                    : polytopeMass(toClosedPolytope(scratch_.faces), error.norm(), effort);
+  mass.lower = enclosing.only_box ? 0.0 : std::max(mass.lower, 0.0);
   mass.upper = std::min(mass.upper, 1.0);
   return mass;
 }

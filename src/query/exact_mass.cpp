@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "fcl_prob/convex_pcd.h"
+#include "narrowphase/convex_pair_mass.h"
+#include "query/request_limits.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob::detail {
@@ -24,11 +25,18 @@ class ExactMass {
       : pair_(pair),
         displacement_(displacement),
         request_(request),
-        flat_(pair.a.rootBody().isPolytope() && pair.b.rootBody().isPolytope()),
-        mass_(massOf(pair.a.rootBody(), pair.b.rootBody())) {}
+        limits_(request),
+        flat_(pair.a.rootBody().isPolytope() && pair.b.rootBody().isPolytope()) {}
 
   ProbabilityResult answer() {
-    if (status() == ProbabilityStatus::resolution_limit) refine();
+    narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
+    if (status() == ProbabilityStatus::resolution_limit) {
+      narrow({0.0, boundOf(pair_.a.rootBody(), pair_.b.rootBody())});
+    }
+    if (status() == ProbabilityStatus::resolution_limit) {
+      narrow(massOf(ConvexBody(pair_.a.geometry(), kFineResolution),
+                    ConvexBody(pair_.b.geometry(), kFineResolution)));
+    }
     ProbabilityResult result;
     result.method = ProbabilityMethod::exact;
     result.status = status();
@@ -36,40 +44,47 @@ class ExactMass {
     result.upper = mass_.upper;
     result.decision = decisionOf(mass_, request_);
     result.statistics.leaf_pairs = 1;
-    if (status() != ProbabilityStatus::exact) {
+    if (!flat_ && result.status != ProbabilityStatus::exact) {
       result.plan.push_back("curved sides enclosed between polytopes");
     }
     return result;
   }
 
  private:
-  Bounds massOf(const ConvexBody& a, const ConvexBody& b) const {
-    return convexPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_);
+  Bounds massOf(const ConvexBody& a, const ConvexBody& b) {
+    return detail::convexPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
+                                  limits_.interruption());
   }
 
-  void refine() {
-    const Bounds finer = massOf(ConvexBody(pair_.a.geometry(), kFineResolution),
-                                ConvexBody(pair_.b.geometry(), kFineResolution));
-    mass_ = {std::max(mass_.lower, finer.lower), std::min(mass_.upper, finer.upper)};
+  /// By support values, where the polytope around a curved body sticks out of it.
+  double boundOf(const ConvexBody& a, const ConvexBody& b) const {
+    return convexPcd(a, pair_.pose_a, b, pair_.pose_b, displacement_).least;
+  }
+
+  void narrow(const Bounds& mass) {
+    mass_ = {std::max(mass_.lower, mass.lower), std::min(mass_.upper, mass.upper)};
+    limits_.setProgress(mass_, 0.5);
   }
 
   ProbabilityStatus status() const {
-    if (flat_ || mass_.width() <= kRoundingWidth * mass_.upper) return ProbabilityStatus::exact;
+    if ((flat_ && !limits_.reason()) || mass_.width() <= kRoundingWidth * mass_.upper)
+      return ProbabilityStatus::exact;
     const Decision decision = decisionOf(mass_, request_);
     if (decision == Decision::below || decision == Decision::above) {
       return ProbabilityStatus::decided;
     }
     const double tolerance =
         std::max(request_.absolute_tolerance, request_.relative_tolerance * mass_.upper);
-    return mass_.width() <= tolerance ? ProbabilityStatus::converged
-                                      : ProbabilityStatus::resolution_limit;
+    if (mass_.width() <= tolerance) return ProbabilityStatus::converged;
+    return limits_.reason().value_or(ProbabilityStatus::resolution_limit);
   }
 
   const PlacedPair& pair_;
   const GaussianDisplacement& displacement_;
   const ProbabilityRequest& request_;
+  RequestLimits limits_;
   bool flat_;
-  Bounds mass_;
+  Bounds mass_{0.0, 1.0};
 };
 
 }  // namespace

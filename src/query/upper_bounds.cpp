@@ -6,6 +6,7 @@
 
 #include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/general_pcd.h"
+#include "query/request_limits.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob::detail {
@@ -38,7 +39,9 @@ ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement
 
 ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
                                   const ProbabilityRequest& request) {
+  RequestLimits limits(request);
   GeneralPcdRequest pcd_request;
+  pcd_request.interruption = limits.interruption();
   pcd_request.confidence = request.confidence;
   pcd_request.max_pairs = request.max_cells;
   pcd_request.variant = request.method == ProbabilityMethod::general_pcd_min
@@ -47,7 +50,7 @@ ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplace
   const GeneralPcdResult pcd = generalPcd(pair.a.geometry(), pair.pose_a, pair.b.geometry(),
                                           pair.pose_b, displacement, pcd_request);
   ProbabilityResult result = boundedBy(pcd.upper, request);
-  if (!pcd.complete) result.status = ProbabilityStatus::cell_limit;
+  if (!pcd.complete) result.status = limits.reason().value_or(ProbabilityStatus::cell_limit);
   result.statistics.raw_sum = pcd.raw_sum;
   result.statistics.pairs_tested = pcd.pairs_bounded;
   result.statistics.leaf_pairs = pcd.leaf_pairs;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/interruption.h"
 #include "gaussian/number_text.h"
 
 namespace fcl_prob::detail {
@@ -38,7 +39,7 @@ bool PairSum::refines(int node_a, int node_b, double bound) {
 }
 
 bool PairSum::mayNotRefine() const {
-  return result_.pairs_bounded >= request_.max_pairs || finished();
+  return result_.pairs_bounded >= request_.max_pairs || finished() || isDue(request_.interruption);
 }
 
 void PairSum::add(int node_a, int node_b, double bound) {

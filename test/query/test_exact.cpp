@@ -230,6 +230,25 @@ TEST_CASE("the exact method of a displacement that hardly moves along one axis")
   CHECK(partly > 5);
 }
 
+// A needle of 140,000 standard deviations: what is far out must not be integrated to the last
+// digit.
+TEST_CASE("the exact method of a stretched round pair takes few evaluations") {
+  const fcl::Sphered sphere(7.0);
+  const fcl::Cylinderd cylinder(7.0, 14.0);
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::exact;
+  request.absolute_tolerance = 0.0;
+  request.relative_tolerance = 1e-6;
+  int calls = 0;
+  request.on_progress = [&](const ProbabilityProgress&) { return ++calls > 0; };
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({1e5, 7e4, 1e-4});
+  const auto result =
+      answer(sphere, kIdentity, cylinder, at({14.0, 7.0, 0.7}), displacement, request);
+  CHECK(*result.upper - *result.lower < 0.02 * *result.upper);
+  CHECK(*result.lower > 1.3e-8);
+  CHECK(calls < 2500);
+}
+
 TEST_CASE("a standard deviation so small that whitened lengths overflow") {
   const fcl::Boxd box(1, 2, 3);
   const fcl::Cylinderd cylinder(0.5, 1.0);

@@ -5,6 +5,7 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
 
 #include <map>
 
@@ -232,6 +233,69 @@ TEST_CASE("interrupted sampling has a valid confidence interval", "[query]") {
       }
     }
   }
+}
+
+TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
+  struct Case {
+    Ask ask;
+    bool two_sided;
+  };
+  const Geometry sphere = std::make_shared<fcl::Sphered>(0.4);
+  const Geometry box = std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5);
+  std::vector<Case> cases;
+  cases.push_back({ofPair(sphere, box, at(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
+  for (const auto method : {ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min}) {
+    cases.push_back({ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), method), false});
+  }
+  for (const auto& [ask, two_sided] : cases) {
+    int calls = 0;
+    ProbabilityRequest request = requestWithin(kFine);
+    request.confidence = 0.9999;
+    request.on_progress = [&](const ProbabilityProgress&) { return ++calls > 0; };
+    ProbabilityResult whole;
+    ask(request, whole);
+    REQUIRE(calls > 3);
+    const int calls_of_whole = calls;
+    const auto check = [&](const ProbabilityResult& result, ProbabilityStatus status) {
+      CAPTURE(toString(result.method));
+      CHECK(result.status == status);
+      CHECK(result.upper.value() >= whole.lower.value_or(0.0));
+      CHECK(result.upper.value() <= 1.0);
+      CHECK(result.lower.has_value() == two_sided);
+      CHECK(result.lower.value_or(0.0) <= whole.upper.value());
+    };
+    for (const int last : {1, 2, calls_of_whole / 2, calls_of_whole}) {
+      calls = 0;
+      request.on_progress = [&](const ProbabilityProgress& progress) {
+        CHECK(progress.interval.upper >= whole.lower.value_or(0.0));
+        return ++calls < last;
+      };
+      ProbabilityResult result;
+      ask(request, result);
+      CHECK(calls == last);
+      check(result, ProbabilityStatus::cancelled);
+      request.on_progress = throwingAt(last);
+      result = marked();
+      CHECK_THROWS_AS(ask(request, result), Thrown);
+      CHECK(result.estimate == 42.0);
+    }
+    request.on_progress = nullptr;
+    request.time_limit = 1e-9;
+    ProbabilityResult result;
+    ask(request, result);
+    check(result, ProbabilityStatus::time_limit);
+  }
+}
+
+TEST_CASE("pilot samples of rare events obey the limits too", "[query]") {
+  ProbabilityRequest request = requestWithin(1e-4);
+  request.samples = 100'000'000;
+  request.time_limit = 1e-9;
+  ProbabilityResult result;
+  ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), ProbabilityMethod::rare_event)(request, result);
+  CHECK(result.status == ProbabilityStatus::time_limit);
+  CHECK(result.statistics.samples < 1000);
+  CHECK(result.confidence_interval.value().upper > 0.0);
 }
 
 TEST_CASE("a batch passes an exception of on_progress on", "[query][threads]") {

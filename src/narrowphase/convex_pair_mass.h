@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The mass of a convex pair for a caller who may not have the time.
+#pragma once
+
+#include "fcl_prob/convex_pcd.h"
+#include "gaussian/interruption.h"
+
+namespace fcl_prob::detail {
+
+/// convexPairMass() until the interruption is due; then what is certain by then.
+Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                      const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
+                      const Interruption& interruption);
+
+}  // namespace fcl_prob::detail
