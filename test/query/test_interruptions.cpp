@@ -247,7 +247,8 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
   for (const auto method : {ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min}) {
     cases.push_back({ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), method), false});
   }
-  for (const auto& [ask, two_sided] : cases) {
+  for (const Case& tried : cases) {
+    const Ask& ask = tried.ask;
     int calls = 0;
     ProbabilityRequest request = requestWithin(kFine);
     request.confidence = 0.9999;
@@ -261,7 +262,7 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
       CHECK(result.status == status);
       CHECK(result.upper.value() >= whole.lower.value_or(0.0));
       CHECK(result.upper.value() <= 1.0);
-      CHECK(result.lower.has_value() == two_sided);
+      CHECK(result.lower.has_value() == tried.two_sided);
       CHECK(result.lower.value_or(0.0) <= whole.upper.value());
     };
     for (const int last : {1, 2, calls_of_whole / 2, calls_of_whole}) {
