@@ -55,7 +55,8 @@ std::vector<Eigen::Vector3d> SupportObstacle::sideNormals() const {
   return normals;
 }
 
-SupportObstacle::SupportObstacle(const SupportBody& a, const SupportBody& b, double error)
+SupportObstacle::SupportObstacle(const SupportBody& a, const SupportBody& b,
+                                 const Eigen::Vector3d& error)
     : a_(a), b_(b), error_(error), centre_(b.centre() - a.centre()) {}
 
 }  // namespace fcl_prob::detail

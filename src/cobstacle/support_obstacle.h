@@ -38,8 +38,8 @@ class SupportBody {
 /// V = B ⊕ (−A) in the whitened frame.
 class SupportObstacle {
  public:
-  /// \param error  no computed support point or value is farther from the true one than this
-  SupportObstacle(const SupportBody& a, const SupportBody& b, double error);
+  /// \param error  no coordinate of a computed support point is farther from the true one than this
+  SupportObstacle(const SupportBody& a, const SupportBody& b, const Eigen::Vector3d& error);
 
   /// A point of V, within error(), that lies farthest in a direction (any length).
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const {
@@ -51,15 +51,21 @@ class SupportObstacle {
     return b_.supportDerivative(direction) + a_.supportDerivative(-direction);
   }
 
-  /// Certainly not below direction·y on V, for a unit direction.
+  /// Certainly not below direction·y on V.
   double supportUpper(const Eigen::Vector3d& direction) const {
-    return b_.supportValue(direction) + a_.supportValue(-direction) + error_;
+    return b_.supportValue(direction) + a_.supportValue(-direction) + errorAlong(direction);
   }
 
   /// A point of V, within error(), that is inside unless V has no inside.
   const Eigen::Vector3d& centre() const { return centre_; }
 
-  double error() const { return error_; }
+  /// Bound on the error of a support point, as a distance.
+  double error() const { return error_.norm(); }
+
+  /// The same along a direction, and that of a support value.
+  double errorAlong(const Eigen::Vector3d& direction) const {
+    return direction.cwiseAbs().dot(error_);
+  }
 
   /// Second moments of the two bodies, added: how wide V is in which direction, roughly.
   Eigen::Matrix3d spread() const { return a_.spread() + b_.spread(); }
@@ -70,7 +76,7 @@ class SupportObstacle {
  private:
   SupportBody a_;
   SupportBody b_;
-  double error_;
+  Eigen::Vector3d error_;
   Eigen::Vector3d centre_;
 };
 

@@ -32,8 +32,8 @@ NodeBox CappedTree::boxOfCapTriangles(int first, int last) const {
     for (int corner = 0; corner < 3; ++corner) {
       const Eigen::Vector3d& v = mesh_->vertices[caps().triangles[t][corner]];
       for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(box.lo[k], v[k] - mesh_->error);
-        box.hi[k] = std::max(box.hi[k], v[k] + mesh_->error);
+        box.lo[k] = std::min(box.lo[k], v[k] - mesh_->error[k]);
+        box.hi[k] = std::max(box.hi[k], v[k] + mesh_->error[k]);
       }
     }
   }
@@ -44,17 +44,18 @@ bool CappedTree::isFreeOfMesh(const double* lo, const double* hi) {
   return visitMesh(lo, hi, [](const Eigen::Vector3i&, const NodeBox&) { return false; });
 }
 
-// The vertices are known to `error` only (see ClosedMesh).
+// The vertices are known to `error` only (see ClosedMesh), which is the unit of length here: a ray
+// along an axis crosses a triangle or not however the axes are stretched.
 std::optional<bool> CappedTree::isInside(const Eigen::Vector3d& point, int axis) {
   bool odd = false;
   const auto cross = [&](const Eigen::Vector3i& triangle, const NodeBox&) {
     std::array<Eigen::Vector3d, 3> corners;
-    double reach = point.cwiseAbs().maxCoeff();
+    double reach = point.cwiseAbs().cwiseQuotient(mesh_->error).maxCoeff();
     for (int k = 0; k < 3; ++k) {
-      corners[k] = mesh_->vertices[triangle[k]] - point;
+      corners[k] = (mesh_->vertices[triangle[k]] - point).cwiseQuotient(mesh_->error);
       reach = std::max(reach, corners[k].cwiseAbs().maxCoeff());
     }
-    const auto crossing = rayCrossing(corners, axis, mesh_->error + 8 * kEpsilon * reach);
+    const auto crossing = rayCrossing(corners, axis, 1.0 + 8 * kEpsilon * reach);
     if (crossing && *crossing != 0) odd = !odd;
     return crossing.has_value();
   };

@@ -67,6 +67,11 @@ double varianceWhereAllAgree(const OpenCell& cell, int samples) {
   return cell.drawn * cell.drawn * other * (1.0 - other) / samples;
 }
 
+// The largest coordinates in a cell.
+Eigen::Vector3d farthest(const Cell& cell) {
+  return cell.lo.cwiseAbs().cwiseMax(cell.hi.cwiseAbs());
+}
+
 }  // namespace
 
 CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
@@ -118,14 +123,17 @@ CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64
     for (int i = 0; i < in_set; ++i) {
       const Draw drawn = draw(cell, evenPoint(shift, i));
       const bool counted = drawn.weight > 0.0 && !cell.covers(drawn.point);
-      points_.push_back({drawn.point, !counted});
+      points_.push_back({drawn.point, !counted, false});
       weights_.push_back(counted ? drawn.weight / in_set : 0.0);
     }
   }
   tester_.test(cell.front, points_);
   CellMeans means;
   std::size_t hits = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) hits += points_[i].collides && weights_[i] > 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    hits += points_[i].collides && weights_[i] > 0.0;
+    if (points_[i].doubtful) means.doubt += weights_[i] / kSets;
+  }
   means.agree = hits == 0 || hits == points_.size();
   for (int set = 0; set < kSets; ++set) {
     double mass = 0.0;
@@ -152,6 +160,7 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
   const double sets_per_deviation = deviation > 0.0 ? count / kSets / deviation : 0.0;
   constexpr double kVariance = 1.0 / (kSets * (kSets - 1.0));
   SampledMass total;
+  Eigen::Vector3d moment_doubt = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const double in_set = sets_per_deviation * cells[i].samplingDeviation();
     const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
@@ -160,9 +169,15 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
     const double least = means.agree ? varianceWhereAllAgree(cells[i], kSets * n) : 0.0;
     total.variance += std::max(least, kVariance * means.mass_spread);
     total.moment += means.moment;
-    total.moment_variance += kVariance * means.moment_spread;
+    const Eigen::Vector3d least_moment = least * farthest(cells[i].cell).cwiseAbs2();
+    total.moment_variance += (kVariance * means.moment_spread).cwiseMax(least_moment);
+    total.doubt += means.doubt;
+    moment_doubt += means.doubt * farthest(cells[i].cell);
     total.samples += kSets * static_cast<std::size_t>(n);
   }
+  // Not an error of chance: it does not average out over the cells.
+  total.variance += total.doubt * total.doubt;
+  total.moment_variance += moment_doubt.cwiseAbs2();
   ++calls_;
   return total;
 }

@@ -12,7 +12,8 @@ namespace fcl_prob::detail {
 
 struct SampledMass {
   double mass = 0.0;
-  double variance = 0.0;
+  double variance = 0.0;  ///< with the square of `doubt`
+  double doubt = 0.0;     ///< of `mass`: samples that may collide or not, within rounding
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_variance = Eigen::Vector3d::Zero();
   std::size_t samples = 0;
@@ -35,6 +36,7 @@ class CellSampler {
   struct CellMeans {
     double mass = 0.0;
     double mass_spread = 0.0;
+    double doubt = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     Eigen::Vector3d moment_spread = Eigen::Vector3d::Zero();
     bool agree = false;  ///< all samples collide, or none does

@@ -62,9 +62,9 @@ bool SolidContact::fits(const Direction& direction, const Cell& cell) {
   for (int k = 0; k < 3; ++k) {
     const double lo = direction.sign > 0 ? cell.lo[k] : -cell.hi[k];
     const double hi = direction.sign > 0 ? cell.hi[k] : -cell.lo[k];
-    if (direction.inner_box.lo[k] + hi < direction.outer_box.lo[k] - direction.rounding)
+    if (direction.inner_box.lo[k] + hi < direction.outer_box.lo[k] - direction.rounding[k])
       return false;
-    if (direction.inner_box.hi[k] + lo > direction.outer_box.hi[k] + direction.rounding)
+    if (direction.inner_box.hi[k] + lo > direction.outer_box.hi[k] + direction.rounding[k])
       return false;
   }
   return true;

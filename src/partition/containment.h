@@ -27,11 +27,11 @@ class SolidContact {
   struct Direction {
     const ClosedMesh* outer;
     std::vector<Eigen::Vector3d> points;  ///< of the inner object, frame of the outer one
-    Eigen::Matrix3d shift;  ///< displacement in the world to the frame of the outer one
-    NodeBox outer_box;      ///< whitened
-    NodeBox inner_box;      ///< whitened, at y = 0
-    double sign;            ///< of the whitened displacement of the inner object
-    double rounding;        ///< of the boxes, which are padded outwards
+    Eigen::Matrix3d shift;     ///< displacement in the world to the frame of the outer one
+    NodeBox outer_box;         ///< whitened
+    NodeBox inner_box;         ///< whitened, at y = 0
+    double sign;               ///< of the whitened displacement of the inner object
+    Eigen::Vector3d rounding;  ///< of the boxes, which are padded outwards
   };
 
   void addDirections(const PartitionObject& inner, const WhitenedTree& of_inner,

@@ -109,7 +109,7 @@ CrossingWitness::SweptVertex CrossingWitness::sweep(const Side& side, int vertex
   for (int k = 0; k < 3; ++k) {
     const double lo = side.sign > 0 ? cell.lo[k] : -cell.hi[k];
     const double hi = side.sign > 0 ? cell.hi[k] : -cell.lo[k];
-    const double pad = side.inner.mesh().error + 4 * kEpsilon * (std::fabs(p[k]) + kReach);
+    const double pad = side.inner.mesh().error[k] + 4 * kEpsilon * (std::fabs(p[k]) + kReach);
     swept.lo[k] = p[k] + lo - pad;
     swept.hi[k] = p[k] + hi + pad;
   }
@@ -277,14 +277,14 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
     }
     double of_box = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const double from = std::max(lo[k] - outer.error, swept.lo[k]) - p[k];
-      const double to = std::min(hi[k] + outer.error, swept.hi[k]) - p[k];
+      const double from = std::max(lo[k] - outer.error[k], swept.lo[k]) - p[k];
+      const double to = std::min(hi[k] + outer.error[k], swept.hi[k]) - p[k];
       of_box += std::max(side.sign * m[k] * from, side.sign * m[k] * to);
     }
     highest = std::max(highest, std::min(of_vertices, of_box));
   }
-  return highest + 4 * (side.inner.mesh().error + outer.error) +
-         64 * kEpsilon * (kReach + p.cwiseAbs().sum());
+  return highest + 4 * (side.inner.mesh().errorAlong(m) + outer.errorAlong(m)) +
+         64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
 }
 
 // What is beyond the plane is convex and free of the outer mesh, so that one point of it tells.

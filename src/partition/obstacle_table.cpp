@@ -38,11 +38,9 @@ SupportBody bodyAt(const WhitenedTree& tree, int node) {
   return {tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]};
 }
 
-double largestCoordinate(const NodeBox& box) {
-  double largest = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
-  }
+Eigen::Vector3d largestCoordinates(const NodeBox& box) {
+  Eigen::Vector3d largest;
+  for (int k = 0; k < 3; ++k) largest[k] = std::max(std::fabs(box.lo[k]), std::fabs(box.hi[k]));
   return largest;
 }
 
@@ -107,7 +105,8 @@ SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   double vertices_b[9];
   corners(pair_.a, leaves.a, vertices_a);
   corners(pair_.b, leaves.b, vertices_b);
-  slabKernels().triangleSlabs(vertices_a, vertices_b, pair_.a.error + pair_.b.error, data);
+  const Eigen::Vector3d error = pair_.a.error + pair_.b.error;
+  slabKernels().triangleSlabs(vertices_a, vertices_b, error.data(), data);
   return {data, kTriangleSlabs};
 }
 
@@ -139,10 +138,10 @@ bool ObstacleTable::hasFewSlabs(NodePair leaves) const {
 }
 
 SupportObstacle ObstacleTable::support(NodePair leaves) const {
-  const double reach = 3 * (largestCoordinate(pair_.a.boxes[leaves.a]) +
-                            largestCoordinate(pair_.b.boxes[leaves.b])) +
-                       1.8 * kReach;
-  const double error = 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
+  const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
+                                largestCoordinates(pair_.b.boxes[leaves.b]) +
+                                Eigen::Vector3d::Constant(kReach);
+  const Eigen::Vector3d error = 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
   return {bodyAt(pair_.a, leaves.a), bodyAt(pair_.b, leaves.b), error};
 }
 

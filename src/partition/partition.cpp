@@ -131,6 +131,10 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
   SampledMass sampled = sampler.sample(engine.openCells(), engine.samplesToDraw(status));
   for (int round = 1; round < kMostRounds && status == ProbabilityStatus::converged; ++round) {
     const double target = engine.targetError(engine.estimate(sampled));
+    if (sampled.doubt > target) {
+      status = ProbabilityStatus::resolution_limit;
+      break;
+    }
     const double ratio = std::sqrt(sampled.variance) / target;
     if (!(ratio > 1.0)) break;
     engine.expectDeviation(kReserve * ratio);

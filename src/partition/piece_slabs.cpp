@@ -10,11 +10,6 @@ namespace fcl_prob::detail {
 
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kUnbounded = 1e300;
-// As for triangles: edges closer to parallel than this are treated as parallel.
-constexpr double kParallelSine = 3e-8;
-
 struct WhitenedPiece {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> faces;
@@ -53,66 +48,78 @@ Extent extentAlong(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Ve
   return extent;
 }
 
-double largestCoordinate(const std::vector<Eigen::Vector3d>& vertices) {
-  double largest = 0.0;
-  for (const Eigen::Vector3d& v : vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+Eigen::Vector3d largestCoordinates(const std::vector<Eigen::Vector3d>& vertices) {
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& v : vertices) largest = largest.cwiseMax(v.cwiseAbs());
   return largest;
 }
 
-// Collects normals p × q; the parallel ones are only counted, by the angle they might be off.
-class NormalCollector {
+// The factors of the normals p × q of all slabs, in the layout that the kernel reads.
+class Factors {
  public:
+  explicit Factors(std::size_t used)
+      : count_(std::max<std::size_t>(4, (used + 3) / 4 * 4)), p_(3 * count_), q_(3 * count_) {}
+
   void add(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-    const Eigen::Vector3d n = p.cross(q);
-    const double sine = n.norm() / std::max(p.norm() * q.norm(), 1e-300);
-    if (sine >= kParallelSine) {
-      normals.push_back(n.normalized());
-      sines.push_back(sine);
-    } else {
-      dropped_angle += sine == sine ? sine + 4 * kEpsilon : kParallelSine;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p_[k * count_ + used_] = p[static_cast<int>(k)];
+      q_[k * count_ + used_] = q[static_cast<int>(k)];
     }
+    ++used_;
   }
 
-  std::vector<Eigen::Vector3d> normals;
-  std::vector<double> sines;
-  double dropped_angle = 0.0;
+  PieceSlabs planes(const SlabExtent& extent) const {
+    PieceSlabs slabs;
+    slabs.count = static_cast<int>(count_);
+    slabs.data.assign(count_ * kSlabFields, 0.0);
+    slabKernels().planes(p_.data(), q_.data(), slabs.count, extent, slabs.data.data());
+    return slabs;
+  }
+
+ private:
+  std::size_t count_;
+  std::size_t used_ = 0;
+  std::vector<double> p_;
+  std::vector<double> q_;
 };
+
+SlabExtent extentOf(const WhitenedPiece& a, const WhitenedPiece& b, const Eigen::Vector3d& error) {
+  Eigen::Vector3d width = Eigen::Vector3d::Zero();
+  for (const WhitenedPiece* piece : {&a, &b}) {
+    for (const Eigen::Vector3d& edge : piece->edges) width = width.cwiseMax(edge.cwiseAbs());
+  }
+  const Eigen::Vector3d size = largestCoordinates(a.vertices) + largestCoordinates(b.vertices);
+  SlabExtent extent;
+  for (int k = 0; k < 3; ++k) {
+    extent.width[k] = width[k];
+    extent.reach[k] = 3 * size[k] + kReach;
+    extent.error[k] = error[k];
+    extent.edge_error[k] = error[k];  // edges of shapes are whitened by themselves
+  }
+  return extent;
+}
 
 }  // namespace
 
 PieceSlabs pieceSlabs(const WhitenedTree& a, int piece_a, const WhitenedTree& b, int piece_b) {
   const WhitenedPiece first = whitenedPiece(a, piece_a);
   const WhitenedPiece second = whitenedPiece(b, piece_b);
-  NormalCollector collector;
-  for (const auto& [p, q] : first.faces) collector.add(p, q);
-  for (const auto& [p, q] : second.faces) collector.add(p, q);
+  Factors factors(first.faces.size() + second.faces.size() +
+                  first.edges.size() * second.edges.size());
+  for (const auto& [p, q] : first.faces) factors.add(p, q);
+  for (const auto& [p, q] : second.faces) factors.add(p, q);
   for (const Eigen::Vector3d& p : first.edges) {
-    for (const Eigen::Vector3d& q : second.edges) collector.add(p, q);
+    for (const Eigen::Vector3d& q : second.edges) factors.add(p, q);
   }
-  const double reach =
-      6 * (largestCoordinate(first.vertices) + largestCoordinate(second.vertices)) + 1.8 * kReach;
-  const double pad = 4 * (a.error + b.error) + 32 * kEpsilon * reach;
-
-  PieceSlabs slabs;
-  const int used = static_cast<int>(collector.normals.size());
-  slabs.count = std::max(4, (used + 3) / 4 * 4);
-  slabs.data.assign(static_cast<std::size_t>(slabs.count) * kSlabFields, 0.0);
+  PieceSlabs slabs = factors.planes(extentOf(first, second, a.error + b.error));
   double* out = slabs.data.data();
   for (int i = 0; i < slabs.count; ++i) {
-    out[3 * slabs.count + i] = -kUnbounded;
-    out[4 * slabs.count + i] = kUnbounded;
-    if (i >= used) continue;
-    const Eigen::Vector3d& n = collector.normals[i];
-    for (int k = 0; k < 3; ++k) out[k * slabs.count + i] = n[k];
+    const Eigen::Vector3d n(out[i], out[slabs.count + i], out[2 * slabs.count + i]);
     const Extent of_a = extentAlong(first.vertices, n);
     const Extent of_b = extentAlong(second.vertices, n);
-    out[3 * slabs.count + i] = of_b.lo - of_a.hi - pad;
-    out[4 * slabs.count + i] = of_b.hi - of_a.lo + pad;
-    out[5 * slabs.count + i] =
-        2 * pad + 2 * reach * (8 * kEpsilon + 4 * collector.dropped_angle) / collector.sines[i];
+    out[3 * slabs.count + i] += of_b.lo - of_a.hi;
+    out[4 * slabs.count + i] += of_b.hi - of_a.lo;
   }
-  // All edges parallel: V has no inside, which a margin without end says.
-  if (used == 0) out[5 * slabs.count] = 4 * kUnbounded;
   return slabs;
 }
 

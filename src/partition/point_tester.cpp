@@ -35,8 +35,15 @@ void PointTester::test(const std::vector<FrontPair>& front, std::vector<TestedPo
       if ((pair.obstacle >= 0) == leaves) testPair(pair, points);
     }
   }
-  if (!solids_) return;
-  for (int i : undecided_) points[i].collides = solids_->at(points[i].y) == Containment::inside;
+  for (int i : undecided_) {
+    TestedPoint& point = points[i];
+    if (solids_) {
+      const Containment containment = solids_->at(point.y);
+      point.collides = containment == Containment::inside;
+      point.doubtful = !point.collides && (point.doubtful || containment == Containment::unknown);
+    }
+    point.collides = point.collides || point.doubtful;
+  }
 }
 
 void PointTester::testPair(const FrontPair& first, std::vector<TestedPoint>& points) {
@@ -79,8 +86,15 @@ void PointTester::testLeaves(const FrontPair& pair, int count, std::vector<Teste
   for (int j = 0; j < count; ++j) {
     TestedPoint& point = points[undecided_[j]];
     const CellBox box{{point.y[0], point.y[1], point.y[2]}, {0.0, 0.0, 0.0}};
-    if (slabKernels().classify(slabs, box).relation == CellRelation::outside) continue;
-    point.collides = !slabs.outer_only || contains(obstacles_.support(pair.nodes), point.y);
+    const CellRelation relation = slabKernels().classify(slabs, box).relation;
+    if (relation == CellRelation::outside) continue;
+    if (slabs.outer_only) {
+      point.collides = contains(obstacles_.support(pair.nodes), point.y);
+    } else {
+      point.collides = relation == CellRelation::inside;
+      point.doubtful = true;
+    }
+    if (point.collides) point.doubtful = false;
   }
 }
 

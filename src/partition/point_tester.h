@@ -14,6 +14,7 @@ namespace fcl_prob::detail {
 struct TestedPoint {
   Eigen::Vector3d y;
   bool collides = false;
+  bool doubtful = false;  ///< rounding leaves open whether it collides
 };
 
 class PointTester {
@@ -21,7 +22,8 @@ class PointTester {
   /// Keeps references to its arguments. \param solids  null: surfaces only
   PointTester(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids);
 
-  /// Sets `collides` of every point; one that has it set already is left alone. All of them must be
+  /// Sets `collides` of every point; one that has it set already is left alone. A point that may
+  /// touch but, within rounding, may as well not, collides and is doubtful. All of them must be
   /// within the cell that the front is of.
   void test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points);
 

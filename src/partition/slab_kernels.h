@@ -29,6 +29,15 @@ inline constexpr int kSlabFields = 6;
 /// Slabs of a pair of triangles: two face normals, nine edge cross products, one unused lane.
 inline constexpr int kTriangleSlabs = 12;
 
+/// What the rounding of a C-obstacle's planes depends on, axis by axis: whitening may stretch one
+/// axis by far more than another.
+struct SlabExtent {
+  double width[3];  ///< of the longest edge
+  double reach[3];  ///< bound on the coordinates of a cell and of the pieces added up, and of V
+  double error[3];  ///< bound on the error of a vertex of one piece plus one of the other
+  double edge_error[3];  ///< of the edges, against differences of the vertices as they are
+};
+
 /// An axis-aligned cell by its centre and half extents.
 struct CellBox {
   double center[3];
@@ -72,10 +81,18 @@ struct SlabKernels {
   /// The largest slice of the cell that is certainly within V.
   CellSlice (*coveredSlice)(const SlabArrays& slabs, const CellBox& cell);
 
+  /// The normals p × q of `count` slabs (a multiple of 4) and their margins into `out`, laid out as
+  /// SlabArrays; as lo and hi only the padding, to which the extent of V along n is to be added.
+  /// Where p and q are too nearly parallel to give a normal the slab is left out, and the margins
+  /// of the others pay for it.
+  /// \param p, q  edges of the two pieces, or two of one face: x, y, z of `count` each
+  void (*planes)(const double* p, const double* q, int count, const SlabExtent& extent,
+                 double* out);
+
   /// Slabs of the C-obstacle of two triangles (kSlabFields * kTriangleSlabs doubles into `out`).
   /// \param a, b   vertices, 3 × (x, y, z), in the whitened frame
-  /// \param error  bound on the error of every vertex coordinate
-  void (*triangleSlabs)(const double* a, const double* b, double error, double* out);
+  /// \param error  bound on the error of a vertex of a plus one of b, for each axis
+  void (*triangleSlabs)(const double* a, const double* b, const double* error, double* out);
 };
 
 /// The fastest kernels that this processor runs. All give the same bits.

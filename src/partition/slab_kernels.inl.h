@@ -8,12 +8,11 @@
 #include <limits>
 
 #include "partition/slab_kernels.h"
+#include "partition/slab_planes.inl.h"
 
 namespace fcl_prob::detail {
 
-inline constexpr double kUnbounded = 1e300;
 inline constexpr double kSmallest = 1e-300;
-inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 template <typename V4>
 struct SlabKernelsOver {
@@ -180,123 +179,13 @@ struct SlabKernelsOver {
     return best;
   }
 
-  struct TrianglePair {
-    double edges_a[3][3];
-    double edges_b[3][3];
-    double base[3];  // b0 - a0
-    double reach;    // bound on |y - v| for y in a cell and v in V, and on the coordinates involved
-  };
-
-  static TrianglePair trianglePair(const double* a, const double* b) {
-    TrianglePair pair;
-    double size = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      pair.edges_a[0][k] = a[3 + k] - a[k];
-      pair.edges_a[1][k] = a[6 + k] - a[k];
-      pair.edges_a[2][k] = a[6 + k] - a[3 + k];
-      pair.edges_b[0][k] = b[3 + k] - b[k];
-      pair.edges_b[1][k] = b[6 + k] - b[k];
-      pair.edges_b[2][k] = b[6 + k] - b[3 + k];
-      pair.base[k] = b[k] - a[k];
-      size += std::fabs(a[k]) + std::fabs(b[k]) + std::fabs(pair.edges_a[0][k]) +
-              std::fabs(pair.edges_a[1][k]) + std::fabs(pair.edges_b[0][k]) +
-              std::fabs(pair.edges_b[1][k]);
-    }
-    pair.reach = size + 1.8 * kReach;
-    return pair;
-  }
-
-  // The factors p, q of every normal p × q, lane by lane.
-  static void gatherFactors(const TrianglePair& pair, double p[3][kTriangleSlabs],
-                            double q[3][kTriangleSlabs]) {
-    for (int k = 0; k < 3; ++k) {
-      p[k][0] = pair.edges_a[0][k];
-      q[k][0] = pair.edges_a[1][k];
-      p[k][1] = pair.edges_b[0][k];
-      q[k][1] = pair.edges_b[1][k];
-      for (int i = 0; i < 9; ++i) {
-        p[k][2 + i] = pair.edges_a[i / 3][k];
-        q[k][2 + i] = pair.edges_b[i % 3][k];
-      }
-      p[k][11] = 0.0;
-      q[k][11] = 0.0;
-    }
-  }
-
-  // Two edges closer to parallel than this give no trustworthy normal: the slab is left out, as if
-  // they were parallel, and the other slabs' inner margins pay for it.
-  static constexpr double kParallelSine = 3e-8;
-
-  static void triangleSlabs(const double* a, const double* b, double error, double* out) {
-    const TrianglePair pair = trianglePair(a, b);
-    double p[3][kTriangleSlabs];
-    double q[3][kTriangleSlabs];
-    gatherFactors(pair, p, q);
-    double sine[kTriangleSlabs];
-    double dropped_angle = 0.0;
-    for (int i = 0; i < kTriangleSlabs; i += 4) {
-      const V4 px = V4::load(p[0] + i), py = V4::load(p[1] + i), pz = V4::load(p[2] + i);
-      const V4 qx = V4::load(q[0] + i), qy = V4::load(q[1] + i), qz = V4::load(q[2] + i);
-      const V4 nx = py * qz - pz * qy;
-      const V4 ny = pz * qx - px * qz;
-      const V4 nz = px * qy - py * qx;
-      const V4 length = sqrt(nx * nx + ny * ny + nz * nz);
-      const V4 factors = sqrt(px * px + py * py + pz * pz) * sqrt(qx * qx + qy * qy + qz * qz);
-      const V4 s = length / max(factors, V4(1e-300));
-      const V4 inverse = V4(1.0) / max(length, V4(1e-300));
-      s.store(sine + i);
-      (nx * inverse).store(out + i);
-      (ny * inverse).store(out + kTriangleSlabs + i);
-      (nz * inverse).store(out + 2 * kTriangleSlabs + i);
-    }
-    for (int i = 0; i < kTriangleSlabs; ++i) {
-      // The comparison also catches NaN and the edges so short that their product underflows.
-      if (!(sine[i] >= kParallelSine)) {
-        dropped_angle += (sine[i] == sine[i]) ? sine[i] + 4 * kEpsilon : kParallelSine;
-        out[i] = out[kTriangleSlabs + i] = out[2 * kTriangleSlabs + i] = 0.0;
-        sine[i] = 0.0;
-      }
-    }
-    fillOffsets(pair, sine, dropped_angle, error, out);
-  }
-
-  static void fillOffsets(const TrianglePair& pair, const double* sine, double dropped_angle,
-                          double error, double* out) {
-    const double pad = 4 * error + 32 * kEpsilon * pair.reach;
-    const SlabArrays slabs{out, kTriangleSlabs};
-    for (int i = 0; i < kTriangleSlabs; i += 4) {
-      const Directions n = directions(slabs, i);
-      const V4 base = dot(n, pair.base[0], pair.base[1], pair.base[2]);
-      const V4 zero(0.0);
-      const V4 a1 = dot(n, pair.edges_a[0][0], pair.edges_a[0][1], pair.edges_a[0][2]);
-      const V4 a2 = dot(n, pair.edges_a[1][0], pair.edges_a[1][1], pair.edges_a[1][2]);
-      const V4 b1 = dot(n, pair.edges_b[0][0], pair.edges_b[0][1], pair.edges_b[0][2]);
-      const V4 b2 = dot(n, pair.edges_b[1][0], pair.edges_b[1][1], pair.edges_b[1][2]);
-      const V4 hi = base + max(zero, max(b1, b2)) - min(zero, min(a1, a2)) + V4(pad);
-      const V4 lo = base + min(zero, min(b1, b2)) - max(zero, max(a1, a2)) - V4(pad);
-      lo.store(out + 3 * kTriangleSlabs + i);
-      hi.store(out + 4 * kTriangleSlabs + i);
-    }
-    bool bounded = false;
-    for (int i = 0; i < kTriangleSlabs; ++i) {
-      double& lo = out[3 * kTriangleSlabs + i];
-      double& hi = out[4 * kTriangleSlabs + i];
-      double& margin = out[5 * kTriangleSlabs + i];
-      if (sine[i] == 0.0) {
-        lo = -kUnbounded;
-        hi = kUnbounded;
-        margin = 0.0;
-      } else {
-        margin = 2 * pad + 2 * pair.reach * (8 * kEpsilon + 4 * dropped_angle) / sine[i];
-        bounded = true;
-      }
-    }
-    // All edges parallel: V has no inside, which a margin without end says.
-    if (!bounded) out[5 * kTriangleSlabs] = 4 * kUnbounded;
-  }
-
   static SlabKernels table() {
-    return {&classify, &minimumAlong, &contract, &coveredSlice, &triangleSlabs};
+    return {&classify,
+            &minimumAlong,
+            &contract,
+            &coveredSlice,
+            &SlabPlanesOver<V4>::planes,
+            &SlabPlanesOver<V4>::triangleSlabs};
   }
 };
 

@@ -21,8 +21,6 @@ LongVector worldOrigin(const PieceTree::Part& part, const fcl::Transform3d& pose
          pose.translation().cast<long double>();
 }
 
-double largestRowSum(const Eigen::Matrix3d& m) { return m.cwiseAbs().rowwise().sum().maxCoeff(); }
-
 // Boxes of the leaves from their vertices, then of the inner nodes from their children, which stand
 // behind them.
 void fitBoxes(WhitenedTree& whitened) {
@@ -55,8 +53,8 @@ void fitBoxes(WhitenedTree& whitened) {
       hi = whitened.positions[body] + shape.hi;
     }
     for (int k = 0; k < 3; ++k) {
-      box.lo[k] = lo[k] - whitened.error;
-      box.hi[k] = hi[k] + whitened.error;
+      box.lo[k] = lo[k] - whitened.error[k];
+      box.hi[k] = hi[k] + whitened.error[k];
     }
   }
 }
@@ -76,15 +74,14 @@ WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear
 /// The middle of a part relative to the origin of a whitened frame.
 struct PartOffset {
   Eigen::Vector3d whitened;
-  double reach;  ///< bound on the terms that the coordinates are sums of: they may cancel
+  Eigen::Vector3d reach;  ///< bound on the terms that the coordinates are sums of: they may cancel
 };
 
 PartOffset partOffset(const PieceTree::Part& part, const fcl::Transform3d& pose,
                       const Whitening& whitening, const LongVector& reference) {
   const LongVector offset = worldOrigin(part, pose) - reference;
   const LongMatrix matrix = whitening.matrix().cast<long double>();
-  return {(matrix * offset).cast<double>(),
-          static_cast<double>((matrix.cwiseAbs() * offset.cwiseAbs()).maxCoeff())};
+  return {(matrix * offset).cast<double>(), (matrix.cwiseAbs() * offset.cwiseAbs()).cast<double>()};
 }
 
 void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& linear,
@@ -106,16 +103,17 @@ WhitenedTree whitenOne(const PartitionObject& object, const Whitening& whitening
   WhitenedTree result;
   result.tree = object.tree;
   result.vertices.reserve(object.tree->vertices.size());
-  double farthest = 0.0;
+  Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     const Eigen::Matrix3d linear = whitening.matrix() * object.parts[i].pose.linear();
     const PieceTree::Part& part = object.tree->parts[i];
     const PartOffset offset = partOffset(part, object.parts[i].pose, whitening, reference);
     whitenPart(part, linear, offset.whitened, result);
-    farthest = std::max(farthest, offset.reach);
+    farthest = farthest.cwiseMax(offset.reach);
   }
-  const double size = largestRowSum(whitening.matrix()) * 1.8 * object.tree->radius();
-  result.error = 16 * kEpsilon * (2 * size + farthest) + std::numeric_limits<double>::min();
+  const Eigen::Vector3d size =
+      1.8 * object.tree->radius() * whitening.matrix().cwiseAbs().rowwise().sum();
+  result.error = 16 * kEpsilon * (2 * size + farthest).array() + std::numeric_limits<double>::min();
   fitBoxes(result);
   return result;
 }

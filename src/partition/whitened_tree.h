@@ -51,7 +51,12 @@ struct WhitenedTree {
   std::vector<Eigen::Vector3d> positions;  ///< of tree->bodies
   std::vector<WhitenedShape> shapes;
   std::vector<NodeBox> boxes;  ///< of tree->nodes, padded by `error`
-  double error = 0.0;  ///< bound on the error of every coordinate of a vertex or point of a piece
+
+  /// Bound on the error of a vertex or point of a piece, for each axis.
+  Eigen::Vector3d error = Eigen::Vector3d::Zero();
+
+  /// Bound on the error of m·v for such a point v; the rounding of the sum is within it, too.
+  double errorAlong(const Eigen::Vector3d& m) const { return m.cwiseAbs().dot(error); }
 };
 
 struct WhitenedPair {

@@ -93,7 +93,8 @@ TEST_CASE("what a section claims holds at random points of the cell, for every p
           supportShape(*a.geometry).transformed(whitening * random.rotation());
       const SupportShape of_b =
           supportShape(*b.geometry).transformed(whitening * random.rotation());
-      const SupportObstacle obstacle({of_a, random.direction()}, {of_b, random.direction()}, 1e-13);
+      const SupportObstacle obstacle({of_a, random.direction()}, {of_b, random.direction()},
+                                     Eigen::Vector3d::Constant(1e-13));
       for (int i = 0; i < 12; ++i) {
         const double width = random.logUniform(1e-3, 0.5);
         const Eigen::Vector3d half(width * (1.2 + random.uniform(-1.0, 1.0)), width, width);
@@ -119,7 +120,8 @@ TEST_CASE("on a smooth boundary the planes close up with the square of the cell'
       supportShape(*shapes[3].geometry).transformed(whitening * random.rotation());
   for (const SupportShape* second : {&sphere, &ellipsoid, &capsule}) {
     const SupportObstacle obstacle({sphere, Eigen::Vector3d::Zero()},
-                                   {*second, Eigen::Vector3d(3, 2, 1)}, 1e-13);
+                                   {*second, Eigen::Vector3d(3, 2, 1)},
+                                   Eigen::Vector3d::Constant(1e-13));
     double gap_before = std::numeric_limits<double>::infinity();
     for (const double width : {0.1, 0.02, 0.004}) {
       Counts counts;
@@ -142,7 +144,8 @@ TEST_CASE("cells of lower rank have sections too") {
   const auto shapes = boundedShapes();
   const SupportShape sphere = supportShape(*shapes[1].geometry);
   const SupportObstacle ball({sphere, Eigen::Vector3d::Zero()},
-                             {sphere, Eigen::Vector3d(0, 0, 0.6)}, 1e-15);
+                             {sphere, Eigen::Vector3d(0, 0, 0.6)},
+                             Eigen::Vector3d::Constant(1e-15));
   // The unit ball around (0, 0, 0.6) meets the plane z = 0 in the circle of radius 0.8.
   const CellSection cut = sectionOf(ball, {0.75, -0.05, 0}, {0.85, 0.05, 0}, 2);
   REQUIRE(cut.relation == CellSection::Relation::cut);
@@ -169,7 +172,7 @@ TEST_CASE("a portal is found in nearly every direction, also below an apex or a 
         const SupportShape of_b =
             supportShape(*b.geometry).transformed(whitening * random.rotation());
         const SupportObstacle obstacle({of_a, random.direction()}, {of_b, random.direction()},
-                                       1e-13);
+                                       Eigen::Vector3d::Constant(1e-13));
         for (int j = 0; j < 10; ++j) {
           missed += !Portal(obstacle, obstacle.centre(), random.direction()).found();
           ++rays;

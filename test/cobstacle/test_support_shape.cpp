@@ -144,7 +144,7 @@ TEST_CASE("the C-obstacle of two bodies contains differences of their points onl
     for (const NamedGeometry& b : shapes) {
       const SupportShape shape_a = supportShape(*a.geometry), shape_b = supportShape(*b.geometry);
       const Eigen::Vector3d at_a = random.direction(), at_b = random.direction();
-      const SupportObstacle obstacle({shape_a, at_a}, {shape_b, at_b}, 0.0);
+      const SupportObstacle obstacle({shape_a, at_a}, {shape_b, at_b}, Eigen::Vector3d::Zero());
       for (int i = 0; i < 5; ++i) {
         const Eigen::Vector3d direction = random.direction();
         const Eigen::Vector3d expected =

@@ -19,6 +19,8 @@ using fcl_prob::detail::kTriangleSlabs;
 using fcl_prob::detail::SlabArrays;
 using fcl_prob::detail::slabKernels;
 
+constexpr double kNoError[3] = {0.0, 0.0, 0.0};
+
 struct TrianglePair {
   std::array<double, 9> a, b;
   std::array<double, kSlabFields * kTriangleSlabs> data;
@@ -32,7 +34,7 @@ TrianglePair randomPair(fcl_prob_test::RandomBodies& random, double size) {
     pair.a[i] = size * random.normal();
     pair.b[i] = size * random.normal() + at[static_cast<int>(i % 3)];
   }
-  slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), 0.0, pair.data.data());
+  slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), kNoError, pair.data.data());
   return pair;
 }
 
@@ -129,7 +131,7 @@ TEST_CASE("the kernels for this processor give the bits of those for every proce
   for (int i = 0; i < 5000; ++i) {
     const TrianglePair pair = randomPair(random, random.logUniform(1e-3, 10.0));
     TrianglePair same = pair;
-    portable.triangleSlabs(same.a.data(), same.b.data(), 0.0, same.data.data());
+    portable.triangleSlabs(same.a.data(), same.b.data(), kNoError, same.data.data());
     REQUIRE(same.data == pair.data);
     const CellBox cell = cellAround(pointOf(pair, random) + 0.5 * random.normalVector(),
                                     random.logUniform(0.02, 2.0));
@@ -158,6 +160,38 @@ TEST_CASE("the kernels for this processor give the bits of those for every proce
   }
 }
 
+// Whitening stretches the axes along which little moves. Doubling is exact, so that the same points
+// must be found within and outside, but for those that rounding leaves open.
+TEST_CASE("stretched axes do not change what is known of a pair", "[slabs]") {
+  fcl_prob_test::RandomBodies random(10);
+  int inside = 0, outside = 0, open = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const TrianglePair pair = randomPair(random, random.logUniform(0.1, 10.0));
+    TrianglePair stretched = pair;
+    Eigen::Vector3d stretch;
+    for (int k = 0; k < 3; ++k) stretch[k] = std::ldexp(1.0, random.integer(0, 1) * 40);
+    for (std::size_t k = 0; k < 9; ++k) {
+      stretched.a[k] *= stretch[static_cast<int>(k % 3)];
+      stretched.b[k] *= stretch[static_cast<int>(k % 3)];
+    }
+    slabKernels().triangleSlabs(stretched.a.data(), stretched.b.data(), kNoError,
+                                stretched.data.data());
+    for (int j = 0; j < 10; ++j) {
+      const Eigen::Vector3d y = 3.0 * random.normalVector();
+      const Eigen::Vector3d unstretched = y.cwiseQuotient(stretch);
+      const bool is_open = !within(stretched, y) && !excluded(stretched, y);
+      open += is_open;
+      if (is_open) continue;
+      CHECK(within(stretched, y) == within(pair, unstretched));
+      CHECK(excluded(stretched, y) == excluded(pair, unstretched));
+      ++(within(pair, unstretched) ? inside : outside);
+    }
+  }
+  CHECK(inside > 1500);
+  CHECK(outside > 1500);
+  CHECK(open < 20);
+}
+
 TEST_CASE("pairs without volume contain nothing and exclude nothing of themselves", "[slabs]") {
   fcl_prob_test::RandomBodies random(8);
   for (int i = 0; i < 500; ++i) {
@@ -173,7 +207,7 @@ TEST_CASE("pairs without volume contain nothing and exclude nothing of themselve
         pair.b[6 + k] = pair.b[3 + k] = pair.b[k];
       }
     }
-    slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), 0.0, pair.data.data());
+    slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), kNoError, pair.data.data());
     for (int j = 0; j < 10; ++j) {
       const Eigen::Vector3d y = pointOf(pair, random);
       CHECK_FALSE(excluded(pair, y));
