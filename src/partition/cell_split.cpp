@@ -30,17 +30,18 @@ double splitPoint(double lo, double hi) {
 
 }  // namespace
 
-CellSplit chooseSplit(const OpenCell& open) {
+CellSplit chooseSplit(const OpenCell& open, const Eigen::Vector3d& scales) {
   const Cell& cell = open.cell;
   int axis = -1;
-  double largest = kNarrowest;
+  double largest = 0.0;
   for (int i = 0; i < cell.rank; ++i) {
     // In the tail the density falls by e over 1 / |y|.
     const double nearest = std::max({cell.lo[i], -cell.hi[i], 1.0});
     const double across = open.has_plane ? std::fabs(open.covered.m[i]) : 0.0;
     const double weight = (i == 0 ? kDepthWeight : 1.0) * (1.0 + kPlaneWeight * across);
-    const double score = (cell.hi[i] - cell.lo[i]) * nearest * weight;
-    if (score > largest) {
+    const double width = cell.hi[i] - cell.lo[i];
+    const double score = width / scales[i] * nearest * weight;
+    if (score > largest && width > kNarrowest) {
       largest = score;
       axis = i;
     }

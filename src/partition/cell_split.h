@@ -13,6 +13,7 @@ struct CellSplit {
 };
 
 /// Across the axis along which the density, and what is known of the cell, change most.
-CellSplit chooseSplit(const OpenCell& open);
+/// \param scales  for each axis, the length over which anything changes
+CellSplit chooseSplit(const OpenCell& open, const Eigen::Vector3d& scales);
 
 }  // namespace fcl_prob::detail

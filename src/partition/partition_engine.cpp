@@ -34,6 +34,14 @@ constexpr double kShareForDividing = 0.8;
 // Cells between two looks at the clock and at the caller's wishes.
 constexpr std::size_t kPollEvery = 16;
 
+// The density changes over one standard deviation, a smaller C-obstacle over its own width.
+Eigen::Vector3d scalesOf(const WhitenedPair& pair) {
+  const NodeBox box = obstacleBox(pair, {0, 0});
+  Eigen::Vector3d scales;
+  for (int k = 0; k < 3; ++k) scales[k] = std::clamp(box.hi[k] - box.lo[k], 1e-100, 1.0);
+  return scales;
+}
+
 }  // namespace
 
 PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
@@ -44,6 +52,7 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
       obstacles_(pair),
       examiner_(pair, obstacles_, solids, request.gradient, statistics),
       ball_(ball),
+      scales_(scalesOf(pair)),
       started_(std::chrono::steady_clock::now()) {
   Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
   const double reach = ball ? std::min(kReach, 1.001 * ball->radius()) : kReach;
@@ -92,7 +101,7 @@ void PartitionEngine::divideLargest() {
 // Children whose gap is not much smaller would soon be taken from the queue: dividing them at once,
 // as long as the data of their front are at hand, saves most of the memory traffic.
 void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
-  const CellSplit split = chooseSplit(parent);
+  const CellSplit split = chooseSplit(parent, scales_);
   if (split.axis < 0) {
     // Its gap stays for good.
     settled_.mass.lower += parent.lower;

@@ -76,6 +76,7 @@ class PartitionEngine {
   ObstacleTable obstacles_;
   CellExaminer examiner_;
   const BallTruncation* ball_;
+  Eigen::Vector3d scales_;
   std::vector<OpenCell> queue_;  ///< a heap by gap
   SettledMass settled_;
   Bounds open_;                  ///< sums over queue_

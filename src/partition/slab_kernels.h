@@ -35,7 +35,6 @@ struct SlabExtent {
   double width[3];  ///< of the longest edge
   double reach[3];  ///< bound on the coordinates of a cell and of the pieces added up, and of V
   double error[3];  ///< bound on the error of a vertex of one piece plus one of the other
-  double edge_error[3];  ///< of the edges, against differences of the vertices as they are
 };
 
 /// An axis-aligned cell by its centre and half extents.
@@ -85,7 +84,8 @@ struct SlabKernels {
   /// SlabArrays; as lo and hi only the padding, to which the extent of V along n is to be added.
   /// Where p and q are too nearly parallel to give a normal the slab is left out, and the margins
   /// of the others pay for it.
-  /// \param p, q  edges of the two pieces, or two of one face: x, y, z of `count` each
+  /// \param p, q  edges of the two pieces, or two of one face: x, y, z of `count` each; taken to be
+  ///              rounded as differences of vertices are
   void (*planes)(const double* p, const double* q, int count, const SlabExtent& extent,
                  double* out);
 

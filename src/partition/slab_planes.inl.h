@@ -50,7 +50,7 @@ struct SlabPlanesOver {
   static void planes(const double* p, const double* q, int count, const SlabExtent& extent,
                      double* out) {
     const Scales scales = scalesOf(extent);
-    double moved[3] = {extent.edge_error[0], extent.edge_error[1], extent.edge_error[2]};
+    double moved[3] = {0.0, 0.0, 0.0};
     bool bounded = false;
     for (int i = 0; i < count; i += 4) {
       double length[4];
@@ -195,10 +195,80 @@ struct SlabPlanesOver {
         extent.reach[k] += longer;
       }
       extent.error[k] = error[k];
-      extent.edge_error[k] = 0.0;  // the obstacle is that of the vertices as they are
     }
     planes(p, q, kTriangleSlabs, extent, out);
+    closeFlat(p, q, scalesOf(extent), out);
     addExtents(base, edges_a, edges_b, out);
+  }
+
+  // A triangle without area, slab 0 or 1, may make an obstacle that is flat or a segment, which the
+  // normals that are left do not bound sideways: slabs left out are put across it. Any slab holds
+  // V.
+  static void closeFlat(const double* p, const double* q, const Scales& scales, double* out) {
+    constexpr int kCount = kTriangleSlabs;
+    const bool flat = out[4 * kCount] >= kUnbounded || out[4 * kCount + 1] >= kUnbounded;
+    if (!flat) return;
+    int kept = -1;
+    for (int i = 0; i < kCount && kept < 0; ++i) {
+      if (out[4 * kCount + i] < kUnbounded) kept = i;
+    }
+    for (int i = 0; i < kCount; ++i) {
+      if (out[4 * kCount + i] < kUnbounded) continue;
+      double edge[3];
+      double length_p = 0.0;
+      double length_q = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        length_p += std::fabs(p[k * kCount + i]);
+        length_q += std::fabs(q[k * kCount + i]);
+      }
+      for (int k = 0; k < 3; ++k) edge[k] = (length_p > length_q ? p : q)[k * kCount + i];
+      double across[3] = {0.0, 0.0, 0.0};
+      if (kept >= 0) {
+        for (int k = 0; k < 3; ++k) across[k] = out[k * kCount + kept];
+      } else {
+        // Of a segment: two directions across it, in turn.
+        double axis[3] = {0.0, 0.0, 0.0};
+        axis[shortestAxis(edge)] = 1.0;
+        if (i % 2 == 0) {
+          cross(edge, axis, across);
+        } else {
+          for (int k = 0; k < 3; ++k) across[k] = axis[k];
+        }
+      }
+      addAcross(across, edge, scales, out + i);
+    }
+  }
+
+  static int shortestAxis(const double* v) {
+    int shortest = 0;
+    for (int k = 1; k < 3; ++k) {
+      if (std::fabs(v[k]) < std::fabs(v[shortest])) shortest = k;
+    }
+    return shortest;
+  }
+
+  static void cross(const double* u, const double* v, double* out) {
+    for (int k = 0; k < 3; ++k) {
+      out[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+  }
+
+  // A slab with the normal `across` × `edge`, if that is one.
+  static void addAcross(const double* across, const double* edge, const Scales& scales,
+                        double* out) {
+    double n[3];
+    cross(across, edge, n);
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length >= kShortest && length <= kLongest)) return;
+    double pad = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      out[k * kTriangleSlabs] = n[k] / length;
+      pad += std::fabs(n[k]) / length * scales.outward[k];
+    }
+    out[3 * kTriangleSlabs] = -pad;
+    out[4 * kTriangleSlabs] = pad;
+    // A margin without end, which says that V has no inside, stays.
+    out[5 * kTriangleSlabs] = larger(out[5 * kTriangleSlabs], 2 * pad);
   }
 
   // The extent of V along the normals, to the padding that is in lo and hi.

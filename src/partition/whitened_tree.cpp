@@ -59,10 +59,20 @@ void fitBoxes(WhitenedTree& whitened) {
   }
 }
 
-WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear) {
-  WhitenedShape result{{shape.body.transformed(linear), {}, {}}, {}, {}};
-  for (const auto& [p, q] : shape.faces) result.shape.faces.emplace_back(linear * p, linear * q);
-  for (const Eigen::Vector3d& edge : shape.edges) result.shape.edges.push_back(linear * edge);
+// `magnitudes` bounds the terms that the entries of `linear` are sums of.
+WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear,
+                          const Eigen::Matrix3d& magnitudes) {
+  WhitenedShape result;
+  result.shape.body = shape.body.transformed(linear);
+  const auto magnitude = [&](const Eigen::Vector3d& v) { return magnitudes * v.cwiseAbs(); };
+  for (const auto& [p, q] : shape.faces) {
+    result.shape.faces.emplace_back(linear * p, linear * q);
+    result.face_magnitudes.emplace_back(magnitude(p), magnitude(q));
+  }
+  for (const Eigen::Vector3d& edge : shape.edges) {
+    result.shape.edges.push_back(linear * edge);
+    result.edge_magnitudes.push_back(magnitude(edge));
+  }
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
     result.lo[k] = -result.shape.body.supportValue(-axis);
@@ -84,9 +94,12 @@ PartOffset partOffset(const PieceTree::Part& part, const fcl::Transform3d& pose,
   return {(matrix * offset).cast<double>(), (matrix.cwiseAbs() * offset.cwiseAbs()).cast<double>()};
 }
 
-void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& linear,
-                const Eigen::Vector3d& offset, WhitenedTree& result) {
+void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
+                const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset,
+                WhitenedTree& result) {
   const PieceTree& tree = *result.tree;
+  const Eigen::Matrix3d linear = whitening * rotation;
+  const Eigen::Matrix3d magnitudes = whitening.cwiseAbs() * rotation.cwiseAbs();
   for (int i = part.vertices.begin; i < part.vertices.end; ++i) {
     result.vertices.push_back(linear * tree.vertices[i] + offset);
   }
@@ -94,7 +107,7 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& linear,
     result.positions.push_back(linear * tree.bodies[i].position + offset);
   }
   for (int i = part.shapes.begin; i < part.shapes.end; ++i) {
-    result.shapes.push_back(whitenShape(tree.shapes[i], linear));
+    result.shapes.push_back(whitenShape(tree.shapes[i], linear, magnitudes));
   }
 }
 
@@ -105,10 +118,10 @@ WhitenedTree whitenOne(const PartitionObject& object, const Whitening& whitening
   result.vertices.reserve(object.tree->vertices.size());
   Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
-    const Eigen::Matrix3d linear = whitening.matrix() * object.parts[i].pose.linear();
     const PieceTree::Part& part = object.tree->parts[i];
-    const PartOffset offset = partOffset(part, object.parts[i].pose, whitening, reference);
-    whitenPart(part, linear, offset.whitened, result);
+    const fcl::Transform3d& pose = object.parts[i].pose;
+    const PartOffset offset = partOffset(part, pose, whitening, reference);
+    whitenPart(part, whitening.matrix(), pose.linear(), offset.whitened, result);
     farthest = farthest.cwiseMax(offset.reach);
   }
   const Eigen::Vector3d size =

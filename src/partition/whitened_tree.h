@@ -35,9 +35,13 @@ inline bool isClearOf(const NodeBox& box, const double* lo, const double* hi) {
   return false;
 }
 
-/// A shape of the pieces and its extent, relative to the position of a piece.
+/// A shape of the pieces and its extent, relative to the position of a piece. What its edges, and
+/// the edges p and q of its faces, are rounded by is 8 ε of their magnitudes: of the terms that
+/// they are sums of.
 struct WhitenedShape {
   PieceShape shape;
+  std::vector<Eigen::Vector3d> edge_magnitudes;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> face_magnitudes;
   Eigen::Vector3d lo;
   Eigen::Vector3d hi;
 };

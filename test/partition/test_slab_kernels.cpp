@@ -217,3 +217,31 @@ TEST_CASE("pairs without volume contain nothing and exclude nothing of themselve
     }
   }
 }
+
+TEST_CASE("what two needles cannot reach in their plane is excluded", "[slabs]") {
+  fcl_prob_test::RandomBodies random(12);
+  for (int i = 0; i < 500; ++i) {
+    TrianglePair pair = randomPair(random, 1.0);
+    const bool parallel = i % 2 == 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      pair.a[6 + k] = pair.a[3 + k];
+      if (parallel) pair.b[3 + k] = pair.b[k] + 0.5 * (pair.a[3 + k] - pair.a[k]);
+      pair.b[6 + k] = pair.b[k];
+    }
+    slabKernels().triangleSlabs(pair.a.data(), pair.b.data(), kNoError, pair.data.data());
+    const auto corner = [](const std::array<double, 9>& vertices, int index) {
+      return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(vertices.data() + 3 * index));
+    };
+    const Eigen::Vector3d p = corner(pair.a, 1) - corner(pair.a, 0);
+    const Eigen::Vector3d q = corner(pair.b, 1) - corner(pair.b, 0);
+    const Eigen::Vector3d middle =
+        0.5 * (corner(pair.b, 0) + corner(pair.b, 1) - corner(pair.a, 0) - corner(pair.a, 1));
+    CHECK_FALSE(excluded(pair, middle));
+    CHECK_FALSE(excluded(pair, middle + 0.499 * (p + q)));
+    const Eigen::Vector3d sideways = parallel ? p.unitOrthogonal() : p;
+    for (const double sign : {-1.0, 1.0}) {
+      CHECK(excluded(pair, middle + sign * 0.501 * sideways + 0.3 * q));
+      if (!parallel) CHECK(excluded(pair, middle + sign * 0.501 * q - 0.3 * p));
+    }
+  }
+}
