@@ -3,6 +3,7 @@
 #include "cobstacle/c_obstacle.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 
 namespace fcl_prob::detail {
@@ -112,7 +113,8 @@ std::optional<double> ConvexSetObstacle::worldFaces(ObstacleScratch& scratch) co
   const ConvexMesh& mesh_a = outer ? a_.outerMesh() : a_.innerMesh();
   const ConvexMesh& mesh_b = outer ? b_.outerMesh() : b_.innerMesh();
   const Eigen::Matrix3d& rotation_b = frame().rotation_b;
-  reflect(mesh_a, rotation_b.transpose() * frame().rotation_a, scratch.reflected);
+  // The inverse, not the transpose: the matrices need not be rotations to the last bit.
+  reflect(mesh_a, rotation_b.inverse() * frame().rotation_a, scratch.reflected);
   const auto defect =
       scratch.sum.compute(mesh_b, scratch.reflected, scratch.faces, scratch.interruption);
   scratch.faces.transform(rotation_b, frame().offset);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/containment.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace fcl_prob::detail {
@@ -43,11 +44,15 @@ void SolidContact::addDirections(const PartitionObject& inner, const WhitenedTre
       if (inner.tree->parts[i].root < 0) continue;
       Direction direction;
       direction.outer = around.solid;
-      const fcl::Transform3d to_outer = around.pose.inverse() * inner.parts[i].pose;
+      // Not the transpose: the matrix need not be a rotation to the last bit.
+      const Eigen::Matrix3d unrotate = around.pose.linear().inverse();
+      const Eigen::Matrix3d rotation = unrotate * inner.parts[i].pose.linear();
+      const Eigen::Vector3d translation =
+          unrotate * (inner.parts[i].pose.translation() - around.pose.translation());
       for (const Eigen::Vector3d& point : surfacePoints(inner, i)) {
-        direction.points.push_back(to_outer * point);
+        direction.points.push_back(rotation * point + translation);
       }
-      direction.shift = sign * around.pose.linear().transpose();
+      direction.shift = sign * unrotate;
       direction.outer_box = of_outer.boxes[outer.tree->parts[j].root];
       direction.inner_box = of_inner.boxes[inner.tree->parts[i].root];
       direction.sign = sign;

@@ -5,11 +5,13 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 
+#include <memory>
 #include <random>
 
 #include "catch.h"
@@ -247,6 +249,42 @@ TEST_CASE("the exact method of a stretched round pair takes few evaluations") {
   CHECK(*result.upper - *result.lower < 0.02 * *result.upper);
   CHECK(*result.lower > 1.3e-8);
   CHECK(calls < 2500);
+}
+
+TEST_CASE("a matrix that is nearly a rotation is used as it is, whatever the shape is made of") {
+  const fcl::Boxd box(2, 2, 2);
+  const auto vertices = std::make_shared<std::vector<Eigen::Vector3d>>();
+  for (int i = 0; i < 8; ++i) {
+    vertices->push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
+  }
+  const fcl::Convexd cube(vertices, 6,
+                          std::make_shared<std::vector<int>>(
+                              std::vector<int>{4, 0, 4, 6, 2, 4, 1, 3, 7, 5, 4, 0, 1, 5, 4,
+                                               4, 2, 6, 7, 3, 4, 0, 2, 3, 1, 4, 4, 5, 7, 6}));
+  const Eigen::Matrix3d turn = Eigen::Quaterniond(0.8, 0.3, -0.2, 0.4).normalized().matrix();
+  for (const double stretch : {0.0, 4e-10, -4e-10}) {
+    for (const double sigma : {1.0, 0.1, 1e-3}) {
+      fcl::Transform3d pose_b(turn * (1.0 + stretch));
+      pose_b.translation() = turn * Eigen::Vector3d(2.0 + 2.0 * sigma, 0.1, 0.1);
+      const auto displacement = GaussianDisplacement::fromStandardDeviations({sigma, sigma, sigma});
+      const fcl::Transform3d pose_a(turn);
+      // Along an axis of the boxes, which are 2 and 2 (1 + stretch) wide.
+      const auto exact = [&](double move) {
+        const double half = 1.0 + (1.0 + stretch);
+        return normalIntervalMass((move - half) / sigma, (move + half) / sigma);
+      };
+      const double p = exact(2.0 + 2.0 * sigma) * exact(0.1) * exact(0.1);
+      for (const fcl::ShapeBased* shape : {static_cast<const fcl::ShapeBased*>(&box),
+                                           static_cast<const fcl::ShapeBased*>(&cube)}) {
+        const auto result = answer(*shape, pose_a, *shape, pose_b, displacement);
+        CAPTURE(stretch, sigma, p, *result.lower, *result.upper);
+        CHECK(result.method == ProbabilityMethod::exact);
+        CHECK(*result.lower <= p);
+        CHECK(*result.upper >= p);
+        CHECK(*result.upper - *result.lower < 1e-8 * p);
+      }
+    }
+  }
 }
 
 TEST_CASE("a standard deviation so small that whitened lengths overflow") {
