@@ -16,8 +16,9 @@
 #include "cobstacle/spanning_frame.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "gaussian/directed_edges.h"
+#include "gaussian/number_text.h"
+#include "geometry/length_limit.h"
 
 namespace fcl_prob {
 namespace {
@@ -34,12 +35,12 @@ struct Facet {
 // Facets are merged first; triangulated ones if merging left a surface that does not close.
 constexpr std::array<const char*, 3> kQhullOptions{"Pp", "Qt Pp", "Qt Qx Pp"};
 
-void requireFinite(const std::vector<Eigen::Vector3d>& points) {
+void requirePositions(const std::vector<Eigen::Vector3d>& points) {
   if (points.empty()) throw InvalidGeometry("convex hull of no points");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) {
+    if (!detail::isPosition(points[i])) {
       throw InvalidGeometry("point " + std::to_string(i) +
-                            " of a convex hull is not finite: " + detail::numberText(points[i]));
+                            " of a convex hull is no position: " + detail::numberText(points[i]));
     }
   }
 }
@@ -159,7 +160,7 @@ ConvexPolytope withFaces(const std::vector<Eigen::Vector3d>& points, const Spann
 }  // namespace
 
 ConvexPolytope convexHull(const std::vector<Eigen::Vector3d>& points) {
-  requireFinite(points);
+  requirePositions(points);
   const SpanningFrame frame = detail::spanningFrame(points);
   if (frame.dimension < 3) return withoutFaces(points, frame);
 

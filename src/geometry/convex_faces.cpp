@@ -8,6 +8,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
+#include "geometry/length_limit.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -39,10 +40,10 @@ FacePlane planeOf(const Points& points, const std::vector<int>& face) {
   throw InvalidGeometry(name + ": " + fault);
 }
 
-void requireFiniteVertices(const Points& points, const std::string& name) {
+void requirePositions(const Points& points, const std::string& name) {
   if (points.empty()) refuse(name, "it has no vertices");
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].allFinite()) continue;
+    if (isPosition(points[i])) continue;
     std::ostringstream out;
     out << "vertex " << i << " is (" << points[i].transpose() << ")";
     refuse(name, out.str());
@@ -152,7 +153,7 @@ std::vector<std::vector<int>> decodeFaces(const fcl::Convexd& convex, const std:
 
 void validateConvex(const fcl::Convexd& convex, const std::string& name) {
   const Points& points = convex.getVertices();
-  requireFiniteVertices(points, name);
+  requirePositions(points, name);
   const auto faces = decodeFaces(convex, name);
   requireAllUsed(points.size(), faces, name);
   const EdgePairing pairing = pairEdges(edgesOf(faces));

@@ -18,6 +18,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "geometry/convex_faces.h"
+#include "geometry/length_limit.h"
 #include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::detail {
@@ -32,14 +33,20 @@ std::string text(const Eigen::Vector3d& v) {
 }
 
 void requirePositive(double size, const char* what, const std::string& name) {
-  if (std::isfinite(size) && size > 0.0) return;
+  if (size > 0.0 && size <= kLargestLength) return;
   std::ostringstream out;
-  out << name << ": " << what << " is " << size << ", must be positive and finite";
+  out << name << ": " << what << " is " << size << ", must be positive and at most "
+      << kLargestLength;
   throw InvalidGeometry(out.str());
 }
 
-void requireFinite(const Eigen::Vector3d& point, const std::string& what, const std::string& name) {
-  if (!point.allFinite()) throw InvalidGeometry(name + ": " + what + " is " + text(point));
+void requirePosition(const Eigen::Vector3d& point, const std::string& what,
+                     const std::string& name) {
+  if (isPosition(point)) return;
+  std::ostringstream out;
+  out << name << ": " << what << " is " << text(point) << ", must be within " << kLargestLength
+      << " of the origin";
+  throw InvalidGeometry(out.str());
 }
 
 void requireFinished(const MeshView& mesh, const std::string& name) {
@@ -66,12 +73,13 @@ void validateTriangle(const MeshView& mesh, int triangle, const std::string& nam
 }
 
 void validatePlane(const Eigen::Vector3d& normal, double offset, const std::string& name) {
-  requireFinite(normal, "the normal", name);
-  if (std::abs(normal.norm() - 1.0) > kRigidTolerance) {
+  if (!(std::abs(normal.norm() - 1.0) <= kRigidTolerance)) {
     throw InvalidGeometry(name + ": the normal " + text(normal) + " does not have length 1");
   }
-  if (!std::isfinite(offset)) {
-    throw InvalidGeometry(name + ": the offset d is " + std::to_string(offset));
+  if (!(std::abs(offset) <= kLargestLength)) {
+    std::ostringstream out;
+    out << name << ": the offset d is " << offset << ", must be at most " << kLargestLength;
+    throw InvalidGeometry(out.str());
   }
 }
 
@@ -91,9 +99,9 @@ void requireSides(const Eigen::Vector3d& sides, const char* const (&what)[3],
 }
 
 void validateTriangleShape(const fcl::TrianglePd& triangle, const std::string& name) {
-  requireFinite(triangle.a, "vertex a", name);
-  requireFinite(triangle.b, "vertex b", name);
-  requireFinite(triangle.c, "vertex c", name);
+  requirePosition(triangle.a, "vertex a", name);
+  requirePosition(triangle.b, "vertex b", name);
+  requirePosition(triangle.c, "vertex c", name);
 }
 
 void validateShape(const fcl::CollisionGeometryd& geometry, const std::string& name) {
@@ -146,8 +154,8 @@ void validateMeshView(const MeshView& mesh, const std::string& name) {
     throw InvalidGeometry(name + ": the mesh has no bounding volume tree");
   }
   for (int i = 0; i < mesh.vertex_count; ++i) {
-    if (!mesh.vertices[i].allFinite()) {
-      requireFinite(mesh.vertices[i], "vertex " + std::to_string(i), name);
+    if (!isPosition(mesh.vertices[i])) {
+      requirePosition(mesh.vertices[i], "vertex " + std::to_string(i), name);
     }
   }
   for (int i = 0; i < mesh.triangle_count; ++i) validateTriangle(mesh, i, name);
@@ -166,7 +174,7 @@ void validateGeometry(const fcl::CollisionGeometryd* geometry, const std::string
 void validatePose(const fcl::Transform3d& pose, const std::string& name) {
   const Eigen::Vector3d translation = pose.translation();
   const Eigen::Matrix3d rotation = pose.linear();
-  if (!translation.allFinite()) {
+  if (!isPosition(translation)) {
     throw InvalidPose("pose of " + name + ": the translation is " + text(translation));
   }
   if (!rotation.allFinite()) {

@@ -163,3 +163,19 @@ TEST_CASE("poses must be finite and rigid") {
   broken.linear()(0, 0) = kInfinity;
   CHECK_THROWS_AS(validatePose(broken, "part"), InvalidPose);
 }
+
+TEST_CASE("lengths whose squares overflow are refused by name") {
+  const double huge = 1e300;
+  CHECK_THROWS_WITH(validate(fcl::Boxd(1, huge, 3)), Contains("side y"));
+  CHECK_THROWS_WITH(validate(fcl::Sphered(huge)), Contains("radius"));
+  CHECK_THROWS_WITH(validate(fcl::Cylinderd(1, huge)), Contains("lz"));
+  CHECK_THROWS_WITH(validate(fcl::Halfspaced(1, 0, 0, huge)), Contains("offset"));
+  CHECK_THROWS_WITH(validate(*makeModel<fcl::AABBd>(boxMesh({1, huge, 1}))), Contains("vertex"));
+  auto far = kTetrahedron;
+  far[1][0] = -huge;
+  CHECK_THROWS_WITH(validate(convex(far, 4, kTetrahedronFaces)), Contains("vertex 1"));
+  CHECK_THROWS_AS(validate(fcl::TrianglePd(far[0], far[1], far[2])), InvalidGeometry);
+  const fcl::Transform3d pose(Eigen::Translation3d(0, huge, 0));
+  CHECK_THROWS_AS(validatePose(pose, "part"), InvalidPose);
+  CHECK_NOTHROW(validate(fcl::Boxd(1, 1e149, 3)));
+}

@@ -117,3 +117,30 @@ TEST_CASE("a prepared query and the free functions answer alike, and write to no
   for (int i = 0; i < a->num_vertices; ++i) CHECK(a->vertices[i] == vertices[i]);
   CHECK(object_a.getTransform().matrix() == kIdentity.matrix());
 }
+
+TEST_CASE("shapes of the largest size have an answer, larger ones are refused as geometry") {
+  for (const double size : {1e100, 1e149}) {
+    const fcl::Boxd box(size, size, 1);
+    const fcl::Sphered sphere(size);
+    for (const auto method :
+         {ProbabilityMethod::automatic, ProbabilityMethod::interval, ProbabilityMethod::exact,
+          ProbabilityMethod::convex_pcd, ProbabilityMethod::general_pcd}) {
+      CAPTURE(size, toString(method));
+      ProbabilityRequest request;
+      request.method = method;
+      request.max_cells = 10;
+      ProbabilityResult result;
+      collisionProbability(&box, kIdentity, &sphere, kIdentity, kDisplacement, request, result);
+      CHECK(result.upper == 1.0);
+      CHECK(result.lower.value_or(0.0) <= 1.0);
+    }
+  }
+  const fcl::Boxd box(1, 1, 1);
+  for (const double size : {1e151, 1e300, 1e308}) {
+    const fcl::Sphered sphere(size);
+    ProbabilityResult result;
+    CHECK_THROWS_AS(
+        collisionProbability(&box, kIdentity, &sphere, kIdentity, kDisplacement, {}, result),
+        InvalidGeometry);
+  }
+}
