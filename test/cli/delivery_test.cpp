@@ -2,7 +2,9 @@
 // Copyright (c) 2026, the fcl_prob authors
 // Reports that cannot be delivered: exit code 2, one line that says so, and no file that looks
 // whole.
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 
 #include "catch.h"
 #include "command.h"
@@ -77,6 +79,48 @@ TEST_CASE("a disk that is full leaves the old report as it was", "[cli]") {
     CHECK(readWhole(report).size() > 50);
     CHECK(filesIn(reports.path("")) == files);
   }
+}
+
+TEST_CASE("a plot that does not fit on the disk exits with 2 and leaves no half of it", "[cli]") {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) {
+    std::cout << "SKIPPED: gnuplot is not installed\n";
+    return;
+  }
+  const TemporaryFolder folder;
+  const TemporaryFolder plots;
+  const Words compare{"compare",   "--scene", dataFile("two_boxes.json"), "--method", "convex-pcd",
+                      "--samples", "100",     "--relative-tolerance",     "0.5",      "--plot"};
+  const auto plotTo = [&](const std::string& path, const std::string& before) {
+    Words words = compare;
+    words.push_back(path);
+    return runCommandIn(before, words, folder);
+  };
+  const std::string plot = plots.write("plot.svg", "the old one");
+  // Full for gnuplot's script and the error output too, or only for the plot, which is longer.
+  for (const char* limit : {"ulimit -f 0", "ulimit -f 6"}) {
+    CAPTURE(limit);
+    const CommandResult full = plotTo(plot, limit);
+    CHECK(full.exit_code == 2);
+    CHECK((full.err.empty() ||
+           full.err.find("plot.svg: cannot be written: File too large") != std::string::npos));
+    CHECK(readWhole(plot) == "the old one");
+    CHECK(filesIn(plots.path("")) == 1);
+  }
+  CHECK(plotTo(plot, "true").exit_code == 0);
+  CHECK(readWhole(plot).size() > 6 * 1024);
+
+  if (!std::filesystem::exists("/dev/full")) {
+    std::cout << "SKIPPED: no /dev/full\n";
+    return;
+  }
+  const std::string device = plots.path("device.svg");
+  std::filesystem::create_symlink("/dev/full", device);
+  const CommandResult full = plotTo(device, "true");
+  CHECK(full.exit_code == 2);
+  CHECK(full.err.find("device.svg: cannot be written: No space left on device") !=
+        std::string::npos);
+  CHECK(std::filesystem::is_symlink(device));
+  CHECK(filesIn(plots.path("")) == 2);
 }
 
 TEST_CASE("a closed pipe is told and exits with 2", "[cli]") {
