@@ -16,7 +16,7 @@ constexpr double kRelativeTolerance = 0.01;
 constexpr double kExactTolerance = 1e-10;
 constexpr std::size_t kMaxCells = 20'000;
 
-constexpr const char* kNotes =
+constexpr const char* kStabilityNotes =
     R"(P of every case is known in 100 digits: closed forms of boxes along the principal axes (as shapes,
 surfaces and solids), spheres and half-spaces, and quadrature for one triangle; nothing of the library
 is used for it. `exact` is asked for 1e-10 of P; interval and estimate for 1 % of P, or the absolute
@@ -34,7 +34,7 @@ comes from few samples a cell, and is too small where all of them happen to agre
 can be off by more than that, though never by more than its interval.
 )";
 
-struct Row {
+struct MethodRow {
   std::size_t cases = 0, answered = 0, violated = 0, failed = 0;
   double worst = 0.0;
   double slowest_ms = 0.0;
@@ -78,7 +78,7 @@ bool isSound(const ProbabilityResult& result) {
 }
 
 void judge(const Truth& truth, ProbabilityMethod method, double absolute_tolerance,
-           const ProbabilityResult& result, std::size_t index, Row& row) {
+           const ProbabilityResult& result, std::size_t index, MethodRow& row) {
   if (!isSound(result)) {
     ++row.failed;
     return;
@@ -107,7 +107,7 @@ void judge(const Truth& truth, ProbabilityMethod method, double absolute_toleran
 }
 
 void runCase(const StabilityCase& scene, const StabilityFamily& family,
-             const ProbabilityRequest& request, std::size_t index, Row& row) {
+             const ProbabilityRequest& request, std::size_t index, MethodRow& row) {
   ++row.cases;
   const Stopwatch watch;
   try {
@@ -121,9 +121,9 @@ void runCase(const StabilityCase& scene, const StabilityFamily& family,
 }
 
 /// One row for each of the family's methods.
-std::vector<Row> runFamily(const StabilityFamily& family, std::size_t number,
-                           const BenchOptions& options) {
-  std::vector<Row> rows(family.methods.size());
+std::vector<MethodRow> runFamily(const StabilityFamily& family, std::size_t number,
+                                 const BenchOptions& options) {
+  std::vector<MethodRow> rows(family.methods.size());
   for (std::size_t i = 0; i < options.cases; ++i) {
     StabilityRandom random(options.seed, number, i);
     const StabilityCase scene = family.make(random);
@@ -149,7 +149,7 @@ class StabilityTable {
                                "violated", "failed", "slowest / ms"});
   }
 
-  void add(const StabilityFamily& family, ProbabilityMethod method, const Row& row) {
+  void add(const StabilityFamily& family, ProbabilityMethod method, const MethodRow& row) {
     const double share = static_cast<double>(row.answered) / static_cast<double>(row.cases);
     report_.table.add({family.name, family.objects, toString(method), std::to_string(row.cases),
                        numberText(100 * share, 4) + " %", numberText(row.worst, 2),
@@ -178,7 +178,7 @@ class StabilityTable {
   }
 
   BenchReport take() {
-    report_.notes = kNotes;
+    report_.notes = kStabilityNotes;
     report_.notes +=
         short_.empty() ? "\nNone falls short.\n" : "\n**What falls short:**\n\n" + short_;
     return std::move(report_);
@@ -200,7 +200,7 @@ BenchReport benchStability(const BenchOptions& options, const BenchProgress& pro
     if (name.find(options.only) == std::string::npos) continue;
     const double done = static_cast<double>(k) / static_cast<double>(families.size());
     if (!progress(done, name)) break;
-    const std::vector<Row> rows = runFamily(family, k, options);
+    const std::vector<MethodRow> rows = runFamily(family, k, options);
     for (std::size_t m = 0; m < rows.size(); ++m) table.add(family, family.methods[m], rows[m]);
   }
   return table.take();

@@ -13,9 +13,9 @@
 namespace fcl_prob::cli {
 namespace {
 
-constexpr double kReferenceTolerance = 1e-3;
+constexpr double kFineTolerance = 1e-3;
 
-constexpr const char* kNotes =
+constexpr const char* kTable1Notes =
     R"(`P or bound` is clipped at 1; `raw sum` is what the method adds up before that; `error` is that
 over the certified P, less 1. δ = 0.99, one thread, trees are built beforehand. The interval of
 0.1 % is the reference of all rows of its scene.
@@ -125,7 +125,7 @@ class Table1 {
   }
 
   BenchReport take() {
-    report_.notes = kNotes;
+    report_.notes = kTable1Notes;
     if (!order_.empty()) report_.notes += kOrderNotes + order_;
     return std::move(report_);
   }
@@ -139,7 +139,7 @@ class Table1 {
 Bounds certifiedReference(const PreparedScene& scene) {
   ProbabilityRequest request;
   request.method = ProbabilityMethod::interval;
-  request.relative_tolerance = kReferenceTolerance;
+  request.relative_tolerance = kFineTolerance;
   request.absolute_tolerance = 0.0;
   const ProbabilityResult result = scene.query(request).result;
   return {result.lower.value(), result.upper.value()};
@@ -162,7 +162,7 @@ void addScene(const BenchScene& scene, const BenchOptions& options, Table1& tabl
   table.closeScene(scene.name);
   if (!proceed("prior methods")) return;
   for (const Table1Row& row : rows.priorRows()) add(row);
-  for (const double tolerance : {0.01, kReferenceTolerance}) add(rows.intervalRow(tolerance));
+  for (const double tolerance : {0.01, kFineTolerance}) add(rows.intervalRow(tolerance));
   add(rows.estimateRow(0.003, options.seed));
 }
 

@@ -7,7 +7,7 @@
 namespace fcl_prob::cli {
 namespace {
 
-const TriangleMesh& meshOf(const LoadedObject& object) {
+const TriangleMesh& requiredMesh(const LoadedObject& object) {
   const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
   if (mesh == nullptr) {
     throw InvalidRequest("--bv: sphere, kdop26 and convex are for two meshes only");
@@ -41,7 +41,7 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
     : a_(std::move(a)), b_(std::move(b)), displacement_(displacement) {
   const Stopwatch watch;
   if (isOwnVolume(bounding_volume)) {
-    own_trees_ = makeTreePair(bounding_volume, meshOf(a_), meshOf(b_));
+    own_trees_ = makeTreePair(bounding_volume, requiredMesh(a_), requiredMesh(b_));
   } else {
     query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
                                              buildGeometry(b_, bounding_volume));

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cobstacle/inner_pyramid.h"
 #include "cobstacle/portal.h"
+#include "gaussian/constants.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The constants below only steer; no bound depends on them.
 constexpr int kMostRefinements = 60;
@@ -33,8 +31,8 @@ constexpr double kLeastSlope = 1e-3;
 
 class SectionFinder {
  public:
-  SectionFinder(const SupportObstacle& obstacle, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
-              int rank)
+  SectionFinder(const SupportObstacle& obstacle, const Eigen::Vector3d& lo,
+                const Eigen::Vector3d& hi, int rank)
       : obstacle_(obstacle), rank_(rank), middle_(0.5 * (lo + hi)), half_(0.5 * (hi - lo)) {
     width_ = 2.0 * half_.norm();
     scale_ = std::max((middle_ - obstacle_.centre()).norm(), width_);

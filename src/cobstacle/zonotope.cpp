@@ -16,7 +16,7 @@ namespace {
 constexpr double kParallel = 1e-14;
 
 /// Determinants below this times the lengths of their columns may have either sign.
-constexpr double kTie = 4e-15;
+constexpr double kCoplanar = 4e-15;
 
 bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double limit = kParallel * a.norm() * b.norm();
@@ -98,7 +98,7 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
       for (int k = 0; k < count_; ++k) {
         if (k == i || k == j) continue;
         const double height = normal.dot(moved[k]);
-        if (std::abs(height) <= kTie * norms[i] * norms[j] * norms[k]) return std::nullopt;
+        if (std::abs(height) <= kCoplanar * norms[i] * norms[j] * norms[k]) return std::nullopt;
         if (height > 0.0) upper |= 1u << k;
       }
       if (attempt > 0) defect = std::max(defect, defectOf(i, j, upper));

@@ -4,10 +4,10 @@
 // freedom.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/normal_density.h"
 #include "gaussian/number_text.h"
@@ -19,8 +19,8 @@ using detail::gaussianExp;
 using detail::kInverseSqrtTwoPi;
 using detail::normalDensity;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kUnderflow = 1e-307;
+using detail::kEpsilon;
+constexpr double kBallUnderflow = 1e-307;
 
 // a + b and what rounding took from it (Knuth).
 struct Sum {
@@ -35,7 +35,7 @@ struct Sum {
 };
 
 Bounds around(double mass, double error) {
-  error += kUnderflow;
+  error += kBallUnderflow;
   return {std::clamp(mass - error, 0.0, 1.0), std::clamp(mass + error, 0.0, 1.0)};
 }
 
@@ -94,7 +94,7 @@ Bounds normalBallMass(double distance, double radius) {
   requireNotNegative(distance, "distance");
   requireNotNegative(radius, "radius");
   if (radius == 0) return {0, 0};
-  if (std::isinf(distance)) return {0, std::isinf(radius) ? 1.0 : kUnderflow};
+  if (std::isinf(distance)) return {0, std::isinf(radius) ? 1.0 : kBallUnderflow};
   if (std::isinf(radius)) return {1, 1};
   return radius < 1 ? discIntegral(distance, radius) : closedForm(distance, radius);
 }

@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/edge_quadrature.h"
 #include "gaussian/normal_density.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Rounding of the heights and rectangles of the slabs.
 constexpr double kSlabRounding = 1 + 1e-9;

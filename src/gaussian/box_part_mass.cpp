@@ -3,25 +3,25 @@
 // Masses of a box cut by one or two half-spaces.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "gaussian/polytope_clip.h"
 
 namespace fcl_prob {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using detail::kEpsilon;
 
 // Beyond this the mass is below 1e-430: an unbounded box may end here.
-constexpr double kFarthestMass = 45;
+constexpr double kFarthestSide = 45;
 
-constexpr double kUnderflow = 1e-300;
+constexpr double kBoxPartUnderflow = 1e-300;
 
 struct Box {
   Eigen::Vector3d lo, hi;
@@ -46,7 +46,7 @@ void requireHalfSpace(const HalfSpace& h) {
 
 Bounds boxMass(const Box& box) {
   const double mass = normalBoxMass(box.lo, box.hi);
-  const double margin = 4 * kIntervalMassRelativeError * mass + kUnderflow;
+  const double margin = 4 * kIntervalMassRelativeError * mass + kBoxPartUnderflow;
   if (box.isEmpty()) return {0, 0};
   return {std::max(0.0, mass - margin), std::min(1.0, mass + margin)};
 }
@@ -89,8 +89,8 @@ class BoxPart {
  public:
   BoxPart(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
     requireBox(lo, hi);
-    box_ = {lo.cwiseMax(-kFarthestMass).cwiseMin(kFarthestMass),
-            hi.cwiseMin(kFarthestMass).cwiseMax(-kFarthestMass)};
+    box_ = {lo.cwiseMax(-kFarthestSide).cwiseMin(kFarthestSide),
+            hi.cwiseMin(kFarthestSide).cwiseMax(-kFarthestSide)};
   }
 
   void cutBy(const HalfSpace& h) {
@@ -98,7 +98,7 @@ class BoxPart {
     const int axis = alignedAxis(h.normal);
     if (axis < 0) {
       // An infinite offset takes all or nothing; a finite one beyond the box does the same.
-      oblique_.push_back({h.normal, std::clamp(h.offset, -4 * kFarthestMass, 4 * kFarthestMass)});
+      oblique_.push_back({h.normal, std::clamp(h.offset, -4 * kFarthestSide, 4 * kFarthestSide)});
       return;
     }
     if (h.normal[axis] > 0) {

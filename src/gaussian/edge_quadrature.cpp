@@ -8,12 +8,11 @@
 #include <limits>
 
 #include "gaussian/boundary_kernel.h"
+#include "gaussian/constants.h"
 #include "gaussian/panel_quadrature.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Where r²/2 exceeds its least value by this, the tail kernel is below 1e-20 of its largest value.
 constexpr double kTailRange = 47;
@@ -23,9 +22,6 @@ constexpr double kCoreReachSquared = 90;
 
 // Splitting erfc(|h|)/|h| off costs digits where the integrand is far below it.
 constexpr double kSplitReachSquared = 2.5;
-
-// Below all masses that are told from zero.
-constexpr double kLeastTolerance = 1e-315;
 
 // A side of the edge with what its integrand needs.
 struct Side : EdgeSide {

@@ -6,21 +6,18 @@
 #include <cmath>
 #include <limits>
 
+#include "gaussian/constants.h"
 #include "gaussian/normal_density.h"
 #include "gaussian/panel_quadrature.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 // Beyond this distance of the contour from the foot the tail form is used.
 constexpr double kTailContour = 1.0;
 
 // exp(-ρ²/2) is below 1e-20 where ρ² exceeds its least value by this.
 constexpr double kRangeSquared = 94;
-
-constexpr double kLeastTolerance = 1e-315;
 
 // exp(-ρ²/2) dθ/dt, or (1 - exp(-ρ²/2)) dθ/dt, along one side.
 template <bool kIsTail>

@@ -11,6 +11,9 @@
 
 namespace fcl_prob::detail {
 
+/// Below all masses that are told from zero.
+inline constexpr double kLeastTolerance = 1e-315;
+
 /// Part of an edge, in positions t relative to the foot of the origin on the edge's line.
 struct Panel {
   double from = 0.0, to = 0.0;

@@ -9,13 +9,12 @@
 #include <string>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
 #include "gaussian/directed_edges.h"
 #include "gaussian/number_text.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Rounding of a point's place in a face's frame, in units of its distance: 1.5 kEpsilon for each of
 // three coordinates, and axes that are orthonormal to an ulp or two.

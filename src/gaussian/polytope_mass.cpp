@@ -12,6 +12,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/boundary_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "gaussian/polytope_effort.h"
 #include "gaussian/solid_mass.h"
@@ -20,11 +21,9 @@ namespace fcl_prob {
 namespace {
 
 using detail::FaceFrame;
+using detail::kUnderflow;
 using detail::MassWithError;
 using detail::PolytopeBoundary;
-
-// What denormal numbers may lose.
-constexpr double kUnderflow = 1e-312;
 
 // The wider the margin, the more pieces of a cubature it is worth.
 constexpr double kGoodRelativeWidth = 3e-12;

@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
 #include "gaussian/boundary_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/face_mass.h"
 #include "gaussian/normal_density.h"
 
@@ -16,12 +16,11 @@ namespace {
 using detail::FaceFrame;
 using detail::PolytopeBoundary;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using detail::kEpsilon;
+using detail::kUnderflow;
 
 // No mass that a double can tell from zero is farther from the origin.
 constexpr double kFarthestMass = 40;
-
-constexpr double kUnderflow = 1e-312;
 
 double farthestVertex(const ConvexPolytope& polytope) {
   double farthest = 0;

@@ -10,10 +10,10 @@
 #include <numeric>
 #include <utility>
 
+#include "gaussian/constants.h"
+
 namespace fcl_prob::detail {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Rounding errors that a covariance computed as a product of three matrices may carry, in units of
 // kEpsilon sqrt(a_ii a_jj) an entry.

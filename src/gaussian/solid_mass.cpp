@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "gaussian/constants.h"
 #include "gaussian/polytope_clip.h"
 #include "gaussian/tetrahedron_mass.h"
 
@@ -14,8 +15,6 @@ namespace fcl_prob::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Bounds of a piece's cubature and of what is left out, relative to the mass; or to the width that
 // is enough.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/narrow_interval.h"
 #include "gaussian/normal_density.h"
@@ -18,7 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kDensityAtOrigin = kInverseSqrtTwoPi * kInverseSqrtTwoPi * kInverseSqrtTwoPi;
 
 constexpr std::array<unsigned, 3> kRules{7, 10, 15};

@@ -13,9 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint32_t kBinaryMagic = 0x46546C67;    // "glTF"
-constexpr std::uint32_t kJsonChunkType = 0x4E4F534A;  // "JSON"
-constexpr std::size_t kBinaryHeaderSize = 12 + 8;     // the file's and the first chunk's
+constexpr std::uint32_t kBinaryMagic = 0x46546C67;     // "glTF"
+constexpr std::uint32_t kJsonChunkType = 0x4E4F534A;   // "JSON"
+constexpr std::size_t kBinaryGltfHeaderSize = 12 + 8;  // the file's and the first chunk's
 
 std::uint32_t word(std::string_view content, std::size_t position) {
   std::uint32_t value = 0;
@@ -25,14 +25,14 @@ std::uint32_t word(std::string_view content, std::size_t position) {
 
 std::string_view jsonText(const std::string& path, std::string_view content) {
   if (content.size() < 4 || word(content, 0) != kBinaryMagic) return content;
-  if (content.size() < kBinaryHeaderSize || word(content, 8) > content.size()) {
+  if (content.size() < kBinaryGltfHeaderSize || word(content, 8) > content.size()) {
     throw FileError(path + ": the binary glTF container is truncated");
   }
   const std::size_t length = word(content, 12);
-  if (word(content, 16) != kJsonChunkType || length > content.size() - kBinaryHeaderSize) {
+  if (word(content, 16) != kJsonChunkType || length > content.size() - kBinaryGltfHeaderSize) {
     throw FileError(path + ": the binary glTF container does not begin with a whole JSON chunk");
   }
-  return content.substr(kBinaryHeaderSize, length);
+  return content.substr(kBinaryGltfHeaderSize, length);
 }
 
 std::size_t trianglesOf(const Json& primitive, const Json& accessors) {

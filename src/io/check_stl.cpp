@@ -11,7 +11,7 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr std::size_t kBinaryHeaderSize = 84;
+constexpr std::size_t kBinaryStlHeaderSize = 84;
 constexpr std::size_t kBinaryTriangleSize = 50;
 
 /// Counts the facets of a text STL and sees that each has its three vertices and its end.
@@ -73,13 +73,13 @@ bool beginsWithSolid(std::string_view content) {
 
 std::size_t checkStl(const std::string& path, std::string_view content) {
   std::uint32_t claimed = 0;
-  if (content.size() >= kBinaryHeaderSize) std::memcpy(&claimed, content.data() + 80, 4);
-  const std::size_t expected_size = kBinaryHeaderSize + kBinaryTriangleSize * claimed;
-  if (content.size() >= kBinaryHeaderSize && content.size() == expected_size) return claimed;
+  if (content.size() >= kBinaryStlHeaderSize) std::memcpy(&claimed, content.data() + 80, 4);
+  const std::size_t expected_size = kBinaryStlHeaderSize + kBinaryTriangleSize * claimed;
+  if (content.size() >= kBinaryStlHeaderSize && content.size() == expected_size) return claimed;
 
   const bool text = beginsWithSolid(content) && content.find('\0') == content.npos;
   if (!text) {
-    if (content.size() < kBinaryHeaderSize) {
+    if (content.size() < kBinaryStlHeaderSize) {
       throw FileError(path + ": neither a text STL nor a binary one: only " +
                       std::to_string(content.size()) + " bytes");
     }

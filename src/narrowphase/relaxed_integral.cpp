@@ -9,12 +9,12 @@
 #include <limits>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/normal_density.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kFieldFactor = 0.25 / M_PI;
 
 /// Roundings of a triangle's projected area, in units of the product of two of its edges.

@@ -11,6 +11,7 @@
 #include "cobstacle/support_shape.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/prior_methods.h"
+#include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
@@ -21,7 +22,7 @@ namespace {
 
 using namespace detail;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using detail::kEpsilon;
 constexpr double kTiny = 1e-300;  // what a mass that may have underflowed is rounded up by
 
 // Halvings of the bracket of log λ: more than a double resolves.

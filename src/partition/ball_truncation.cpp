@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 
 namespace fcl_prob::detail {
 
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Of the masses between the planes, relative to the cell's: the cell is divided where it matters.
 constexpr double kAccuracy = 1e-4;

@@ -4,18 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
+#include "gaussian/constants.h"
 #include "geometry/ray_crossing.h"
 
 namespace fcl_prob::detail {
 
-namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 CappedTree::CappedTree(const WhitenedTree& mesh) : mesh_(&mesh) {
   for (const MeshCaps::Cap& cap : caps().caps) {

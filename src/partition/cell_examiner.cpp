@@ -31,7 +31,7 @@ constexpr double kCutBack = 0.8;
 // many planes of each may cut the cell, and the least share of the cell that is worth having.
 constexpr int kMostTried = 32;
 constexpr int kMostSides = 6;
-constexpr double kLeastShare = 0.02;
+constexpr double kLeastCovered = 0.02;
 
 // Nodes opened to see how low the pairs of a cell reach below the plane of a witness.
 constexpr int kMostOpened = 1000;
@@ -264,7 +264,7 @@ void CellExaminer::addPlane(OpenCell& open) const {
     const CoveringPlane plane = coveringPlane(front_.slabs(cutting.pair), open.cell);
     if (plane.share > best.share) best = plane;
   }
-  if (best.share < kLeastShare || best.within.empty()) return;
+  if (best.share < kLeastCovered || best.within.empty()) return;
   const Eigen::Vector3d& m = best.inner.m;
   open.possible_from = best.outer;
   for (const FrontPair& pair : open.front) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "partition/gauss_rule.h"
 
 namespace fcl_prob::detail {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kInverseSqrt2Pi = 0.39894228040143267794;
 constexpr double kInverseSqrt2 = 0.70710678118654752440;
-constexpr double kEpsilon = 2.220446049250313e-16;
 
 // Half as wide as a piece of a quadrature may be to start with, in standard deviations.
 constexpr double kPieceWidth = 1.0;

@@ -68,7 +68,7 @@ double varianceWhereAllAgree(const OpenCell& cell, int samples) {
 }
 
 // The largest coordinates in a cell.
-Eigen::Vector3d farthest(const Cell& cell) {
+Eigen::Vector3d largestCoordinates(const Cell& cell) {
   return cell.lo.cwiseAbs().cwiseMax(cell.hi.cwiseAbs());
 }
 
@@ -169,10 +169,10 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
     const double least = means.agree ? varianceWhereAllAgree(cells[i], kSets * n) : 0.0;
     total.variance += std::max(least, kVariance * means.mass_spread);
     total.moment += means.moment;
-    const Eigen::Vector3d least_moment = least * farthest(cells[i].cell).cwiseAbs2();
+    const Eigen::Vector3d least_moment = least * largestCoordinates(cells[i].cell).cwiseAbs2();
     total.moment_variance += (kVariance * means.moment_spread).cwiseMax(least_moment);
     total.doubt += means.doubt;
-    moment_doubt += means.doubt * farthest(cells[i].cell);
+    moment_doubt += means.doubt * largestCoordinates(cells[i].cell);
     total.samples += kSets * static_cast<std::size_t>(n);
   }
   // Not an error of chance: it does not average out over the cells.

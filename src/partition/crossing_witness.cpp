@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "gaussian/constants.h"
 
 namespace fcl_prob::detail {
 
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The constants below only steer; no bound depends on them. Measured on bunnies of 5,110 and of
 // 69,451 triangles.
@@ -26,7 +24,7 @@ constexpr std::size_t kTriedForPlane = 8;
 constexpr std::size_t kMostTouched = 400;
 
 // Depth of the least plane worth having.
-constexpr double kDeepest = 0.98;
+constexpr double kLeastPlaneDepth = 0.98;
 
 // Points and rays tried until one of them tells inside from outside for certain.
 constexpr int kTrials = 6;
@@ -244,7 +242,7 @@ void CrossingWitness::tryPlane(Side& side, int vertex, const Cell& cell,
   const double least = m.dot(cell.lowestCorner(m));
   const double most = m.dot(cell.lowestCorner(-m));
   const double depth = 2 * (s - least) / (most - least) - 1;
-  if (!(depth < (best_ ? best_->depth : kDeepest))) return;
+  if (!(depth < (best_ ? best_->depth : kLeastPlaneDepth))) return;
   const Attempt attempt{&side, vertex, {m, s}, depth};
   if (certify(attempt, cell)) best_ = attempt;
 }

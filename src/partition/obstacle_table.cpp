@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "gaussian/constants.h"
 #include "partition/piece_slabs.h"
 #include "partition/support_slabs.h"
 
@@ -13,8 +13,6 @@ namespace fcl_prob::detail {
 
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kUnboundedSlab = 1e300;
 constexpr std::size_t kBlockDoubles = 1 << 16;
 
 // With more slabs than this two polytopes are quicker examined by their support functions.
@@ -85,8 +83,8 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
   std::fill_n(data, kSlabFields * kLanes, 0.0);
   for (int k = 0; k < 3; ++k) data[k * kLanes] = m[k];
   for (int lane = 0; lane < kLanes; ++lane) {
-    data[3 * kLanes + lane] = -kUnboundedSlab;
-    data[4 * kLanes + lane] = kUnboundedSlab;
+    data[3 * kLanes + lane] = -kUnbounded;
+    data[4 * kLanes + lane] = kUnbounded;
   }
   data[3 * kLanes] = s - padding;
   data[5 * kLanes] = 2 * padding;

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "gaussian/constants.h"
+
 namespace fcl_prob::detail {
 
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kUnbounded = 1e300;
 
 /// An edge, and a bound on the terms that it is the sum of.
 struct Edge {

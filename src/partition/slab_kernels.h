@@ -105,4 +105,7 @@ SlabKernels portableSlabKernels();
 /// double precision.
 inline constexpr double kReach = 38.6;
 
+/// The offset of a slab that does not bound anything.
+inline constexpr double kUnbounded = 1e300;
+
 }  // namespace fcl_prob::detail

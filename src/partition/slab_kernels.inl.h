@@ -5,8 +5,8 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
+#include "gaussian/constants.h"
 #include "partition/slab_kernels.h"
 #include "partition/slab_planes.inl.h"
 

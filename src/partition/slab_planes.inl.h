@@ -8,14 +8,11 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
+#include "gaussian/constants.h"
 #include "partition/slab_kernels.h"
 
 namespace fcl_prob::detail {
-
-inline constexpr double kUnbounded = 1e300;
-inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 template <typename V4>
 struct SlabPlanesOver {

@@ -10,8 +10,6 @@ namespace fcl_prob::detail {
 
 namespace {
 
-constexpr double kUnbounded = 1e300;
-
 // The directions of a 26-DOP in the frame in which the obstacle is about as wide in every
 // direction, and the normals of flat sides.
 std::vector<Eigen::Vector3d> slabNormals(const SupportObstacle& obstacle) {

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "gaussian/constants.h"
+
 namespace fcl_prob::detail {
 
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 using LongVector = Eigen::Matrix<long double, 3, 1>;
 using LongMatrix = Eigen::Matrix<long double, 3, 3>;
 

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
 
 namespace fcl_prob {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using detail::kEpsilon;
 
 void validate(const std::vector<Bounds>& events) {
   for (const Bounds& event : events) {

@@ -7,13 +7,12 @@
 #include <limits>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "gaussian/normal_density.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargestDensity = 0.4;  // 1/sqrt(2 pi), rounded up
 
 // Widens by what rounding may have left out of a sum of masses.

@@ -9,13 +9,14 @@
 #include <string>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+using detail::kEpsilon;
 
 /// The first look at every component, to see which of them matter.
 constexpr double kCoarse = 0.3;

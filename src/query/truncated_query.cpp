@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
 #include "query/bounded_part.h"
@@ -16,8 +17,6 @@
 
 namespace fcl_prob::detail {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 void validateTruncatedRequest(const ProbabilityRequest& request) {
   validateRequest(request);

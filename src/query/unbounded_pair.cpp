@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "gaussian/constants.h"
 #include "geometry/geometry_kind.h"
 #include "query/line_intervals.h"
 #include "query/single_collide.h"
@@ -17,8 +17,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using LongVector = Eigen::Matrix<long double, 3, 1>;
 
 /// { normal·x <= offset } or, a surface, { normal·x = offset } in the world frame.
