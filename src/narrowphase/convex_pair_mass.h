@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The mass of a convex pair for a caller who may not have the time.
+// The mass and the bounds of a convex pair for a caller who may not have the time.
 #pragma once
 
 #include "fcl_prob/convex_pcd.h"
@@ -12,5 +12,10 @@ namespace fcl_prob::detail {
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                       const Interruption& interruption);
+
+/// convexPcd() until the interruption is due; the bounds are then those by support values.
+ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                          const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
+                          const Interruption& interruption);
 
 }  // namespace fcl_prob::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "cobstacle/c_obstacle.h"
@@ -18,6 +19,11 @@ namespace fcl_prob::detail {
 class PairBounds {
  public:
   static constexpr double kNeverEnough = std::numeric_limits<double>::infinity();
+
+  /// When it is due, the faces of a box stand for those of an obstacle.
+  void setInterruption(Interruption interruption) {
+    scratch_.interruption = std::move(interruption);
+  }
 
   /// \param enough  all bounds may be 1 if it is seen early that the least would be at least this
   ConvexPcdBounds bounds(const CObstacle& obstacle, double enough = kNeverEnough);

@@ -56,7 +56,7 @@ Bounds PairBounds::massOfSection(int rank, const Eigen::Vector3d& error, const M
 Bounds PairBounds::mass(const CObstacle& obstacle, const MassEffort& effort) {
   const PairFrame& frame = obstacle.frame();
   if (!frame.fits) return {0.0, 1.0};
-  scratch_.interruption = effort.interruption;
+  setInterruption(effort.interruption);
   const EnclosingFaces enclosing = obstacle.outerFaces(scratch_);
   const Eigen::Vector3d error = frame.whitened(enclosing.error);
   Bounds mass = frame.rank < 3

@@ -57,8 +57,10 @@ class ExactMass {
   }
 
   /// By support values, where the polytope around a curved body sticks out of it.
-  double boundOf(const ConvexBody& a, const ConvexBody& b) const {
-    return convexPcd(a, pair_.pose_a, b, pair_.pose_b, displacement_).least;
+  double boundOf(const ConvexBody& a, const ConvexBody& b) {
+    return detail::convexPcd(a, pair_.pose_a, b, pair_.pose_b, displacement_,
+                             limits_.interruption())
+        .least;
   }
 
   void narrow(const Bounds& mass) {

@@ -20,7 +20,7 @@ bool RequestLimits::poll() {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (request_.time_limit) {
     progress.fraction = std::clamp(progress.seconds / *request_.time_limit, progress.fraction, 1.0);
-    if (progress.seconds >= *request_.time_limit) reason_ = ProbabilityStatus::time_limit;
+    if (progress.seconds >= share_ * *request_.time_limit) reason_ = ProbabilityStatus::time_limit;
   }
   if (!reason_ && request_.on_progress && !request_.on_progress(progress)) {
     reason_ = ProbabilityStatus::cancelled;

@@ -16,7 +16,9 @@ namespace fcl_prob::detail {
 /// The clock starts when this is made.
 class RequestLimits {
  public:
-  explicit RequestLimits(const ProbabilityRequest& request) : request_(request) {}
+  /// \param share  of the time limit
+  explicit RequestLimits(const ProbabilityRequest& request, double share = 1.0)
+      : request_(request), share_(share) {}
 
   /// Looks at the limits at every 64th call. What is done in fewer is never interrupted.
   /// Refers to this object.
@@ -37,6 +39,7 @@ class RequestLimits {
   bool poll();
 
   const ProbabilityRequest& request_;
+  double share_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::size_t polls_ = 0;
   Bounds interval_{0.0, 1.0};

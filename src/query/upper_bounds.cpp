@@ -4,16 +4,21 @@
 
 #include <algorithm>
 
-#include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/general_pcd.h"
+#include "narrowphase/convex_pair_mass.h"
 #include "query/request_limits.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-double rootBound(const PlacedPair& pair, const GaussianDisplacement& displacement) {
-  return convexPcd(pair.a.rootBody(), pair.pose_a, pair.b.rootBody(), pair.pose_b, displacement)
+/// Of the time limit, for a first bound that is seldom the answer.
+constexpr double kShareOfRootBound = 0.1;
+
+double rootBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
+                 RequestLimits& limits) {
+  return detail::convexPcd(pair.a.rootBody(), pair.pose_a, pair.b.rootBody(), pair.pose_b,
+                           displacement, limits.interruption())
       .least;
 }
 
@@ -30,7 +35,9 @@ ProbabilityResult boundedBy(double upper, const ProbabilityRequest& request) {
 
 ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request) {
-  ProbabilityResult result = boundedBy(rootBound(pair, displacement), request);
+  RequestLimits limits(request);
+  ProbabilityResult result = boundedBy(rootBound(pair, displacement, limits), request);
+  result.status = limits.reason().value_or(result.status);
   result.statistics.pairs_tested = 1;
   result.plan.push_back(
       "ConvexPCD: the least of the bounds by half-space, box and divergence theorem");
@@ -63,16 +70,22 @@ ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplace
 std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,
                                                      const GaussianDisplacement& displacement,
                                                      const ProbabilityRequest& request) {
-  const double upper = rootBound(pair, displacement);
+  RequestLimits limits(request, kShareOfRootBound);
+  const double upper = rootBound(pair, displacement, limits);
   const double tolerance = std::max(request.absolute_tolerance, request.relative_tolerance * upper);
   const bool decided = request.threshold && upper < *request.threshold;
-  if (!decided && upper > tolerance) return std::nullopt;
+  const bool cancelled = limits.reason() == ProbabilityStatus::cancelled;
+  if (!decided && upper > tolerance && !cancelled) return std::nullopt;
   ProbabilityResult result = boundedBy(upper, request);
   result.method = ProbabilityMethod::interval;
   result.lower = 0.0;
-  result.status = decided ? ProbabilityStatus::decided : ProbabilityStatus::converged;
+  result.status = decided              ? ProbabilityStatus::decided
+                  : upper <= tolerance ? ProbabilityStatus::converged
+                                       : ProbabilityStatus::cancelled;
   result.statistics.pairs_tested = 1;
-  result.plan.push_back("far apart: stopped at the bound of the root volumes, trees left out");
+  result.plan.push_back(decided || upper <= tolerance
+                            ? "far apart: stopped at the bound of the root volumes, trees left out"
+                            : "cancelled at the bound of the root volumes");
   return result;
 }
 

@@ -28,7 +28,7 @@ ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplace
                                   const ProbabilityRequest& request);
 
 /// The answer of the partition, if the root volumes alone are so unlikely to meet that [0, bound]
-/// is within the tolerance or decides the threshold.
+/// is within the tolerance or decides the threshold, or if it is cancelled before more is known.
 std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,
                                                      const GaussianDisplacement& displacement,
                                                      const ProbabilityRequest& request);

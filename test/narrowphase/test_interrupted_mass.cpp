@@ -55,6 +55,11 @@ TEST_CASE("the mass of a convex pair interrupted at any moment", "[narrowphase]"
       const auto [whole, polls] = massUntil(std::numeric_limits<long>::max());
       CHECK(whole.width() < 0.2 * whole.upper);
       CHECK(massUntil(1).first.lower == 0.0);
+      const auto bounds = [&, a = a, b = b](bool interrupted) {
+        return detail::convexPcd(*a, pose_a, *b, pose_b, displacement, [=] { return interrupted; });
+      };
+      CHECK(bounds(true).least >= whole.lower);
+      CHECK(bounds(false).least >= whole.lower);
       CHECK(massUntil(polls).first.lower <= whole.lower);
       for (int i = 0; i < 10; ++i) {
         const Bounds mass = massUntil(random.integer(1, static_cast<int>(polls))).first;
