@@ -5,6 +5,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports std::string's operator+ (its bug 105651) and std::regex under sanitizers (105562).
   target_compile_options(fcl_prob_settings INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
+# Of classes that keep to one file, but in a unity build GCC takes every file for a header.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(fcl_prob_settings INTERFACE -Wno-subobject-linkage)
+endif()
 # Results must not depend on which instruction set a kernel was compiled for.
 target_compile_options(fcl_prob_settings INTERFACE -ffp-contract=off)
 if(FCL_PROB_WERROR)
