@@ -3,9 +3,9 @@
 #include "partition/cell_examiner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "partition/covering_plane.h"
+#include <limits>
 
 namespace fcl_prob::detail {
 
@@ -27,18 +27,21 @@ constexpr double kWidestIntegrated = 2.5;
 // share of its mass.
 constexpr double kCutBack = 0.8;
 
-// Pairs whose plane is looked at for a cell that none covers under a single plane: how many, how
-// many planes of each may cut the cell, and the least share of the cell that is worth having.
+// Pairs of which a part of a cell is looked at: how many, of how many of them the mass is taken,
+// and the least share of the cell that is worth having.
 constexpr int kMostTried = 32;
-constexpr int kMostSides = 6;
+constexpr int kMostMeasured = 2;
 constexpr double kLeastCovered = 0.02;
+
+// For a gradient a part's moment should not be known worse than the rest of its cell.
+constexpr double kMomentShare = 0.05;
 
 // Nodes opened to see how low the pairs of a cell reach below the plane of a witness.
 constexpr int kMostOpened = 1000;
 
 // Only with longer fronts than this a proof by topology is tried. It settles deep cells that no
 // pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
-constexpr std::size_t kLongFront = 50;
+constexpr std::size_t kLongFront = 100;
 
 double largestWidth(const Cell& cell) {
   double width = 0.0;
@@ -246,46 +249,90 @@ void CellExaminer::openWithoutPlane() {
   if (open.front.empty()) return settleFree(cell);
   settleAround(box);
   open.cell = box;
-  open.within = box;
   open.upper = cellMass(box).upper;
   open.drawn = open.upper;
-  addPlane(open);
+  addPart(open);
   result_.open = std::move(open);
 }
 
-// Tightens an open cell by the plane of the pair that covers most of it beside its other planes.
-void CellExaminer::addPlane(OpenCell& open) const {
-  if (!maySkim(open.cell)) return;
-  CoveringPlane best;
+// The part of an open cell that one pair covers, up to `most` planes of which cut the cell: of the
+// few that seem to cover most the best.
+ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& mass) {
+  std::array<ObstaclePart, kMostMeasured> best;
   int tried = 0;
   for (const CuttingPair& cutting : front_.cutting()) {
-    if (cutting.sides > kMostSides) continue;
+    if (cutting.sides > most || cutting.layered || front_.slabs(cutting.pair).outer_only) continue;
     if (++tried > kMostTried) break;
-    const CoveringPlane plane = coveringPlane(front_.slabs(cutting.pair), open.cell);
-    if (plane.share > best.share) best = plane;
-  }
-  if (best.share < kLeastCovered || best.within.empty()) return;
-  const Eigen::Vector3d& m = best.inner.m;
-  open.possible_from = best.outer;
-  for (const FrontPair& pair : open.front) {
-    double lowest = front_.lowestOfBox(pair, m);
-    if (lowest < open.possible_from && pair.obstacle >= 0) {
-      lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+    ObstaclePart part = obstaclePart(front_.slabs(cutting.pair), open.cell, most);
+    for (ObstaclePart& other : best) {
+      if (part.share > other.share) std::swap(part, other);
     }
-    open.possible_from = std::min(open.possible_from, lowest);
   }
-  open.has_plane = true;
-  open.covered = best.inner;
-  open.within = best.within;
-  weigh(open);
+  ObstaclePart largest;
+  const PartMeasure measure(open.cell);
+  for (ObstaclePart& candidate : best) {
+    if (candidate.share < kLeastCovered) break;
+    CoveredPart& part = candidate.part;
+    if (open.plane_covers) part.planes[part.count++] = {-open.plane.m, -open.plane.s};
+    const double covered = measure.mass(part, cutter_);
+    const double gap = open.gap() - covered;
+    if (with_moments_ && covered * measure.bend() > kMomentShare * gap) continue;
+    if (covered > mass) {
+      mass = covered;
+      largest = candidate;
+    }
+  }
+  return largest;
 }
 
-// The masses of an open cell with a plane.
-void CellExaminer::weigh(OpenCell& open) const {
-  const Eigen::Vector3d& m = open.covered.m;
-  open.lower = cellHalfSpaceMass(open.within, m, open.covered.s, kOpenAccuracy).lower;
+// Lower bound of m·y over all that may collide in an open cell.
+double CellExaminer::lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const {
+  double result = std::numeric_limits<double>::infinity();
+  for (const FrontPair& pair : open.front) {
+    double lowest = front_.lowestOfBox(pair, m);
+    if (lowest < result && pair.obstacle >= 0) {
+      lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+    }
+    result = std::min(result, lowest);
+  }
+  return result;
+}
+
+// Tightens an open cell by the pair that covers most of it.
+void CellExaminer::addPart(OpenCell& open) {
+  if (!maySkim(open.cell)) return;
+  double mass = kLeastCovered * open.upper;
+  const ObstaclePart best = largestPart(open, CoveredPart::kMostPlanes, mass);
+  if (best.share <= 0.0) return;
+  // What may collide, along the normals of all planes of the part.
+  CoveredPart possible = best.part;
+  for (int i = 0; i < possible.count; ++i) {
+    possible.planes[i].s = lowestOfFront(open, possible.planes[i].m);
+  }
+  const Eigen::Vector3d& m = possible.planes[0].m;
+  open.possible_from = possible.planes[0].s;
+  open.has_plane = true;
+  open.plane = best.part.planes[0];
+  open.part = best.part;
+  open.lower = mass;
   open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
-  open.drawn = open.coversToTheSides() ? open.gap() : open.upper;
+  if (possible.count > 1)
+    open.upper = std::min(open.upper, PartMeasure(open.cell).massAtMost(possible, cutter_));
+  open.upper = std::max(mass, open.upper);
+  open.drawn = open.upper;
+}
+
+// The masses of an open cell with a plane that covers.
+void CellExaminer::weigh(OpenCell& open) {
+  const Eigen::Vector3d& m = open.plane.m;
+  open.lower = cellHalfSpaceMass(open.cell, m, open.plane.s, kOpenAccuracy).lower;
+  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
+  open.drawn = open.gap();
+  double mass = kLeastCovered * open.gap();
+  const ObstaclePart below = largestPart(open, CoveredPart::kMostPlanes - 1, mass);
+  if (below.share <= 0.0) return;
+  open.part = below.part;
+  open.lower = std::min(open.upper, open.lower + mass);
 }
 
 // The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
@@ -335,25 +382,30 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
 
   open.cell = cell;
   open.has_plane = true;
-  open.covered = leader.inner;
+  open.plane_covers = true;
+  open.plane = leader.inner;
   if (cellMass(box).upper < kCutBack * cellMass(cell).upper) {
     settlePart(cell, leader.inner, 1.0);
     settlePart(box, leader.inner, -1.0);
     open.cell = box;
   }
-  open.within = open.cell;
   weigh(open);
   result_.open = std::move(open);
 }
 
 SettledMass CellExaminer::coveredPart(const OpenCell& open) const {
-  SettledMass part;
-  if (!open.has_plane) return part;
-  part.mass = {open.lower, open.lower};
-  const Moment moment = cellHalfSpaceMoment(open.within, open.covered.m, open.covered.s);
-  part.moment = moment.value;
-  part.moment_error = moment.error;
-  return part;
+  SettledMass covered;
+  covered.mass = {open.lower, open.lower};
+  if (open.plane_covers) {
+    const Moment moment = cellHalfSpaceMoment(open.cell, open.plane.m, open.plane.s);
+    covered.moment += moment.value;
+    covered.moment_error += moment.error;
+  }
+  CubeCutter cutter;
+  const Moment moment = PartMeasure(open.cell).moment(open.part, cutter);
+  covered.moment += moment.value;
+  covered.moment_error += moment.error;
+  return covered;
 }
 
 }  // namespace fcl_prob::detail

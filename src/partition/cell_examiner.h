@@ -47,8 +47,10 @@ class CellExaminer {
   CrossingWitness* witness();
   void openWithoutPlane();
   bool maySkim(const Cell& cell) const;
-  void addPlane(OpenCell& open) const;
-  void weigh(OpenCell& open) const;
+  ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
+  double lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const;
+  void addPart(OpenCell& open);
+  void weigh(OpenCell& open);
   void openWithPlane(const CuttingPair& leader);
 
   const WhitenedPair& pair_;
@@ -57,6 +59,7 @@ class CellExaminer {
   const SolidContact* solids_;
   bool with_moments_;
   ProbabilityStatistics& statistics_;
+  CubeCutter cutter_;
   Examination result_;
   std::vector<FrontPair> near_;
 };

@@ -74,6 +74,21 @@ Eigen::Vector3d largestCoordinates(const Cell& cell) {
 
 }  // namespace
 
+SampledMass average(const SampledMass& a, const SampledMass& b) {
+  SampledMass sum;
+  sum.samples = a.samples + b.samples;
+  const double share_a = static_cast<double>(a.samples) / static_cast<double>(sum.samples);
+  const double share_b = 1.0 - share_a;
+  sum.mass = share_a * a.mass + share_b * b.mass;
+  sum.variance = share_a * share_a * a.variance + share_b * share_b * b.variance;
+  sum.doubt = share_a * a.doubt + share_b * b.doubt;
+  sum.moment = share_a * a.moment + share_b * b.moment;
+  sum.moment_variance =
+      share_a * share_a * a.moment_variance + share_b * share_b * b.moment_variance;
+  sum.moment_doubt = share_a * a.moment_doubt + share_b * b.moment_doubt;
+  return sum;
+}
+
 CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
                          const SolidContact* solids, std::uint64_t seed)
     : tester_(pair, obstacles, solids), seed_(seed) {}
@@ -87,7 +102,7 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const Eigen::Vector3d&
   if (open.has_plane) {
     steepest = 0;
     for (int k = 1; k < cell.rank; ++k) {
-      if (std::fabs(open.covered.m[k]) > std::fabs(open.covered.m[steepest])) steepest = k;
+      if (std::fabs(open.plane.m[k]) > std::fabs(open.plane.m[steepest])) steepest = k;
     }
   }
   double along = 0.0;
@@ -95,13 +110,12 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const Eigen::Vector3d&
     if (k == steepest) continue;
     result.point[k] = truncatedNormal(cell.lo[k], cell.hi[k], uniform[k]);
     result.weight *= normalIntervalMass(cell.lo[k], cell.hi[k]);
-    if (open.has_plane) along += open.covered.m[k] * result.point[k];
+    if (open.has_plane) along += open.plane.m[k] * result.point[k];
   }
   if (steepest < 0) return result;
-  const double slope = open.covered.m[steepest];
+  const double slope = open.plane.m[steepest];
   double lo = (open.possible_from - along) / slope;
-  // To the sides of `within` the open part reaches above the plane.
-  const double end = open.coversToTheSides() ? open.covered.s : 2 * kReach;
+  const double end = open.plane_covers ? open.plane.s : 2 * kReach;
   double hi = (end - along) / slope;
   if (slope < 0) std::swap(lo, hi);
   lo = std::clamp(lo, cell.lo[steepest], cell.hi[steepest]);
@@ -117,12 +131,13 @@ CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64
                                                int in_set) {
   points_.clear();
   weights_.clear();
+  const PartMeasure measure(cell.cell);
   for (int set = 0; set < kSets; ++set) {
     const std::uint64_t number = kSets * calls_ + static_cast<std::uint64_t>(set);
     const Eigen::Vector3d shift = uniformPoint(seed_, index, number);
     for (int i = 0; i < in_set; ++i) {
       const Draw drawn = draw(cell, evenPoint(shift, i));
-      const bool counted = drawn.weight > 0.0 && !cell.covers(drawn.point);
+      const bool counted = drawn.weight > 0.0 && !measure.counts(cell.part, drawn.point);
       points_.push_back({drawn.point, !counted, false});
       weights_.push_back(counted ? drawn.weight / in_set : 0.0);
     }
@@ -160,7 +175,6 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
   const double sets_per_deviation = deviation > 0.0 ? count / kSets / deviation : 0.0;
   constexpr double kVariance = 1.0 / (kSets * (kSets - 1.0));
   SampledMass total;
-  Eigen::Vector3d moment_doubt = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const double in_set = sets_per_deviation * cells[i].samplingDeviation();
     const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
@@ -172,12 +186,9 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
     const Eigen::Vector3d least_moment = least * largestCoordinates(cells[i].cell).cwiseAbs2();
     total.moment_variance += (kVariance * means.moment_spread).cwiseMax(least_moment);
     total.doubt += means.doubt;
-    moment_doubt += means.doubt * largestCoordinates(cells[i].cell);
+    total.moment_doubt += means.doubt * largestCoordinates(cells[i].cell);
     total.samples += kSets * static_cast<std::size_t>(n);
   }
-  // Not an error of chance: it does not average out over the cells.
-  total.variance += total.doubt * total.doubt;
-  total.moment_variance += moment_doubt.cwiseAbs2();
   ++calls_;
   return total;
 }

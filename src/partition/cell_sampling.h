@@ -3,6 +3,7 @@
 // The estimate: stratified sampling of what the partition leaves open.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -12,12 +13,19 @@ namespace fcl_prob::detail {
 
 struct SampledMass {
   double mass = 0.0;
-  double variance = 0.0;  ///< with the square of `doubt`
-  double doubt = 0.0;     ///< of `mass`: samples that may collide or not, within rounding
+  double variance = 0.0;
+  double doubt = 0.0;  ///< of `mass`: samples that may collide or not, within rounding
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_variance = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_doubt = Eigen::Vector3d::Zero();
   std::size_t samples = 0;
+
+  /// Of chance and of doubt, which does not average out.
+  double standardError() const { return std::sqrt(variance + doubt * doubt); }
 };
+
+/// Of two sets of samples of the same cells, each counted by its size.
+SampledMass average(const SampledMass& a, const SampledMass& b);
 
 /// Unbiased estimate of the mass (and of ∫ y φ(y) dy) that collides in the uncertain part of each
 /// open cell: what lies below its covered half-space. Some sets of samples a cell, fixed by the

@@ -37,7 +37,7 @@ CellSplit chooseSplit(const OpenCell& open, const Eigen::Vector3d& scales) {
   for (int i = 0; i < cell.rank; ++i) {
     // In the tail the density falls by e over 1 / |y|.
     const double nearest = std::max({cell.lo[i], -cell.hi[i], 1.0});
-    const double across = open.has_plane ? std::fabs(open.covered.m[i]) : 0.0;
+    const double across = open.has_plane ? std::fabs(open.plane.m[i]) : 0.0;
     const double weight = (i == 0 ? kDepthWeight : 1.0) * (1.0 + kPlaneWeight * across);
     const double width = cell.hi[i] - cell.lo[i];
     const double score = width / scales[i] * nearest * weight;

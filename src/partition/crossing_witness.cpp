@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kCandidates = 64;
 
 // Vertices of each mesh near the front that are tried for a plane.
-constexpr std::size_t kTriedForPlane = 8;
+constexpr std::size_t kTriedForPlane = 4;
 
 // A cell in which a swept vertex touches more triangles than this is left to be divided.
 constexpr std::size_t kMostTouched = 400;

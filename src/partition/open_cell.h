@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "partition/cell_mass.h"
+#include "partition/covered_part.h"
 #include "partition/whitened_tree.h"
 
 namespace fcl_prob::detail {
@@ -23,35 +23,21 @@ struct FrontPair {
   bool isHalfSpace() const { return nodes.a < 0; }
 };
 
-/// A half-space { m·y >= s } of the whitened frame, m a unit vector.
-struct CellPlane {
-  Eigen::Vector3d m = Eigen::Vector3d::Zero();
-  double s = 0.0;
-};
-
-/// An unresolved cell. `covered.m·y >= covered.s` certainly collides (if has_plane), and nothing
-/// below `possible_from` along the same direction does.
+/// An unresolved cell. With a plane, nothing below `possible_from` along its normal collides; if it
+/// covers, all above it certainly does. So does `part`, which has none of that.
 struct OpenCell {
   Cell cell;
   std::vector<FrontPair> front;
   bool has_plane = false;
-  CellPlane covered;
-  Cell within{};
+  bool plane_covers = false;
+  CellPlane plane;
+  CoveredPart part;
   double possible_from = 0.0;
   double lower = 0.0;  ///< certified mass that collides
   double upper = 0.0;  ///< certified mass that may collide
   double drawn = 0.0;  ///< mass of the set from which samples of the open part are drawn
 
   double gap() const { return upper - lower; }
-
-  /// `within` is the whole cell: only what lies between the planes is open.
-  bool coversToTheSides() const { return within.lo == cell.lo && within.hi == cell.hi; }
-
-  /// Whether a point of the cell is in the covered part.
-  bool covers(const Eigen::Vector3d& y) const {
-    return has_plane && covered.m.dot(y) >= covered.s && (y.array() >= within.lo.array()).all() &&
-           (y.array() <= within.hi.array()).all();
-  }
 
   /// Bound on the standard deviation of one sample of the open mass: it is drawn from a set of mass
   /// `drawn` and is 0 or that mass, with a mean of at most the gap.

@@ -72,7 +72,7 @@ void fillGradient(const QueryFrame& frame, const MomentBounds& moment, Probabili
 void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
                   const SampledMass& sampled, bool with_gradient, ProbabilityResult& result) {
   result.estimate = engine.estimate(sampled);
-  result.standard_error = std::sqrt(sampled.variance);
+  result.standard_error = sampled.standardError();
   result.statistics.samples = sampled.samples;
   if (!with_gradient) return;
   Eigen::Matrix3d moving = frame.whitening.matrix();
@@ -80,7 +80,9 @@ void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
   Eigen::Vector3d moment = engine.settled().moment + sampled.moment;
   for (const OpenCell& cell : engine.openCells()) moment += engine.coveredPart(cell).moment;
   result.gradient = moving.transpose() * moment;
-  const Eigen::Vector3d variance = moving.cwiseAbs2().transpose() * sampled.moment_variance;
+  const Eigen::Vector3d doubt = moving.cwiseAbs().transpose() * sampled.moment_doubt;
+  const Eigen::Vector3d variance =
+      moving.cwiseAbs2().transpose() * sampled.moment_variance + doubt.cwiseAbs2();
   result.gradient_standard_error = variance.cwiseSqrt();
 }
 
@@ -122,24 +124,36 @@ ProbabilityResult withoutContact(const ProbabilityRequest& request) {
   return result;
 }
 
-// Samples what the engine leaves open. Where that varies more than expected, more cells are
-// divided.
+// A standard error that is larger than asked for by no more than this factor is made smaller by
+// more samples of the same cells, otherwise by dividing them, too.
+constexpr double kMostDrawnAgain = 1.6;
+
+// Samples what the engine leaves open. Where that varies more than expected, more samples are drawn
+// or more cells are divided.
 SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
                             ProbabilityStatus& status) {
   constexpr int kMostRounds = 4;
   constexpr double kReserve = 1.1;
-  SampledMass sampled = sampler.sample(engine.openCells(), engine.samplesToDraw(status));
+  double drawn = engine.samplesToDraw(status);
+  SampledMass sampled = sampler.sample(engine.openCells(), drawn);
   for (int round = 1; round < kMostRounds && status == ProbabilityStatus::converged; ++round) {
     const double target = engine.targetError(engine.estimate(sampled));
     if (sampled.doubt > target) {
       status = ProbabilityStatus::resolution_limit;
       break;
     }
-    const double ratio = std::sqrt(sampled.variance) / target;
+    const double ratio = sampled.standardError() / target;
     if (!(ratio > 1.0)) break;
+    if (ratio <= kMostDrawnAgain) {
+      const double more = (kReserve * ratio * ratio - 1.0) * drawn;
+      sampled = average(sampled, sampler.sample(engine.openCells(), more));
+      drawn += more;
+      continue;
+    }
     engine.expectDeviation(kReserve * ratio);
     status = engine.run(true);
-    sampled = sampler.sample(engine.openCells(), engine.samplesToDraw(status));
+    drawn = engine.samplesToDraw(status);
+    sampled = sampler.sample(engine.openCells(), drawn);
   }
   return sampled;
 }
