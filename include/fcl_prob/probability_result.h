@@ -55,7 +55,8 @@ struct ProbabilityResult {
   std::optional<double> lower;
   std::optional<double> upper;
 
-  /// An estimate (not certified) and its standard error.
+  /// An estimate (not certified) and its standard error, which includes what rounding leaves open of
+  /// single samples.
   std::optional<double> estimate;
   std::optional<double> standard_error;
 

@@ -27,10 +27,10 @@ struct SampledMass {
 /// Of two sets of samples of the same cells, each counted by its size.
 SampledMass average(const SampledMass& a, const SampledMass& b);
 
-/// Unbiased estimate of the mass (and of ∫ y φ(y) dy) that collides in the uncertain part of each
-/// open cell: what lies below its covered half-space. Some sets of samples a cell, fixed by the
-/// seed, whose differences give the variance; each set is spread evenly over the cell. A sample is
-/// tested against the cell's own front only.
+/// Estimate of the mass (and of ∫ y φ(y) dy) that collides in the open part of each open cell: what
+/// is known of neither its plane nor its part. Some sets of samples a cell, fixed by the seed,
+/// whose differences give the variance; each set is spread evenly over the cell. A sample is tested
+/// against the cell's own front only.
 class CellSampler {
  public:
   CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
