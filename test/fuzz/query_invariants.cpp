@@ -83,10 +83,11 @@ std::optional<ProbabilityResult> answerOf(const PairScene& scene) {
     return result;
   } catch (const UnsupportedGeometry&) {
   } catch (const OpenMesh&) {
-  } catch (const InvalidGeometry&) {
   } catch (const InvalidRequest&) {
+  } catch (const InvalidGeometry&) {
+    // Lengths whose squares overflow; so may translations and means.
+  } catch (const InvalidPose&) {
   } catch (const InvalidDistribution&) {
-    // Shapes so large that the squares of their lengths overflow.
   }
   return std::nullopt;
 }
