@@ -28,8 +28,9 @@ none. Poses turned in space are rounded, which moves P a little: there, P is an 
 
 What falls short does so for one of these reasons. Where σ is many orders below sizes or positions,
 rounding of those is no longer small beside σ. Where nothing moves along an axis and faces touch to
-the last bit, contact cannot be told from none within rounding: the interval holds both. Far out in
-the tail a slanted or curved surface takes more cells than the limit. An estimate's standard error
+the last bit, contact cannot be told from none within rounding: the interval holds both, and the
+standard error of an estimate says so. Far out in the tail a slanted or curved surface takes more
+cells than the limit. An estimate's standard error
 comes from few samples a cell, and is too small where all of them happen to agree: such an estimate
 can be off by more than that, though never by more than its interval.
 )";
