@@ -106,8 +106,7 @@ ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most) {
     const double middle = n.dot(center);
     const double radius = n.cwiseAbs().dot(half);
     for (const double sign : {1.0, -1.0}) {
-      const double outer = sign > 0 ? slabs.hi()[i] : -slabs.lo()[i];
-      const double inner = outer - slabs.margin()[i];
+      const double inner = (sign > 0 ? slabs.hi()[i] : -slabs.lo()[i]) - slabs.margin()[i];
       const double excess = sign * middle + radius - inner + kRounding;
       if (excess <= 0) continue;
       if (part.count == most || !(excess < 2 * radius)) {
@@ -118,7 +117,6 @@ ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most) {
       share *= 1.0 - 0.5 * excess / radius;
       if (excess / radius > deepest) {
         deepest = excess / radius;
-        result.outer = -outer;
         std::swap(part.planes[0], part.planes[part.count - 1]);
       }
     }

@@ -34,19 +34,20 @@ class PartMeasure {
  public:
   explicit PartMeasure(const Cell& cell);
 
+  /// Certainly not above the mass of the part.
   double mass(const CoveredPart& part, CubeCutter& cutter) const;
 
-  /// Certainly not below the mass of the part.
+  /// Certainly not below it.
   double massAtMost(const CoveredPart& part, CubeCutter& cutter) const;
 
   /// ∫ y φ(y) dy over the subset of the part whose mass mass() gives.
   Moment moment(const CoveredPart& part, CubeCutter& cutter) const;
 
-  /// The largest distance along an axis that this error comes from.
-  double bend() const { return bend_.maxCoeff(); }
-
   /// Whether a point of the cell is in that subset.
   bool counts(const CoveredPart& part, const Eigen::Vector3d& y) const;
+
+  /// How far a coordinate may be off what is taken for it: the larger, the more a bound loses.
+  double bend() const { return bend_.maxCoeff(); }
 
  private:
   CubePlane planeWithin(const CellPlane& plane, double sign) const;
@@ -62,7 +63,6 @@ class PartMeasure {
 /// one that cuts most of it first.
 struct ObstaclePart {
   CoveredPart part;
-  double outer = 0.0;  ///< the obstacle lies in {planes[0].m·y >= outer}
   double share = 0.0;  ///< roughly, of the cell that is covered; 0 if there is no part
 };
 
