@@ -10,8 +10,6 @@
 
 namespace fcl_prob::detail {
 
-namespace {}  // namespace
-
 CappedTree::CappedTree(const WhitenedTree& mesh) : mesh_(&mesh) {
   for (const MeshCaps::Cap& cap : caps().caps) {
     cap_boxes_.push_back(boxOfCapTriangles(cap.first, cap.last));

@@ -269,6 +269,7 @@ ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& m
     }
   }
   ObstaclePart largest;
+  if (best[0].share < kLeastCovered) return largest;
   const PartMeasure measure(open.cell);
   for (ObstaclePart& candidate : best) {
     if (candidate.share < kLeastCovered) break;

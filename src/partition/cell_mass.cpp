@@ -8,21 +8,19 @@
 
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/constants.h"
+#include "gaussian/normal_density.h"
 #include "partition/gauss_rule.h"
 
 namespace fcl_prob::detail {
 
 namespace {
 
-constexpr double kInverseSqrt2Pi = 0.39894228040143267794;
-constexpr double kInverseSqrt2 = 0.70710678118654752440;
-
 // Half as wide as a piece of a quadrature may be to start with, in standard deviations.
 constexpr double kPieceWidth = 1.0;
 
-double density(double y) { return kInverseSqrt2Pi * std::exp(-0.5 * y * y); }
+double density(double y) { return kInverseSqrtTwoPi * std::exp(-0.5 * y * y); }
 
-double tail(double y) { return 0.5 * std::erfc(y * kInverseSqrt2); }
+double tail(double y) { return 0.5 * std::erfc(y * kInverseSqrtTwo); }
 
 // The largest density at a distance of at most `margin` from [lo, hi].
 double largestDensity(double lo, double hi, double margin) {

@@ -24,6 +24,9 @@ struct Cell {
   /// Without interior along an axis that moves, or settled.
   bool empty() const;
 
+  /// The largest |y_k| of its points, for each axis.
+  Eigen::Vector3d largestCoordinates() const { return lo.cwiseAbs().cwiseMax(hi.cwiseAbs()); }
+
   /// The corner where m·y is least.
   Eigen::Vector3d lowestCorner(const Eigen::Vector3d& m) const {
     return (m.array() > 0).select(lo, hi);

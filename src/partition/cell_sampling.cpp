@@ -67,11 +67,6 @@ double varianceWhereAllAgree(const OpenCell& cell, int samples) {
   return cell.drawn * cell.drawn * other * (1.0 - other) / samples;
 }
 
-// The largest coordinates in a cell.
-Eigen::Vector3d largestCoordinates(const Cell& cell) {
-  return cell.lo.cwiseAbs().cwiseMax(cell.hi.cwiseAbs());
-}
-
 }  // namespace
 
 SampledMass average(const SampledMass& a, const SampledMass& b) {
@@ -183,10 +178,10 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
     const double least = means.agree ? varianceWhereAllAgree(cells[i], kSets * n) : 0.0;
     total.variance += std::max(least, kVariance * means.mass_spread);
     total.moment += means.moment;
-    const Eigen::Vector3d least_moment = least * largestCoordinates(cells[i].cell).cwiseAbs2();
+    const Eigen::Vector3d least_moment = least * cells[i].cell.largestCoordinates().cwiseAbs2();
     total.moment_variance += (kVariance * means.moment_spread).cwiseMax(least_moment);
     total.doubt += means.doubt;
-    total.moment_doubt += means.doubt * largestCoordinates(cells[i].cell);
+    total.moment_doubt += means.doubt * cells[i].cell.largestCoordinates();
     total.samples += kSets * static_cast<std::size_t>(n);
   }
   ++calls_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/normal_density.h"
 
 namespace fcl_prob::detail {
 
@@ -14,14 +15,12 @@ namespace {
 // Rounding of a sum of products of unit normals and points within reach.
 constexpr double kRounding = 1e-12;
 
-constexpr double kDensityAtZero = 0.39894228040143267794;
-
 // Along one axis y(t) is the inverse of the share of mass below y: y'' = y y'² and y' = mass /
 // φ(y), so that y is off its chord by at most max |y''| / 8.
-double bendOf(double lo, double hi) {
+double bendOf(double lo, double hi, double mass) {
   const double farthest = std::max(std::fabs(lo), std::fabs(hi));
-  const double density = kDensityAtZero * std::exp(-0.5 * farthest * farthest);
-  const double slope = normalIntervalMass(lo, hi) / density;
+  const double density = kInverseSqrtTwoPi * std::exp(-0.5 * farthest * farthest);
+  const double slope = mass / density;
   const double bend = farthest * slope * slope / 8 * (1 + 1e-12);
   return bend < hi - lo ? bend : hi - lo;  // also where the density underflows
 }
@@ -31,9 +30,13 @@ double bendOf(double lo, double hi) {
 PartMeasure::PartMeasure(const Cell& cell)
     : cell_(cell),
       width_(cell.hi - cell.lo),
+      axis_mass_(Eigen::Vector3d::Ones()),
       bend_(Eigen::Vector3d::Zero()),
       whole_(cellMass(cell)) {
-  for (int k = 0; k < cell.rank; ++k) bend_[k] = bendOf(cell.lo[k], cell.hi[k]);
+  for (int k = 0; k < cell.rank; ++k) {
+    axis_mass_[k] = normalIntervalMass(cell.lo[k], cell.hi[k]);
+    bend_[k] = bendOf(cell.lo[k], cell.hi[k], axis_mass_[k]);
+  }
 }
 
 // Within the half-space (sign 1), or around it (sign -1).
@@ -75,7 +78,7 @@ Moment PartMeasure::moment(const CoveredPart& part, CubeCutter& cutter) const {
     if (cell_.lo[k] >= 0) off[k] = -0.5 * bend_[k];
     if (cell_.hi[k] <= 0) off[k] = 0.5 * bend_[k];
   }
-  const double largest = cell_.lo.cwiseAbs().cwiseMax(cell_.hi.cwiseAbs()).maxCoeff();
+  const double largest = cell_.largestCoordinates().maxCoeff();
   const double rounding = 10 * CubeCutter::kError * (largest + width_.maxCoeff());
   return {whole_.lower * (cube->volume * (cell_.lo + off) + width_.cwiseProduct(cube->moment)),
           whole_.lower * (cube->volume * (bend_ - off.cwiseAbs()).maxCoeff() + rounding)};
@@ -85,7 +88,7 @@ bool PartMeasure::counts(const CoveredPart& part, const Eigen::Vector3d& y) cons
   if (part.count == 0) return false;
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
   for (int k = 0; k < cell_.rank; ++k) {
-    t[k] = normalIntervalMass(cell_.lo[k], y[k]) / normalIntervalMass(cell_.lo[k], cell_.hi[k]);
+    t[k] = normalIntervalMass(cell_.lo[k], y[k]) / axis_mass_[k];
   }
   for (int i = 0; i < part.count; ++i) {
     const CubePlane plane = planeWithin(part.planes[i], 1.0);

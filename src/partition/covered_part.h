@@ -55,8 +55,9 @@ class PartMeasure {
 
   Cell cell_;
   Eigen::Vector3d width_;
-  Eigen::Vector3d bend_;  ///< bound on |y_k(t_k) - lo_k - width_k t_k|
-  Bounds whole_;          ///< mass of the cell
+  Eigen::Vector3d axis_mass_;  ///< of [lo_k, hi_k], for each axis that moves
+  Eigen::Vector3d bend_;       ///< bound on |y_k(t_k) - lo_k - width_k t_k|
+  Bounds whole_;               ///< mass of the cell
 };
 
 /// The obstacle's part of a cell, if no more than `most` planes of the obstacle cut the cell; the

@@ -194,17 +194,18 @@ struct SlabPlanesOver {
       extent.error[k] = error[k];
     }
     planes(p, q, kTriangleSlabs, extent, out);
-    closeFlat(p, q, scalesOf(extent), out);
+    closeFlat(p, q, extent, out);
     addExtents(base, edges_a, edges_b, out);
   }
 
   // A triangle without area, slab 0 or 1, may make an obstacle that is flat or a segment, which the
   // normals that are left do not bound sideways: slabs left out are put across it. Any slab holds
   // V.
-  static void closeFlat(const double* p, const double* q, const Scales& scales, double* out) {
+  static void closeFlat(const double* p, const double* q, const SlabExtent& extent, double* out) {
     constexpr int kCount = kTriangleSlabs;
     const bool flat = out[4 * kCount] >= kUnbounded || out[4 * kCount + 1] >= kUnbounded;
     if (!flat) return;
+    const Scales scales = scalesOf(extent);
     int kept = -1;
     for (int i = 0; i < kCount && kept < 0; ++i) {
       if (out[4 * kCount + i] < kUnbounded) kept = i;
