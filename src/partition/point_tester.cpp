@@ -3,6 +3,7 @@
 #include "partition/point_tester.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cobstacle/cell_section.h"
 
@@ -24,10 +25,7 @@ PointTester::PointTester(const WhitenedPair& pair, ObstacleTable& obstacles,
     : pair_(pair), obstacles_(obstacles), solids_(solids) {}
 
 void PointTester::test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
-  undecided_.clear();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].collides) undecided_.push_back(static_cast<int>(i));
-  }
+  collectUndecided(points);
   // The leaves first: they are the cheapest to test.
   for (const bool leaves : {true, false}) {
     for (const FrontPair& pair : front) {
@@ -46,47 +44,103 @@ void PointTester::test(const std::vector<FrontPair>& front, std::vector<TestedPo
   }
 }
 
-void PointTester::testPair(const FrontPair& first, std::vector<TestedPoint>& points) {
-  stack_.assign(1, {first, static_cast<int>(undecided_.size())});
-  bool found = false;
-  while (!stack_.empty()) {
-    const auto [pair, above] = stack_.back();
-    stack_.pop_back();
-    const int count = moveForward(pair, above, points);
-    if (count == 0) continue;
-    if (pair.isHalfSpace() || areLeaves(pair_, pair.nodes)) {
-      testLeaves(pair, count, points);
-      found = true;
-      continue;
-    }
-    for (const NodePair& child : childrenOf(pair_, pair.nodes))
-      stack_.push_back({{child, -1}, count});
+void PointTester::collectUndecided(const std::vector<TestedPoint>& points) {
+  undecided_.clear();
+  for (std::vector<double>& along : coordinates_) along.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].collides) continue;
+    undecided_.push_back(static_cast<int>(i));
+    for (int k = 0; k < 3; ++k) coordinates_[k].push_back(points[i].y[k]);
   }
-  if (!found) return;
-  const auto decided = [&](int i) { return points[i].collides; };
-  undecided_.erase(std::remove_if(undecided_.begin(), undecided_.end(), decided), undecided_.end());
+  padUndecided();
 }
 
-// Moves those of the first `count` points that the pair may decide before the others; how many
-// there are. What the pairs still on the stack are to be tested against stays the same set.
-int PointTester::moveForward(const FrontPair& pair, int count,
-                             const std::vector<TestedPoint>& points) {
-  const auto begin = undecided_.begin();
-  if (pair.isHalfSpace()) return count;
+void PointTester::padUndecided() {
+  const std::size_t padded = (undecided_.size() + 3) / 4 * 4;
+  for (std::vector<double>& along : coordinates_) along.resize(padded, std::nan(""));
+}
+
+void PointTester::removeDecided(const std::vector<TestedPoint>& points) {
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < undecided_.size(); ++j) {
+    if (points[undecided_[j]].collides) continue;
+    undecided_[kept] = undecided_[j];
+    for (std::vector<double>& along : coordinates_) along[kept] = along[j];
+    ++kept;
+  }
+  undecided_.resize(kept);
+  for (std::vector<double>& along : coordinates_) along.resize(kept);
+  padUndecided();
+}
+
+void PointTester::testPair(const FrontPair& pair, std::vector<TestedPoint>& points) {
+  const Range chosen = choose(pair);
+  if (chosen.begin == chosen.end) return;
+  if (pair.isHalfSpace() || areLeaves(pair_, pair.nodes)) {
+    testLeaves(pair, chosen, points);
+  } else {
+    testParts(pair, chosen, points);
+  }
+  removeDecided(points);
+}
+
+// Those of the undecided points that the pair may decide.
+PointTester::Range PointTester::choose(const FrontPair& pair) {
+  const std::size_t all = undecided_.size();
+  chosen_.resize(std::max(chosen_.size(), all));
+  if (pair.isHalfSpace()) {
+    std::copy(undecided_.begin(), undecided_.end(), chosen_.begin());
+    return {0, all};
+  }
   const NodeBox box = obstacleBox(pair_, pair.nodes);
-  const auto end = std::partition(begin, begin + count, [&](int i) {
-    return !points[i].collides && isInBox(box, points[i].y);
-  });
-  return static_cast<int>(end - begin);
+  const PointArrays arrays{{coordinates_[0].data(), coordinates_[1].data(), coordinates_[2].data()},
+                           static_cast<int>(coordinates_[0].size())};
+  const int count = slabKernels().pointsInBox(arrays, box.lo, box.hi, chosen_.data());
+  for (int i = 0; i < count; ++i) chosen_[i] = undecided_[chosen_[i]];
+  return {0, static_cast<std::size_t>(count)};
 }
 
-void PointTester::testLeaves(const FrontPair& pair, int count, std::vector<TestedPoint>& points) {
+// What a pair may decide is chosen from what its parent may, and kept behind that: when the next
+// pair is taken from the stack, all that was kept behind its own parent's choice is done with.
+void PointTester::testParts(const FrontPair& coarse, Range all, std::vector<TestedPoint>& points) {
+  const auto open = [this](const FrontPair& pair, Range chosen) {
+    for (const NodePair& child : childrenOf(pair_, pair.nodes)) {
+      stack_.push_back({{child, -1}, chosen});
+    }
+  };
+  stack_.clear();
+  open(coarse, all);
+  while (!stack_.empty()) {
+    const auto [pair, from] = stack_.back();
+    stack_.pop_back();
+    const Range chosen = chooseFrom(from, obstacleBox(pair_, pair.nodes), points);
+    if (chosen.begin == chosen.end) continue;
+    if (areLeaves(pair_, pair.nodes)) {
+      testLeaves(pair, chosen, points);
+    } else {
+      open(pair, chosen);
+    }
+  }
+}
+
+PointTester::Range PointTester::chooseFrom(Range from, const NodeBox& box,
+                                           const std::vector<TestedPoint>& points) {
+  chosen_.resize(std::max(chosen_.size(), 2 * from.end - from.begin));
+  std::size_t end = from.end;
+  for (std::size_t i = from.begin; i < from.end; ++i) {
+    const TestedPoint& point = points[chosen_[i]];
+    if (!point.collides && isInBox(box, point.y)) chosen_[end++] = chosen_[i];
+  }
+  return {from.end, end};
+}
+
+void PointTester::testLeaves(const FrontPair& pair, Range chosen,
+                             std::vector<TestedPoint>& points) {
   const SlabArrays slabs =
       pair.obstacle >= 0 ? obstacles_.slabs(pair.obstacle) : obstacles_.slabsOnce(pair.nodes);
-  for (int j = 0; j < count; ++j) {
-    TestedPoint& point = points[undecided_[j]];
-    const CellBox box{{point.y[0], point.y[1], point.y[2]}, {0.0, 0.0, 0.0}};
-    const CellRelation relation = slabKernels().classify(slabs, box).relation;
+  for (std::size_t i = chosen.begin; i < chosen.end; ++i) {
+    TestedPoint& point = points[chosen_[i]];
+    const CellRelation relation = slabKernels().classifyPoint(slabs, point.y.data());
     if (relation == CellRelation::outside) continue;
     if (slabs.outer_only) {
       point.collides = contains(obstacles_.support(pair.nodes), point.y);

@@ -3,6 +3,7 @@
 // Which of many displacements collide, tested against one front.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "partition/containment.h"
@@ -28,20 +29,33 @@ class PointTester {
   void test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points);
 
  private:
-  /// A pair to be tested against the first `count` of the undecided points.
-  struct Task {
-    FrontPair pair;
-    int count;
+  /// A range of `chosen_`.
+  struct Range {
+    std::size_t begin;
+    std::size_t end;
   };
 
+  /// A pair to be tested against some of the undecided points.
+  struct Task {
+    FrontPair pair;
+    Range points;
+  };
+
+  void collectUndecided(const std::vector<TestedPoint>& points);
+  void padUndecided();
+  void removeDecided(const std::vector<TestedPoint>& points);
   void testPair(const FrontPair& pair, std::vector<TestedPoint>& points);
-  void testLeaves(const FrontPair& pair, int count, std::vector<TestedPoint>& points);
-  int moveForward(const FrontPair& pair, int count, const std::vector<TestedPoint>& points);
+  void testParts(const FrontPair& pair, Range chosen, std::vector<TestedPoint>& points);
+  void testLeaves(const FrontPair& pair, Range chosen, std::vector<TestedPoint>& points);
+  Range choose(const FrontPair& pair);
+  Range chooseFrom(Range from, const NodeBox& box, const std::vector<TestedPoint>& points);
 
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
   const SolidContact* solids_;
-  std::vector<int> undecided_;  ///< indices of points
+  std::vector<int> undecided_;                      ///< indices of points
+  std::array<std::vector<double>, 3> coordinates_;  ///< of the undecided, padded with NaN
+  std::vector<int> chosen_;  ///< indices of points, for each pair that is being looked at
   std::vector<Task> stack_;
 };
 

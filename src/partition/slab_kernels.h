@@ -43,6 +43,12 @@ struct CellBox {
   double half[3];
 };
 
+/// Coordinates of points. `count` is a multiple of 4; what is not a number is no point.
+struct PointArrays {
+  const double* coordinates[3];
+  int count;
+};
+
 enum class CellRelation { outside, inside, cut };
 
 /// How a C-obstacle meets a cell. For `cut`: over how many planes the cell sticks out of the
@@ -68,6 +74,13 @@ struct CellSlice {
 /// The kernels, compiled for several instruction sets with identical results.
 struct SlabKernels {
   CellCut (*classify)(const SlabArrays& slabs, const CellBox& cell);
+
+  /// The same of a single point; what `classify` says of a cell without extent.
+  CellRelation (*classifyPoint)(const SlabArrays& slabs, const double* point);
+
+  /// Which of the points are in the box [lo, hi]: writes their places in the arrays to `inside`,
+  /// which has room for all, and returns how many they are.
+  int (*pointsInBox)(const PointArrays& points, const double* lo, const double* hi, int* inside);
 
   /// A lower bound of `m·y` over V ∩ cell: the dual of the linear program, one slab at a time,
   /// which is a bound for any multiplier, so no convergence is needed.

@@ -58,6 +58,35 @@ struct SlabKernelsOver {
     return cut;
   }
 
+  static CellRelation classifyPoint(const SlabArrays& slabs, const double* point) {
+    int cut = 0;
+    for (int i = 0; i < slabs.count; i += 4) {
+      const V4 d = dot(directions(slabs, i), point[0], point[1], point[2]);
+      const V4 lo = V4::load(slabs.lo() + i);
+      const V4 hi = V4::load(slabs.hi() + i);
+      if (greater(d, hi) | greater(lo, d)) return CellRelation::outside;
+      const V4 margin = V4::load(slabs.margin() + i);
+      cut |= greater(d, hi - margin) | greater(lo + margin, d);
+    }
+    return cut ? CellRelation::cut : CellRelation::inside;
+  }
+
+  static int pointsInBox(const PointArrays& points, const double* lo, const double* hi,
+                         int* inside) {
+    int found = 0;
+    for (int i = 0; i < points.count; i += 4) {
+      int mask = 15;
+      for (int k = 0; k < 3; ++k) {
+        const V4 y = V4::load(points.coordinates[k] + i);
+        mask &= notLess(y, V4(lo[k])) & notLess(V4(hi[k]), y);
+      }
+      for (; mask != 0; mask &= mask - 1) {
+        inside[found++] = i + __builtin_ctz(static_cast<unsigned>(mask));
+      }
+    }
+    return found;
+  }
+
   static void countSides(CellCut& cut, int mask, int first_slab, bool upper_side) {
     if (mask == 0) return;
     cut.sides += __builtin_popcount(static_cast<unsigned>(mask));
@@ -181,6 +210,8 @@ struct SlabKernelsOver {
 
   static SlabKernels table() {
     return {&classify,
+            &classifyPoint,
+            &pointsInBox,
             &minimumAlong,
             &contract,
             &coveredSlice,

@@ -48,6 +48,10 @@ int greater(const Vector4& a, const Vector4& b) {
   return _mm256_movemask_pd(_mm256_cmp_pd(a.value, b.value, _CMP_GT_OQ));
 }
 
+int notLess(const Vector4& a, const Vector4& b) {
+  return _mm256_movemask_pd(_mm256_cmp_pd(a.value, b.value, _CMP_GE_OQ));
+}
+
 }  // namespace
 
 SlabKernels avx2SlabKernels() { return SlabKernelsOver<Vector4>::table(); }

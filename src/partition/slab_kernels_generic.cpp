@@ -73,6 +73,12 @@ int greater(const Vector4& a, const Vector4& b) {
   return mask;
 }
 
+int notLess(const Vector4& a, const Vector4& b) {
+  int mask = 0;
+  for (int i = 0; i < 4; ++i) mask |= static_cast<int>(a.lane[i] >= b.lane[i]) << i;
+  return mask;
+}
+
 }  // namespace
 
 #if defined(__x86_64__)

@@ -3,6 +3,7 @@
 // The slab kernels: what they promise of single triangle pairs, and that all builds agree.
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "catch.h"
 #include "partition/slab_kernels.h"
@@ -16,6 +17,7 @@ using fcl_prob::detail::CellRelation;
 using fcl_prob::detail::CellSlice;
 using fcl_prob::detail::kSlabFields;
 using fcl_prob::detail::kTriangleSlabs;
+using fcl_prob::detail::PointArrays;
 using fcl_prob::detail::SlabArrays;
 using fcl_prob::detail::slabKernels;
 
@@ -140,6 +142,9 @@ TEST_CASE("the kernels for this processor give the bits of those for every proce
     REQUIRE(cut.relation == portable_cut.relation);
     REQUIRE(cut.sides == portable_cut.sides);
     REQUIRE(cut.covered == portable_cut.covered);
+    const double* point = cell.center;
+    REQUIRE(fastest.classifyPoint(pair.slabs(), point) ==
+            portable.classifyPoint(pair.slabs(), point));
     const CellSlice slice = fastest.coveredSlice(pair.slabs(), cell);
     const CellSlice portable_slice = portable.coveredSlice(pair.slabs(), cell);
     REQUIRE(slice.axis == portable_slice.axis);
@@ -157,6 +162,49 @@ TEST_CASE("the kernels for this processor give the bits of those for every proce
     portable.contract(pair.slabs(), cell, portable_lo.data(), portable_hi.data());
     REQUIRE(lo == portable_lo);
     REQUIRE(hi == portable_hi);
+  }
+}
+
+TEST_CASE("a point is classified like a cell without extent", "[slabs]") {
+  fcl_prob_test::RandomBodies random(11);
+  std::array<int, 3> seen{};
+  for (int i = 0; i < 20000; ++i) {
+    const TrianglePair pair = randomPair(random, random.logUniform(1e-3, 10.0));
+    const Eigen::Vector3d y =
+        pointOf(pair, random) + random.uniform(0, 0.5) * random.normalVector();
+    const CellRelation relation = slabKernels().classifyPoint(pair.slabs(), y.data());
+    REQUIRE(relation == slabKernels().classify(pair.slabs(), cellAround(y, 0.0)).relation);
+    ++seen[static_cast<std::size_t>(relation)];
+  }
+  CHECK(seen[static_cast<std::size_t>(CellRelation::inside)] > 1000);
+  CHECK(seen[static_cast<std::size_t>(CellRelation::outside)] > 1000);
+}
+
+TEST_CASE("points in a box are those between its ends, each told once and in order", "[slabs]") {
+  fcl_prob_test::RandomBodies random(12);
+  const double nothing = std::nan("");
+  for (int round = 0; round < 500; ++round) {
+    const int count = 4 * random.integer(0, 8);
+    std::array<std::vector<double>, 3> y;
+    for (int k = 0; k < 3; ++k) {
+      // On a grid, so that many points are on the faces of the box.
+      for (int i = 0; i < count; ++i) y[k].push_back(random.integer(-3, 3));
+    }
+    if (count > 0) y[random.integer(0, 2)].back() = nothing;
+    const double lo[3] = {-2, -1, -3};
+    const double hi[3] = {2, 3, 1};
+    std::vector<int> expected;
+    for (int i = 0; i < count; ++i) {
+      bool inside = true;
+      for (int k = 0; k < 3; ++k) inside = inside && y[k][i] >= lo[k] && y[k][i] <= hi[k];
+      if (inside) expected.push_back(i);
+    }
+    const PointArrays points{{y[0].data(), y[1].data(), y[2].data()}, count};
+    for (const auto& kernels : {slabKernels(), fcl_prob::detail::portableSlabKernels()}) {
+      std::vector<int> found(static_cast<std::size_t>(count));
+      found.resize(static_cast<std::size_t>(kernels.pointsInBox(points, lo, hi, found.data())));
+      CHECK(found == expected);
+    }
   }
 }
 
