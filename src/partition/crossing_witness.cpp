@@ -92,11 +92,20 @@ int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) 
 CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid) : solid_(solid) {
   if (!pair.a.tree->caps || !pair.b.tree->caps) return;
   const auto add = [this](const WhitenedTree& inner, const WhitenedTree& outer, double sign) {
-    sides_.push_back({CappedTree(inner), CappedTree(outer), sign,
-                      spreadVertices(*inner.tree, kCandidates), extremesOfComponents(inner)});
+    std::vector<Candidate> candidates;
+    for (int vertex : spreadVertices(*inner.tree, kCandidates)) candidates.push_back({vertex, {}});
+    sides_.push_back({CappedTree(inner), CappedTree(outer), sign, std::move(candidates),
+                      extremesOfComponents(inner)});
   };
   add(pair.a, pair.b, 1.0);
   add(pair.b, pair.a, -1.0);
+}
+
+bool CrossingWitness::SweptVertex::isWithin(const SweptVertex& other) const {
+  for (int k = 0; k < 3; ++k) {
+    if (lo[k] < other.lo[k] || hi[k] > other.hi[k]) return false;
+  }
+  return true;
 }
 
 // Padded for the rounding of the sums and of the vertex.
@@ -116,26 +125,30 @@ CrossingWitness::SweptVertex CrossingWitness::sweep(const Side& side, int vertex
 
 bool CrossingWitness::covers(const Cell& cell) {
   for (Side& side : sides_) {
-    if (side.last_found >= 0 && coversBy(side, side.last_found, cell)) return true;
+    Candidate last{side.last_found, {}};
+    if (last.vertex >= 0 && coversBy(side, last, cell)) return true;
   }
   for (Side& side : sides_) {
-    for (int vertex : side.candidates) {
-      if (vertex != side.last_found && coversBy(side, vertex, cell)) return true;
+    for (Candidate& candidate : side.candidates) {
+      if (candidate.vertex != side.last_found && coversBy(side, candidate, cell)) return true;
     }
   }
   return false;
 }
 
-bool CrossingWitness::coversBy(Side& side, int vertex, const Cell& cell) {
-  const SweptVertex swept = sweep(side, vertex, cell);
+bool CrossingWitness::coversBy(Side& side, Candidate& candidate, const Cell& cell) {
+  const SweptVertex swept = sweep(side, candidate.vertex, cell);
   const NodeBox& bounds = side.outer.mesh().boxes[0];
   for (int k = 0; k < 3; ++k) {
     if (swept.lo[k] < bounds.lo[k] || swept.hi[k] > bounds.hi[k]) return false;
   }
+  if (candidate.outside && swept.isWithin(*candidate.outside)) return false;
   const auto no = [](const Eigen::Vector3i&, const NodeBox&) { return false; };
   if (!side.outer.visitTriangles(swept.lo, swept.hi, no)) return false;
-  if (isInside(side, swept) != true || !crosses(side, vertex, cell)) return false;
-  side.last_found = vertex;
+  const std::optional<bool> inside = isInside(side, swept);
+  if (inside == false) candidate.outside = swept;
+  if (inside != true || !crosses(side, candidate.vertex, cell)) return false;
+  side.last_found = candidate.vertex;
   return true;
 }
 
@@ -191,7 +204,7 @@ std::optional<CellPlane> CrossingWitness::plane(const Cell& cell,
                                                 const std::vector<FrontPair>& near) {
   best_.reset();
   for (Side& side : sides_) {
-    if (side.last_found >= 0) tryPlane(side, side.last_found, cell, nullptr);
+    if (side.last_found >= 0) tryVertex(side, side.last_found, cell, nullptr);
   }
   tryNear(cell, near, nullptr);
   for (int round = 0; round < 2 && best_; ++round) {
@@ -211,29 +224,37 @@ void CrossingWitness::tryNear(const Cell& cell, const std::vector<FrontPair>& ne
     for (std::size_t i = step / 2; i < near.size(); i += step) {
       const int node = side.sign > 0 ? near[i].nodes.a : near[i].nodes.b;
       if (!m) {
-        tryPlane(side, leftmostVertex(*side.inner.mesh().tree, node), cell, nullptr);
-        continue;
+        tryVertex(side, leftmostVertex(*side.inner.mesh().tree, node), cell, nullptr);
+      } else {
+        tryVertex(side, extremeVertex(side.inner.mesh(), node, side.sign * *m), cell, m);
       }
-      const int vertex = extremeVertex(side.inner.mesh(), node, side.sign * *m);
-      tryPlane(side, vertex, cell, m);
-      tryPlane(side, vertex, cell, nullptr);
     }
   }
 }
 
-// Beyond the highest point along m of all that the swept vertex touches nothing is touched. Without
-// a direction given, m is across what is touched.
-void CrossingWitness::tryPlane(Side& side, int vertex, const Cell& cell,
-                               const Eigen::Vector3d* direction) {
+// With normal m, if given, and with one across what is touched.
+void CrossingWitness::tryVertex(Side& side, int vertex, const Cell& cell,
+                                const Eigen::Vector3d* m) {
   const SweptVertex swept = sweep(side, vertex, cell);
-  if (isClearOf(side.outer.mesh().boxes[0], swept.lo, swept.hi)) return;
+  if (!findTouched(side, swept)) return;
+  if (m) tryPlane(side, vertex, swept, cell, *m);
+  tryPlane(side, vertex, swept, cell, acrossTouched(side));
+}
+
+// Whether the swept vertex touches some triangles, and not too many.
+bool CrossingWitness::findTouched(Side& side, const SweptVertex& swept) {
   touched_.clear();
+  if (isClearOf(side.outer.mesh().boxes[0], swept.lo, swept.hi)) return false;
   const auto collect = [this](const Eigen::Vector3i& triangle, const NodeBox&) {
     touched_.push_back(triangle);
     return touched_.size() < kMostTouched;
   };
-  if (!side.outer.visitTriangles(swept.lo, swept.hi, collect) || touched_.empty()) return;
-  Eigen::Vector3d m = direction ? *direction : acrossTouched(side);
+  return side.outer.visitTriangles(swept.lo, swept.hi, collect) && !touched_.empty();
+}
+
+// Beyond the highest point along m of all that the swept vertex touches nothing is touched.
+void CrossingWitness::tryPlane(Side& side, int vertex, const SweptVertex& swept, const Cell& cell,
+                               Eigen::Vector3d m) {
   for (int k = cell.rank; k < 3; ++k) m[k] = 0.0;
   const double length = m.norm();
   if (!(length > 0.0)) return;

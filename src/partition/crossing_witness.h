@@ -33,21 +33,29 @@ class CrossingWitness {
   std::optional<CellPlane> plane(const Cell& cell, const std::vector<FrontPair>& near);
 
  private:
+  /// A vertex of the inner mesh with all its displacements: a box.
+  struct SweptVertex {
+    double lo[3];
+    double hi[3];
+
+    bool isWithin(const SweptVertex& other) const;
+  };
+
+  /// A vertex that is tried, and where it was last found to be outside of all of the outer mesh.
+  struct Candidate {
+    int vertex;
+    std::optional<SweptVertex> outside;
+  };
+
   /// One way round: a vertex of `inner` inside `outer`.
   struct Side {
     CappedTree inner;
     CappedTree outer;
     double sign;  ///< of the displacement of the inner mesh
-    std::vector<int> candidates;
+    std::vector<Candidate> candidates;
     std::vector<std::array<int, 6>>
         extremes;  ///< of every component: vertices lowest and highest by axis
     int last_found = -1;
-  };
-
-  /// A vertex of the inner mesh with all its displacements: a box.
-  struct SweptVertex {
-    double lo[3];
-    double hi[3];
   };
 
   struct Attempt {
@@ -58,14 +66,17 @@ class CrossingWitness {
   };
 
   static SweptVertex sweep(const Side& side, int vertex, const Cell& cell);
-  bool coversBy(Side& side, int vertex, const Cell& cell);
+  bool coversBy(Side& side, Candidate& candidate, const Cell& cell);
   std::optional<bool> isInside(Side& side, const SweptVertex& swept);
   bool crosses(Side& side, int vertex, const Cell& cell);
   bool leaves(const Side& side, int component, const Cell& cell) const;
   bool avoidsCaps(Side& side, const Cell& cell);
 
   void tryNear(const Cell& cell, const std::vector<FrontPair>& near, const Eigen::Vector3d* m);
-  void tryPlane(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d* direction);
+  void tryVertex(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d* m);
+  bool findTouched(Side& side, const SweptVertex& swept);
+  void tryPlane(Side& side, int vertex, const SweptVertex& swept, const Cell& cell,
+                Eigen::Vector3d m);
   Eigen::Vector3d acrossTouched(const Side& side) const;
   double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
                         const Eigen::Vector3d& m) const;

@@ -19,14 +19,24 @@ class NodeSupport {
   double along(const Eigen::Vector3d& m, int node);
 
  private:
+  struct Reach {
+    int node;
+    double bound;  ///< of its box
+  };
+
+  void prepare();
   double search(int node);
+  double ofLeaf(int leaf) const;
+  bool isKnown(int node) const { return known_in_[node] == direction_; }
+  void note(int node, double value);
 
   const WhitenedTree* mesh_;
   Eigen::Vector3d m_;
+  std::vector<int> parent_;  ///< of each node; empty until the first search
   std::vector<double> value_;
   std::vector<unsigned> known_in_;  ///< by node: the direction's number for which value_ was found
   unsigned direction_ = 1;
-  std::vector<int> stack_;
+  std::vector<Reach> stack_;
 };
 
 }  // namespace fcl_prob::detail
