@@ -46,14 +46,17 @@ Eigen::Vector3d largestCoordinates(const NodeBox& box) {
 
 ObstacleTable::ObstacleTable(const WhitenedPair& pair) : pair_(pair) {}
 
+// The doubles of a block are left uninitialized: most of the last one is never used.
 double* ObstacleTable::allocate(int count) {
   const std::size_t needed = static_cast<std::size_t>(count) * kSlabFields;
-  if (blocks_.empty() || block_used_ + needed > blocks_.back().size()) {
-    blocks_.emplace_back(std::max(kBlockDoubles, needed));
-    block_used_ = 0;
+  if (needed > block_left_) {
+    block_left_ = std::max(kBlockDoubles, needed);
+    doubles_reserved_ += block_left_;
+    blocks_.emplace_back(new double[block_left_]);
+    block_end_ = blocks_.back().get() + block_left_;
   }
-  double* data = blocks_.back().data() + block_used_;
-  block_used_ += needed;
+  double* data = block_end_ - block_left_;
+  block_left_ -= needed;
   return data;
 }
 
@@ -65,7 +68,7 @@ int ObstacleTable::find(NodePair leaves) {
     obstacles_.push_back(areTriangles(leaves) ? buildTriangles(leaves, allocate(kTriangleSlabs))
                                               : buildPieces(leaves));
   }
-  return entry->second;
+  return entry.value();
 }
 
 SlabArrays ObstacleTable::slabsOnce(NodePair leaves) {
@@ -144,9 +147,9 @@ SupportObstacle ObstacleTable::support(NodePair leaves) const {
 }
 
 std::size_t ObstacleTable::memory() const {
-  std::size_t bytes = obstacles_.capacity() * sizeof(SlabArrays) + index_.size() * 40;
-  for (const std::vector<double>& block : blocks_) bytes += block.size() * sizeof(double);
-  return bytes;
+  constexpr std::size_t kEntryBytes = 3 * sizeof(std::uint64_t);
+  return obstacles_.capacity() * sizeof(SlabArrays) + index_.bucket_count() * kEntryBytes +
+         doubles_reserved_ * sizeof(double);
 }
 
 }  // namespace fcl_prob::detail

@@ -6,9 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <unordered_map>
+#include <memory>
 #include <vector>
+
+#include <tsl/robin_map.h>
 
 #include "cobstacle/support_obstacle.h"
 #include "partition/whitened_tree.h"
@@ -40,6 +41,15 @@ class ObstacleTable {
   std::size_t memory() const;
 
  private:
+  /// Of a pair of nodes as one number: the nodes of a mesh are numbered without gaps, so that the
+  /// number itself would send many to the same places (Knuth, The Art of Computer Programming 6.4).
+  struct PairHash {
+    std::size_t operator()(std::uint64_t pair) const {
+      const std::uint64_t product = pair * 0x9e3779b97f4a7c15;  // 2⁶⁴ over the golden ratio
+      return static_cast<std::size_t>(product ^ (product >> 32));
+    }
+  };
+
   double* allocate(int count);
   bool areTriangles(NodePair leaves) const;
   SlabArrays buildTriangles(NodePair leaves, double* data) const;
@@ -48,9 +58,11 @@ class ObstacleTable {
 
   const WhitenedPair& pair_;
   std::vector<SlabArrays> obstacles_;
-  std::unordered_map<std::uint64_t, int> index_;
-  std::deque<std::vector<double>> blocks_;
-  std::size_t block_used_ = 0;
+  tsl::robin_map<std::uint64_t, int, PairHash> index_;
+  std::vector<std::unique_ptr<double[]>> blocks_;
+  double* block_end_ = nullptr;       ///< of the last block
+  std::size_t block_left_ = 0;        ///< of the last block, in doubles
+  std::size_t doubles_reserved_ = 0;  ///< in all blocks
   std::array<double, kTriangleSlabs * kSlabFields> once_;
 };
 

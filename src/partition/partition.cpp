@@ -52,7 +52,8 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
     return {plain, std::move(pair)};
   }
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
-  return {rotated, whiten(a, b, rotated)};
+  whiten(a, b, rotated, pair);
+  return {rotated, std::move(pair)};
 }
 
 // ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative), W the rows that move.

@@ -112,10 +112,12 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
   }
 }
 
-WhitenedTree whitenOne(const PartitionObject& object, const Whitening& whitening,
-                       const LongVector& reference) {
-  WhitenedTree result;
+void whitenOne(const PartitionObject& object, const Whitening& whitening,
+               const LongVector& reference, WhitenedTree& result) {
   result.tree = object.tree;
+  result.vertices.clear();
+  result.positions.clear();
+  result.shapes.clear();
   result.vertices.reserve(object.tree->vertices.size());
   Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
@@ -129,16 +131,22 @@ WhitenedTree whitenOne(const PartitionObject& object, const Whitening& whitening
       1.8 * object.tree->radius() * whitening.matrix().cwiseAbs().rowwise().sum();
   result.error = 16 * kEpsilon * (2 * size + farthest).array() + std::numeric_limits<double>::min();
   fitBoxes(result);
-  return result;
 }
 
 }  // namespace
 
+void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
+            WhitenedPair& result) {
+  const LongVector reference = worldOrigin(a.tree->parts[0], a.parts[0].pose);
+  whitenOne(a, whitening, reference, result.a);
+  whitenOne(b, whitening, reference + whitening.mean().cast<long double>(), result.b);
+}
+
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,
                     const Whitening& whitening) {
-  const LongVector reference = worldOrigin(a.tree->parts[0], a.parts[0].pose);
-  return {whitenOne(a, whitening, reference),
-          whitenOne(b, whitening, reference + whitening.mean().cast<long double>())};
+  WhitenedPair result;
+  whiten(a, b, whitening, result);
+  return result;
 }
 
 std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes) {

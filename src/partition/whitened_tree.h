@@ -70,6 +70,10 @@ struct WhitenedPair {
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening);
 
+/// The same into the memory of an earlier one, which must not be referred to any more.
+void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
+            WhitenedPair& result);
+
 /// A node of A's tree and one of B's.
 struct NodePair {
   int a;
