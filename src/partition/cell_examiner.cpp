@@ -39,9 +39,12 @@ constexpr double kMomentShare = 0.05;
 // Nodes opened to see how low the pairs of a cell reach below the plane of a witness.
 constexpr int kMostOpened = 1000;
 
+// A coarse pair is replaced by its parts below the plane if there are no more than this.
+constexpr std::size_t kMostBelow = 8;
+
 // Only with longer fronts than this a proof by topology is tried. It settles deep cells that no
 // pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
-constexpr std::size_t kLongFront = 100;
+constexpr std::size_t kLongFront = 70;
 
 double largestWidth(const Cell& cell) {
   double width = 0.0;
@@ -70,6 +73,8 @@ void include(const Cell& part, Cell& box) {
   box.lo = box.lo.cwiseMin(part.lo);
   box.hi = box.hi.cwiseMax(part.hi);
 }
+
+bool isWhole(const Cell& box, const Cell& cell) { return box.lo == cell.lo && box.hi == cell.hi; }
 
 // A box around the part of a cell with from <= m·y <= to; the cell must have such a part.
 Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to) {
@@ -240,8 +245,10 @@ void CellExaminer::openWithoutPlane() {
   open.front.reserve(front_.cutting().size() + front_.coarse().size());
   Cell part;
   const auto keep = [&](const FrontPair& pair) {
-    if (!front_.clip(pair, part)) return;
-    include(part, box);
+    if (!isWhole(box, cell)) {
+      if (!front_.clip(pair, part)) return;
+      include(part, box);
+    }
     open.front.push_back(pair);
   };
   for (const CuttingPair& cutting : front_.cutting()) keep(cutting.pair);
@@ -288,8 +295,10 @@ ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& m
 
 // Lower bound of m·y over all that may collide in an open cell.
 double CellExaminer::lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const {
+  const double least = lowestIn(open.cell, m);
   double result = std::numeric_limits<double>::infinity();
   for (const FrontPair& pair : open.front) {
+    if (result <= least) return result;
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < result && pair.obstacle >= 0) {
       lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
@@ -353,11 +362,13 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   Cell part;
   if (leader.layered) include(layerBox(cell, m, leader.outer, leader.inner.s), box);
   const auto consider = [&](const FrontPair& pair) {
+    below_.pairs.clear();
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < enough && pair.obstacle >= 0) {
       lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
     } else if (lowest < enough && budget > 0) {
-      lowest = std::max(lowest, front_.lowestOfParts(pair, m, enough, budget));
+      lowest = std::max(
+          lowest, front_.lowestOfParts(pair, m, {enough, open.possible_from}, budget, below_));
     }
     if (lowest < enough) {
       if (!front_.clip(pair, part)) return;
@@ -368,7 +379,12 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
       return;
     }
     open.possible_from = std::min(open.possible_from, lowest);
-    open.front.push_back(pair);
+    if (below_.pairs.empty() || below_.pairs.size() > kMostBelow) {
+      open.front.push_back(pair);
+    } else {
+      open.front.insert(open.front.end(), below_.pairs.begin(), below_.pairs.end());
+      settled_from = std::min(settled_from, below_.lowest_of_others);
+    }
     include(part, box);
   };
   for (const CuttingPair& cutting : front_.cutting()) {

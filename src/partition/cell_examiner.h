@@ -62,6 +62,7 @@ class CellExaminer {
   CubeCutter cutter_;
   Examination result_;
   std::vector<FrontPair> near_;
+  CellFront::PartsBelow below_;
 };
 
 }  // namespace fcl_prob::detail

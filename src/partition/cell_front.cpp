@@ -29,6 +29,9 @@ constexpr double kLeastShare = 0.05;
 constexpr double kImmediateShare = 0.3;
 constexpr int kCarveRounds = 8;
 
+// Narrowing a part a second time, from what is left of it, cuts off a little more.
+constexpr int kClipRounds = 2;
+
 // The planes of a curved obstacle closer than this count as one.
 constexpr double kThinLayer = 1e-11;
 
@@ -162,7 +165,8 @@ void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
     const NodeBox box = obstacleBox(pair_, pair.nodes);
     if (!meetsCell(box)) continue;
     if (largerThanCell(box, kProbeRatio)) {
-      ordered_.emplace_back(eccentricity(box), BoxedPair{pair, box});
+      const int obstacle = areLeaves(pair_, pair.nodes) ? obstacles_.find(pair.nodes) : -1;
+      ordered_.emplace_back(eccentricity(box), BoxedPair{{pair.nodes, obstacle}, box});
     } else {
       coarse_.push_back(pair);
     }
@@ -324,10 +328,12 @@ double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   return b - a - error;
 }
 
-// Depth first, lower children first; a pair that cannot lower the result is not opened.
-double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& m, double enough,
-                                int& budget) {
+// Depth first, lower children first; a pair that cannot lower what is known is not opened.
+double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& m,
+                                const LowestSought& sought, int& budget, PartsBelow& below) {
   double result = std::numeric_limits<double>::infinity();
+  below.pairs.clear();
+  below.lowest_of_others = result;
   stack_.assign(1, {coarse, obstacleBox(pair_, coarse.nodes)});
   while (!stack_.empty()) {
     const BoxedPair boxed = stack_.back();
@@ -336,11 +342,16 @@ double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& 
     ++statistics_.pairs_tested;
     if (!meetsCell(boxed.box)) continue;
     double lowest = lowestInCell(boxed.box, m);
-    if (lowest >= result) continue;
-    lowest = std::max(lowest, lowestOfVertices(nodes, m));
-    if (lowest >= result) continue;
-    if (areLeaves(pair_, nodes) || lowest >= enough || budget <= 0) {
-      result = lowest;
+    if (lowest < std::min(sought.enough, result)) {
+      lowest = std::max(lowest, lowestOfVertices(nodes, m));
+    }
+    if (lowest >= sought.enough) {
+      below.lowest_of_others = std::min(below.lowest_of_others, lowest);
+      continue;
+    }
+    if (lowest >= result || areLeaves(pair_, nodes) || budget <= 0) {
+      result = std::min({result, lowest, sought.known});
+      below.pairs.push_back({nodes, -1});
       continue;
     }
     --budget;
@@ -350,7 +361,7 @@ double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& 
     const int last = lowestInCell(boxes[0], m) < lowestInCell(boxes[1], m) ? 0 : 1;
     for (const int i : {1 - last, last}) stack_.push_back({{children[i], -1}, boxes[i]});
   }
-  return result;
+  return std::min(result, below.lowest_of_others);
 }
 
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {
@@ -361,7 +372,7 @@ bool CellFront::clip(const FrontPair& pair, Cell& part) const {
     part.hi[k] = std::min(box.hi[k], cell_.hi[k]);
   }
   if (pair.obstacle < 0) return !part.empty();
-  for (int round = 0; round < 2 && !part.empty(); ++round) {
+  for (int round = 0; round < kClipRounds && !part.empty(); ++round) {
     double lo[3] = {part.lo[0], part.lo[1], part.lo[2]};
     double hi[3] = {part.hi[0], part.hi[1], part.hi[2]};
     kernels_.contract(obstacles_.slabs(pair.obstacle), part.box(), lo, hi);

@@ -54,9 +54,24 @@ class CellFront {
   /// The same from the slabs of a pair of leaves.
   double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
 
-  /// The same from the smaller pairs that a coarse pair consists of: as exact as matters below
-  /// `enough`, as long as `budget` lasts, which counts the nodes opened.
-  double lowestOfParts(const FrontPair& pair, const Eigen::Vector3d& m, double enough, int& budget);
+  /// What a search for the lowest part of a pair is for.
+  struct LowestSought {
+    double enough;  ///< parts above need not be told apart
+    double known;  ///< as low as some other pair reaches: if a part lies below `enough`, how low it
+                   ///< reaches matters only below this
+  };
+
+  /// The parts of a pair that reach below a level, and how low the others reach.
+  struct PartsBelow {
+    std::vector<FrontPair> pairs;
+    double lowest_of_others;
+  };
+
+  /// The same from the smaller pairs that a coarse pair consists of, as far as `sought` needs and
+  /// as long as `budget` lasts, which counts the nodes opened. Tells apart what reaches below
+  /// `enough` and what does not.
+  double lowestOfParts(const FrontPair& pair, const Eigen::Vector3d& m, const LowestSought& sought,
+                       int& budget, PartsBelow& below);
 
   /// A box around the pair's C-obstacle ∩ cell; false if that is empty.
   bool clip(const FrontPair& pair, Cell& part) const;

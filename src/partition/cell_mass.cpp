@@ -293,14 +293,6 @@ CellBox Cell::box() const {
   return box;
 }
 
-bool Cell::empty() const {
-  if (settled) return true;
-  for (int i = 0; i < rank; ++i) {
-    if (!(lo[i] < hi[i])) return true;
-  }
-  return false;
-}
-
 Bounds cellMass(const Cell& cell) {
   double mass = 1.0;
   for (int i = 0; i < cell.rank; ++i) mass *= normalIntervalMass(cell.lo[i], cell.hi[i]);

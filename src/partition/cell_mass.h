@@ -22,7 +22,12 @@ struct Cell {
   CellBox box() const;
 
   /// Without interior along an axis that moves, or settled.
-  bool empty() const;
+  bool empty() const {
+    for (int i = 0; i < rank; ++i) {
+      if (!(lo[i] < hi[i])) return true;
+    }
+    return settled;
+  }
 
   /// The largest |y_k| of its points, for each axis.
   Eigen::Vector3d largestCoordinates() const { return lo.cwiseAbs().cwiseMax(hi.cwiseAbs()); }

@@ -12,6 +12,7 @@
 #include "partition/crossing_witness.h"
 #include "partition_query.h"
 #include "random_bodies.h"
+#include "whitened_meshes.h"
 
 namespace {
 
@@ -33,22 +34,16 @@ TriangleMesh cutOpen(const TriangleMesh& mesh, double floor) {
 class WitnessCase {
  public:
   WitnessCase(const TriangleMesh& a, const TriangleMesh& b)
-      : model_a_(makeModel<fcl::OBBRSSd>(a)),
-        model_b_(makeModel<fcl::OBBRSSd>(b)),
-        tree_a_(buildPieceTree(*model_a_)),
-        tree_b_(buildPieceTree(*model_b_)),
-        pair_(whiten({tree_a_.get(), {{fcl::Transform3d::Identity(), nullptr}}},
-                     {tree_b_.get(), {{fcl::Transform3d::Identity(), nullptr}}}, whitening_)),
-        witness_(pair_, false) {}
+      : meshes_(a, b), witness_(meshes_.pair, false) {}
 
   CrossingWitness& witness() { return witness_; }
 
   /// Pairs of nodes some levels below the roots that may meet the cell.
   std::vector<FrontPair> near(const Cell& cell) const {
     std::vector<FrontPair> pairs;
-    for (int a : level(*tree_a_)) {
-      for (int b : level(*tree_b_)) {
-        const NodeBox box = obstacleBox(pair_.a.boxes[a], pair_.b.boxes[b]);
+    for (int a : level(*meshes_.tree_a)) {
+      for (int b : level(*meshes_.tree_b)) {
+        const NodeBox box = obstacleBox(meshes_.pair.a.boxes[a], meshes_.pair.b.boxes[b]);
         if (!isClearOf(box, cell.lo.data(), cell.hi.data())) pairs.push_back({{a, b}, -1});
       }
     }
@@ -57,11 +52,11 @@ class WitnessCase {
 
   bool collides(const Eigen::Vector3d& y) const {
     fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.translation() = whitening_.unapply(y);
+    pose.translation() = meshes_.whitening.unapply(y);
     fcl::CollisionRequestd request;
     fcl::CollisionResultd result;
-    return fcl::collide(model_a_.get(), pose, model_b_.get(), fcl::Transform3d::Identity(), request,
-                        result) > 0;
+    return fcl::collide(meshes_.model_a.get(), pose, meshes_.model_b.get(),
+                        fcl::Transform3d::Identity(), request, result) > 0;
   }
 
  private:
@@ -79,13 +74,7 @@ class WitnessCase {
     return nodes;
   }
 
-  std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_a_;
-  std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_b_;
-  std::shared_ptr<const PieceTree> tree_a_;
-  std::shared_ptr<const PieceTree> tree_b_;
-  Whitening whitening_{GaussianDisplacement(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()),
-                       1.0};
-  WhitenedPair pair_;
+  WhitenedMeshes meshes_;
   CrossingWitness witness_;
 };
 
