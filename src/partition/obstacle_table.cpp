@@ -18,6 +18,11 @@ constexpr std::size_t kBlockDoubles = 1 << 16;
 // With more slabs than this two polytopes are quicker examined by their support functions.
 constexpr std::size_t kMostSlabs = 128;
 
+// Of slabs across the normal of a face: at less rounding may no longer be relative, from the most
+// on the products of a normal and a corner, 1e14 times as large, may overflow.
+constexpr double kLeastPadding = 1e-300;
+constexpr double kMostPadding = 1e280;
+
 bool isTriangle(const WhitenedTree& tree, int node) {
   return tree.tree->isTriangle(tree.tree->nodes[node].piece);
 }
@@ -34,6 +39,19 @@ SupportBody bodyAt(const WhitenedTree& tree, int node) {
   }
   const Eigen::Vector3i& t = tree.tree->triangles[piece];
   return {tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]};
+}
+
+// A corner a column.
+Eigen::Matrix3d cornersOf(const WhitenedTree& whitened, int leaf) {
+  const Eigen::Vector3i& t = whitened.tree->triangles[whitened.tree->nodes[leaf].piece];
+  Eigen::Matrix3d corners;
+  corners << whitened.vertices[t[0]], whitened.vertices[t[1]], whitened.vertices[t[2]];
+  return corners;
+}
+
+Eigen::Vector3d normalOf(const Eigen::Matrix3d& corners) {
+  const Eigen::Vector3d first = corners.col(1) - corners.col(0);
+  return first.cross(corners.col(2) - corners.col(0));
 }
 
 Eigen::Vector3d largestCoordinates(const NodeBox& box) {
@@ -96,18 +114,10 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
 }
 
 SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
-  const auto corners = [](const WhitenedTree& whitened, int node, double* out) {
-    const Eigen::Vector3i& t = whitened.tree->triangles[whitened.tree->nodes[node].piece];
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int k = 0; k < 3; ++k) out[3 * corner + k] = whitened.vertices[t[corner]][k];
-    }
-  };
-  double vertices_a[9];
-  double vertices_b[9];
-  corners(pair_.a, leaves.a, vertices_a);
-  corners(pair_.b, leaves.b, vertices_b);
+  const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
+  const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
   const Eigen::Vector3d error = pair_.a.error + pair_.b.error;
-  slabKernels().triangleSlabs(vertices_a, vertices_b, error.data(), data);
+  slabKernels().triangleSlabs(a.data(), b.data(), error.data(), data);
   return {data, kTriangleSlabs};
 }
 
@@ -138,12 +148,39 @@ bool ObstacleTable::hasFewSlabs(NodePair leaves) const {
   return of_a.faces + of_b.faces + of_a.edges * of_b.edges <= kMostSlabs;
 }
 
-SupportObstacle ObstacleTable::support(NodePair leaves) const {
+// Bound on the error of b - a, axis by axis, and on the rounding of sums of such terms.
+Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
   const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
                                 largestCoordinates(pair_.b.boxes[leaves.b]) +
                                 Eigen::Vector3d::Constant(kReach);
-  const Eigen::Vector3d error = 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
-  return {bodyAt(pair_.a, leaves.a), bodyAt(pair_.b, leaves.b), error};
+  return 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
+}
+
+SupportObstacle ObstacleTable::support(NodePair leaves) const {
+  return {bodyAt(pair_.a, leaves.a), bodyAt(pair_.b, leaves.b), errorOf(leaves)};
+}
+
+// However a normal was rounded, V lies between its extreme values along it.
+FaceSlabs ObstacleTable::faceSlabs(NodePair leaves) const {
+  const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
+  const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
+  const Eigen::Vector3d error = errorOf(leaves);
+  FaceSlabs slabs;
+  slabs.n = {normalOf(a), normalOf(b)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Eigen::Vector3d& n = slabs.n[i];
+    const double padding = n.cwiseAbs().dot(error) + kLeastPadding;
+    if (!(padding < kMostPadding)) {
+      slabs.lo[i] = -kInfinity;
+      slabs.hi[i] = kInfinity;
+      continue;
+    }
+    const Eigen::RowVector3d along_a = n.transpose() * a;
+    const Eigen::RowVector3d along_b = n.transpose() * b;
+    slabs.lo[i] = along_b.minCoeff() - along_a.maxCoeff() - padding;
+    slabs.hi[i] = along_b.maxCoeff() - along_a.minCoeff() + padding;
+  }
+  return slabs;
 }
 
 std::size_t ObstacleTable::memory() const {

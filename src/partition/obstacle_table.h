@@ -16,6 +16,22 @@
 
 namespace fcl_prob::detail {
 
+/// Two slabs that contain the C-obstacle of two triangles, across the planes of each.
+struct FaceSlabs {
+  std::array<Eigen::Vector3d, 2> n;  ///< of any length
+  std::array<double, 2> lo;
+  std::array<double, 2> hi;
+
+  /// Whether a point within reach is certainly outside of one of them.
+  bool excludes(const Eigen::Vector3d& y) const {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double along = n[i].dot(y);
+      if (along < lo[i] || along > hi[i]) return true;
+    }
+    return false;
+  }
+};
+
 class ObstacleTable {
  public:
   /// Keeps a reference to `pair`.
@@ -26,6 +42,12 @@ class ObstacleTable {
 
   /// The slabs of two leaves that are looked at once: valid until the next call.
   SlabArrays slabsOnce(NodePair leaves);
+
+  /// Whether the pieces of two leaves are triangles both.
+  bool areTriangles(NodePair leaves) const;
+
+  /// Of two triangles; quicker than all of their slabs.
+  FaceSlabs faceSlabs(NodePair leaves) const;
 
   /// A half-space {m·y >= s} as an obstacle of its own: index of a new one.
   int addHalfSpace(const Eigen::Vector3d& m, double s);
@@ -51,7 +73,7 @@ class ObstacleTable {
   };
 
   double* allocate(int count);
-  bool areTriangles(NodePair leaves) const;
+  Eigen::Vector3d errorOf(NodePair leaves) const;
   SlabArrays buildTriangles(NodePair leaves, double* data) const;
   SlabArrays buildPieces(NodePair leaves);
   bool hasFewSlabs(NodePair leaves) const;

@@ -134,8 +134,21 @@ PointTester::Range PointTester::chooseFrom(Range from, const NodeBox& box,
   return {from.end, end};
 }
 
+PointTester::Range PointTester::dropExcluded(const FaceSlabs& slabs, Range chosen,
+                                             const std::vector<TestedPoint>& points) {
+  std::size_t end = chosen.begin;
+  for (std::size_t i = chosen.begin; i < chosen.end; ++i) {
+    if (!slabs.excludes(points[chosen_[i]].y)) chosen_[end++] = chosen_[i];
+  }
+  return {chosen.begin, end};
+}
+
 void PointTester::testLeaves(const FrontPair& pair, Range chosen,
                              std::vector<TestedPoint>& points) {
+  if (pair.obstacle < 0 && obstacles_.areTriangles(pair.nodes)) {
+    chosen = dropExcluded(obstacles_.faceSlabs(pair.nodes), chosen, points);
+    if (chosen.begin == chosen.end) return;
+  }
   const SlabArrays slabs =
       pair.obstacle >= 0 ? obstacles_.slabs(pair.obstacle) : obstacles_.slabsOnce(pair.nodes);
   for (std::size_t i = chosen.begin; i < chosen.end; ++i) {

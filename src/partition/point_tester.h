@@ -48,6 +48,7 @@ class PointTester {
   void testParts(const FrontPair& pair, Range chosen, std::vector<TestedPoint>& points);
   void testLeaves(const FrontPair& pair, Range chosen, std::vector<TestedPoint>& points);
   Range choose(const FrontPair& pair);
+  Range dropExcluded(const FaceSlabs& slabs, Range chosen, const std::vector<TestedPoint>& points);
   Range chooseFrom(Range from, const NodeBox& box, const std::vector<TestedPoint>& points);
 
   const WhitenedPair& pair_;

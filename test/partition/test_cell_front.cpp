@@ -64,6 +64,35 @@ TEST_CASE("a node reaches as far as the farthest of its vertices", "[front]") {
   }
 }
 
+// Stretching an axis, as whitening does, is what makes normals long, short and badly rounded.
+TEST_CASE("the slabs of two faces contain the pair and exclude what is off it", "[front]") {
+  RandomBodies random(23);
+  int excluded = 0;
+  for (int i = 0; i < 40; ++i) {
+    Eigen::Vector3d stretch;
+    for (int k = 0; k < 3; ++k) stretch[k] = random.logUniform(1e-2, i % 2 == 0 ? 1e2 : 1e100);
+    const auto stretched = [&](TriangleMesh mesh) {
+      for (Eigen::Vector3d& vertex : mesh.vertices) vertex = vertex.cwiseProduct(stretch);
+      return mesh;
+    };
+    const WhitenedMeshes meshes(stretched(bumpyMesh(1.0, 6, 8, 7)), stretched(boxMesh({1, 2, 1})));
+    ObstacleTable obstacles(meshes.pair);
+    const std::vector<int> leaves_a = leavesUnder(*meshes.tree_a, 0);
+    const std::vector<int> leaves_b = leavesUnder(*meshes.tree_b, 0);
+    for (int j = 0; j < 500; ++j) {
+      const NodePair leaves{leaves_a[random.integer(0, static_cast<int>(leaves_a.size()) - 1)],
+                            leaves_b[random.integer(0, static_cast<int>(leaves_b.size()) - 1)]};
+      const FaceSlabs slabs = obstacles.faceSlabs(leaves);
+      const Eigen::Vector3d y = pointOf(cornersOf(meshes.pair.b, leaves.b), random) -
+                                pointOf(cornersOf(meshes.pair.a, leaves.a), random);
+      CHECK(!slabs.excludes(y));
+      const Eigen::Vector3d off = y + stretch.cwiseProduct(0.5 * random.normalVector());
+      excluded += slabs.excludes(off);
+    }
+  }
+  CHECK(excluded > 5000);
+}
+
 // Whatever of a pair is not said to reach below the level keeps above what is said of it.
 TEST_CASE("parts of a pair that may reach below a level are all told", "[front]") {
   RandomBodies random(22);
