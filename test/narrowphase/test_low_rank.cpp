@@ -88,6 +88,35 @@ TEST_CASE("a body cut by the plane of motion at an angle") {
   CHECK(convexPcd(point, Eigen::Isometry3d::Identity(), cube, pose_b, displacement).least == 0.0);
 }
 
+TEST_CASE("the exact mass of boxes turned by next to nothing, down to next to no thickness") {
+  // The faces between those that are nearly parallel are as narrow as the turn is small, and their
+  // normals are noise.
+  RandomBodies random(93);
+  const ConvexBody a(fcl::Boxd(0.4, 0.3, 0.2));
+  for (int i = 0; i < 1500; ++i) {
+    const int rank = random.integer(1, 3);
+    const Eigen::Vector3d sigma(0.08, rank > 1 ? 0.05 : 0.0, rank > 2 ? 0.06 : 0.0);
+    const double thickness = random.logUniform(1.0, 1e4) * (i % 4 ? 1e-5 : 1e-60);
+    const double angle = random.logUniform(1e-16, 1e-9);
+    Eigen::Isometry3d pose_a(Eigen::AngleAxisd(angle, random.direction()));
+    pose_a.translation().x() = 0.5;
+    const fcl_prob::Bounds bounds = convexPairMass(
+        a, pose_a, ConvexBody(fcl::Boxd(0.4, 0.4, thickness)), Eigen::Isometry3d::Identity(),
+        GaussianDisplacement::fromStandardDeviations(sigma));
+    const double height = 0.1 + 0.5 * thickness;
+    double mass = fcl_prob::normalIntervalMass(1.25, 11.25);
+    if (rank > 1) mass *= fcl_prob::normalIntervalMass(-7.0, 7.0);
+    if (rank > 2) mass *= fcl_prob::normalIntervalMass(-height / 0.06, height / 0.06);
+    INFO("rank " << rank << " thickness " << thickness << " angle " << angle);
+    CHECK(bounds.lower <= bounds.upper);
+    // The turn moves the sides by half the width of the bodies, 7 standard deviations.
+    CHECK(bounds.lower <= mass * (1 + 20 * angle + 1e-12));
+    CHECK(bounds.upper >= mass * (1 - 20 * angle - 1e-12));
+    CHECK(bounds.lower >= mass * (1 - 1e-6));
+    CHECK(bounds.upper <= mass * (1 + 1e-6));
+  }
+}
+
 TEST_CASE("low rank is the limit of a small standard deviation") {
   RandomBodies random(92);
   int positive = 0;
