@@ -217,7 +217,7 @@ TEST_CASE("by volume, spheres are the loosest and convex hulls the tightest", "[
   }
 }
 
-TEST_CASE("every upper bound of table1 is above the certified P, on one scene", "[cli]") {
+TEST_CASE("every upper bound of table1 is above the certified P, on one scene", "[cli][slow]") {
   if (modelOrSkip("benchmark/bunny_5110.obj")) checkTable1("bunny_5cm", 1);
 }
 

@@ -130,7 +130,7 @@ TEST_CASE("an object against FCL's managers: what is culled is within the remain
   }
 }
 
-TEST_CASE("a coarse culling probability leaves out more, and says how much that may be") {
+TEST_CASE("a coarse culling probability leaves out more, and says how much that may be", "[slow]") {
   const World world(16, 2.5, 2);
   const auto objects = world.pointers();
   fcl::DynamicAABBTreeCollisionManagerd manager;

@@ -168,7 +168,7 @@ TEST_CASE("asked for by name, the exact method encloses curved shapes between po
 }
 
 // Their C-obstacle's facets are slivers where sides are parallel, with normals that are noise.
-TEST_CASE("the exact method of round shapes with one axis, around the origin and not") {
+TEST_CASE("the exact method of round shapes with one axis, around the origin and not", "[slow]") {
   const fcl::Cylinderd cylinder(1.0, 1.3);
   ProbabilityRequest request;
   request.method = ProbabilityMethod::exact;
