@@ -25,8 +25,8 @@ class GaussianDisplacement {
   /// \param mean        metres, world frame
   /// \param covariance  square metres, world frame; symmetric to 1e-9 of its largest entry and positive
   ///                    semidefinite to 1e-12 of it (what rounding leaves of a singular matrix)
-  /// \throws InvalidDistribution if either is not finite, or the covariance is not symmetric or has a
-  ///         negative eigenvalue; the message holds the offending value.
+  /// \throws InvalidDistribution if either is not finite, or the covariance is not symmetric, has a
+  ///         negative eigenvalue or an entry above 1e300; the message holds the offending value.
   ///
   /// Standard deviations keep their relative accuracy also in a graded matrix such as
   /// diag(1, 1e-16, 1e-30). In a rotated one the entries themselves carry rounding of about 1e-16 of the
@@ -44,6 +44,8 @@ class GaussianDisplacement {
       const Eigen::Vector3d& mean = Eigen::Vector3d::Zero());
 
   /// The displacement of A relative to B when both move independently: mean_a - mean_b, Σ_a + Σ_b.
+  /// \throws InvalidDistribution if the difference is not finite or the sum has an entry above
+  ///         1e300.
   static GaussianDisplacement fromIndependent(const GaussianDisplacement& of_a,
                                               const GaussianDisplacement& of_b);
 

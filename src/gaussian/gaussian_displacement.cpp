@@ -23,6 +23,9 @@ constexpr double kRotationTolerance = 1e-9;
 constexpr double kLeastStandardDeviation = 1e-300;
 constexpr double kLargestStandardDeviation = 1e150;
 
+// An eigenvalue is at most three times the largest entry.
+constexpr double kLargestCovariance = 1e300;
+
 std::string entryName(const std::string& matrix, Eigen::Index row, Eigen::Index column) {
   return matrix + "(" + std::to_string(row) + ", " + std::to_string(column) + ")";
 }
@@ -37,9 +40,12 @@ const Eigen::Vector3d& requireFiniteMean(const Eigen::Vector3d& mean) {
 const Eigen::Matrix3d& requireSymmetric(const Eigen::Matrix3d& covariance) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      if (!std::isfinite(covariance(row, column))) {
-        throw InvalidDistribution(entryName("covariance", row, column) +
-                                  " is not finite: " + numberText(covariance(row, column)));
+      const double entry = covariance(row, column);
+      if (!std::isfinite(entry) || std::abs(entry) > kLargestCovariance) {
+        throw InvalidDistribution(
+            entryName("covariance", row, column) +
+            (std::isfinite(entry) ? " is larger than 1e300: " : " is not finite: ") +
+            numberText(entry));
       }
     }
   }
@@ -48,8 +54,7 @@ const Eigen::Matrix3d& requireSymmetric(const Eigen::Matrix3d& covariance) {
     for (int column = row + 1; column < 3; ++column) {
       const double upper = covariance(row, column);
       const double lower = covariance(column, row);
-      // Halves, because the difference of two large entries may overflow.
-      if (std::abs(0.5 * upper - 0.5 * lower) > 0.5 * tolerance) {
+      if (std::abs(upper - lower) > tolerance) {
         throw InvalidDistribution("covariance is not symmetric: " + entryName("", row, column) +
                                   " = " + numberText(upper) + ", " + entryName("", column, row) +
                                   " = " + numberText(lower));
@@ -150,8 +155,8 @@ GaussianDisplacement GaussianDisplacement::fromIndependent(const GaussianDisplac
   factor << of_a.axes_ * of_a.standard_deviations_.asDiagonal(),
       of_b.axes_ * of_b.standard_deviations_.asDiagonal();
   const Eigen::Matrix3d covariance = of_a.covariance_ + of_b.covariance_;
-  if (!covariance.allFinite()) {
-    throw InvalidDistribution("sum of the covariances is not finite: largest entries " +
+  if (!(covariance.array().abs() <= kLargestCovariance).all()) {
+    throw InvalidDistribution("sum of the covariances is larger than 1e300: largest entries " +
                               numberText(of_a.covariance_.cwiseAbs().maxCoeff()) + " and " +
                               numberText(of_b.covariance_.cwiseAbs().maxCoeff()));
   }

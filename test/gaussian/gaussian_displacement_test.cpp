@@ -85,6 +85,12 @@ TEST_CASE("a displacement is refused with the offending value in the message") {
   CHECK_THROWS_AS(GaussianDisplacement(kZero, diagonal(1, -0.5, 1)), InvalidDistribution);
   CHECK_THROWS_WITH(GaussianDisplacement(kZero, diagonal(1, -0.5, 1)), mentions("-0.5"));
   CHECK_THROWS_AS(GaussianDisplacement(kZero, diagonal(1, 1, -2e-12)), InvalidDistribution);
+  // Three times as much is the variance along (1, 1, 1), which must not overflow.
+  CHECK_THROWS_WITH(GaussianDisplacement(kZero, Matrix3d::Constant(1e308)), mentions("1e300"));
+  const GaussianDisplacement largest(kZero, Matrix3d::Constant(1e300));
+  CHECK(largest.rank() == 1);
+  CHECK(largest.standardDeviations()[0] == Approx(std::sqrt(3.0) * 1e150));
+  CHECK_THROWS_WITH(GaussianDisplacement::fromIndependent(largest, largest), mentions("1e300"));
 
   using Factory = GaussianDisplacement;
   CHECK_THROWS_WITH(Factory::fromStandardDeviations({1, -2, 3}), mentions("-2"));
