@@ -18,7 +18,10 @@
 namespace fcl_prob {
 
 struct BroadphaseRequest {
-  ProbabilityRequest query;  ///< of every pair
+  /// Of every pair, and so are its limits on cells, memory and samples. Its time limit is that of
+  /// the whole call, shared evenly by the pairs that are left; cancelling by its on_progress ends
+  /// the call.
+  ProbabilityRequest query;
 
   /// How an object is displaced, world frame, metres. Displacements of different objects are
   /// independent: a pair has that of A minus that of B. Not set: nothing is displaced.
@@ -43,7 +46,7 @@ struct PairProbability {
 };
 
 struct BroadphaseResult {
-  std::vector<PairProbability> pairs;  ///< those that were answered, in the order of the manager
+  std::vector<PairProbability> pairs;  ///< those that were answered, in the order of the managers
   std::size_t pairs_culled = 0;        ///< left out as out of reach
 
   /// No less than the sum of the probabilities of all pairs that were culled.
@@ -52,21 +55,28 @@ struct BroadphaseResult {
   /// stop_above was exceeded: pairs that are neither answered nor culled were not looked at.
   bool stopped = false;
 
+  /// `time_limit` or `cancelled` if that ended the call: the same holds.
+  std::optional<ProbabilityStatus> interrupted;
+
   /// P(any pair collides), whatever the dependence between the pairs: see anyOf(). Certified; a
-  /// method without lower bounds counts them as 0, one without upper bounds as 1.
+  /// method without lower bounds counts them as 0, one without upper bounds as 1, and so does a
+  /// pair that was not looked at.
   Bounds any;
 };
 
-/// `object` against everything in the manager. As for FCL, objects' bounding boxes must be up to
-/// date (CollisionObject::computeAABB(), and update() of the manager) and the manager be set up;
-/// any of FCL's managers will do. `object` itself is skipped where the manager holds it. `result`
-/// is assigned only on success. \returns the middle of result.any \throws what a single query
-/// throws, InvalidRequest if culling_probability is out of range
+/// `object` against everything in the manager. Any of FCL's managers will do: it is asked for its
+/// objects and nothing else, so that it need be neither set up nor up to date, and what is infinite
+/// (which some managers never report) is not missed. Boxes are computed from the geometries and
+/// poses as they are. An object that is registered twice counts once; `object` itself is skipped
+/// where the manager holds it. `result` is assigned only on success. \returns the middle of
+/// result.any \throws what a single query throws, InvalidRequest if a manager is null or
+/// culling_probability is out of range
 double collisionProbability(const fcl::CollisionObjectd* object,
                             const fcl::BroadPhaseCollisionManagerd* manager,
                             const BroadphaseRequest& request, BroadphaseResult& result);
 
-/// Everything in one manager (A) against everything in another (B).
+/// Everything in one manager (A) against everything in another (B). Two objects that are in both
+/// are one pair.
 double collisionProbability(const fcl::BroadPhaseCollisionManagerd* manager_a,
                             const fcl::BroadPhaseCollisionManagerd* manager_b,
                             const BroadphaseRequest& request, BroadphaseResult& result);

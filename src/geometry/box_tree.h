@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A bounding volume tree of axis-aligned boxes for rays along the axes.
+// A bounding volume tree of axis-aligned boxes for rays along the axes, and for other boxes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,12 +22,27 @@ class BoxTree {
   /// the positive `axis`; stops and returns false as soon as one call returns false.
   template <typename Function>
   bool visitRay(int axis, const Eigen::Vector3d& origin, double margin, Function&& function) const {
+    return visit([&](const Box& box) { return meetsRay(box, axis, origin, margin); }, function);
+  }
+
+  /// The same for every box that `other` meets; touching counts.
+  template <typename Function>
+  bool visitBox(const Box& other, Function&& function) const {
+    return visit([&](const Box& box) { return box.intersects(other); }, function);
+  }
+
+ private:
+  // Splitting at the median makes the depth at most the number of bits of an int.
+  static constexpr std::size_t kStackSize = 64;
+
+  template <typename Meets, typename Function>
+  bool visit(const Meets& meets, Function&& function) const {
     std::array<int, kStackSize> stack;
     std::size_t size = 0;
     if (!nodes_.empty()) stack[size++] = 0;
     while (size > 0) {
       const Node& node = nodes_[stack[--size]];
-      if (!meetsRay(node.box, axis, origin, margin)) continue;
+      if (!meets(node.box)) continue;
       if (node.item >= 0) {
         if (!function(node.item)) return false;
       } else {
@@ -37,10 +52,6 @@ class BoxTree {
     }
     return true;
   }
-
- private:
-  // Splitting at the median makes the depth at most the number of bits of an int.
-  static constexpr std::size_t kStackSize = 64;
 
   struct Node {
     Box box;

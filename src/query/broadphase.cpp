@@ -2,17 +2,15 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/broadphase.h"
 
-#include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <unordered_map>
+#include <string>
+#include <unordered_set>
+#include <utility>
 
+#include "fcl_prob/collision_probability.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
-#include "fcl_prob/normal_mass.h"
-#include "gaussian/number_text.h"
+#include "query/call_budget.h"
+#include "query/object_pairs.h"
 #include "query/pair_query.h"
 
 namespace fcl_prob {
@@ -20,219 +18,129 @@ namespace {
 
 using Object = fcl::CollisionObjectd;
 using Manager = fcl::BroadPhaseCollisionManagerd;
+using detail::ObjectPairs;
 
-/// Bounding boxes of FCL are rounded to nearest.
-constexpr double kBoxRounding = 1e-12;
-
-GaussianDisplacement displacementOf(const Object& object, const BroadphaseRequest& request) {
-  return request.displacement ? request.displacement(object) : GaussianDisplacement();
+/// Adds an answer, and keeps the bounds of P(any) up to date.
+void include(PairProbability&& pair, const BroadphaseRequest& request, BroadphaseResult& result) {
+  const Bounds event{pair.result.lower.value_or(0.0), pair.result.upper.value_or(1.0)};
+  result.any = result.pairs.empty() ? event : anyOf({result.any, event});
+  result.pairs.push_back(std::move(pair));
+  result.stopped = request.stop_above && result.any.lower > *request.stop_above;
 }
 
-/// The running bounds of P(any).
-void include(const ProbabilityResult& pair, BroadphaseResult& result) {
-  const Bounds event{pair.lower.value_or(0.0), pair.upper.value_or(1.0)};
-  result.any = result.pairs.size() == 1 ? event : anyOf({result.any, event});
+/// Each object once, in the order in which the manager lists them.
+ObjectPairs::Objects objectsOf(const Manager* manager, const char* name) {
+  if (manager == nullptr) throw InvalidRequest(std::string(name) + " is null");
+  std::vector<Object*> listed;
+  manager->getObjects(listed);
+  ObjectPairs::Objects objects;
+  std::unordered_set<const Object*> seen;
+  for (const Object* object : listed) {
+    if (seen.insert(object).second) objects.push_back(object);
+  }
+  return objects;
 }
 
-/// Answers pairs, preparing each geometry once.
-class PairAnswers {
- public:
-  explicit PairAnswers(const BroadphaseRequest& request) : request_(request) {}
-
-  /// Returns whether to stop.
-  bool add(const Object& a, const Object& b, const GaussianDisplacement& displacement,
-           BroadphaseResult& result) {
-    const detail::PairQuery query(prepared(a), prepared(b));
-    result.pairs.push_back(
-        {&a, &b, query.answer(a.getTransform(), b.getTransform(), displacement, request_.query)});
-    include(result.pairs.back().result, result);
-    result.stopped = request_.stop_above && result.any.lower > *request_.stop_above;
-    return result.stopped;
-  }
-
- private:
-  std::shared_ptr<const detail::PreparedGeometry> prepared(const Object& object) {
-    auto& known = known_[object.collisionGeometry().get()];
-    if (!known) {
-      known = std::make_shared<const detail::PreparedGeometry>(object.collisionGeometry(),
-                                                               "an object of the manager");
-    }
-    return known;
-  }
-
-  const BroadphaseRequest& request_;
-  std::unordered_map<const void*, std::shared_ptr<const detail::PreparedGeometry>> known_;
-};
-
-/// An axis-aligned box and nothing more: what stands for a displaced object before a manager.
-class ReachBox : public fcl::CollisionGeometryd {
- public:
-  explicit ReachBox(const fcl::AABBd& box) : box_(box) {}
-  void computeLocalAABB() override {
-    aabb_local = box_;
-    aabb_center = box_.center();
-    aabb_radius = (box_.max_ - aabb_center).norm();
-  }
-
- private:
-  fcl::AABBd box_;
-};
-
-/// Along every axis, where the displacements of some objects are and how wide they are.
-struct DisplacementRange {
-  Eigen::Vector3d least_mean = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d largest_mean = -least_mean;
-  Eigen::Vector3d variance = Eigen::Vector3d::Zero();
-
-  void include(const GaussianDisplacement& displacement) {
-    least_mean = least_mean.cwiseMin(displacement.mean());
-    largest_mean = largest_mean.cwiseMax(displacement.mean());
-    variance = variance.cwiseMax(displacement.covariance().diagonal());
-  }
-};
-
-/// The box of an object, enlarged such that it misses that of an object of the range only if the
-/// two boxes, displaced, meet with a probability of at most Φ(-deviations): they are apart along
-/// one axis, where the displacement would have to be that many deviations from its mean.
-fcl::AABBd enlarged(const fcl::AABBd& box, const GaussianDisplacement& own,
-                    const DisplacementRange& others, double deviations) {
-  const Eigen::Vector3d width =
-      deviations * (own.covariance().diagonal() + others.variance).cwiseMax(0.0).cwiseSqrt();
-  const Eigen::Vector3d lowest = own.mean() - others.largest_mean - width;
-  const Eigen::Vector3d highest = own.mean() - others.least_mean + width;
-  const auto rounding = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-    return kBoxRounding * (x.cwiseAbs() + lowest.cwiseAbs() + highest.cwiseAbs());
-  };
-  return {box.min_ + lowest - rounding(box.min_), box.max_ + highest + rounding(box.max_)};
-}
-
-/// One query of a manager.
+/// The answers for the pairs of one call.
 class Broadphase {
  public:
-  Broadphase(const Manager* manager, const BroadphaseRequest& request)
-      : manager_(manager), request_(request), answers_(request) {
-    if (manager == nullptr) throw InvalidRequest("the manager is null");
-    validateRequest(request.query);
-    if (!(request.culling_probability > 0.0 && request.culling_probability < 0.5)) {
-      throw InvalidRequest("culling_probability must be in (0, 0.5), is " +
-                           detail::numberText(request.culling_probability));
-    }
-    deviations_ = std::sqrt(2.0) * boost::math::erfc_inv(2.0 * request.culling_probability);
-    std::vector<Object*> objects;
-    manager->getObjects(objects);
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-      known_.emplace(objects[i], Known{i, displacementOf(*objects[i], request)});
-      range_.include(known_.at(objects[i]).displacement);
-    }
+  Broadphase(const ObjectPairs::Objects& a, const ObjectPairs::Objects& b,
+             const BroadphaseRequest& request)
+      : request_(request), budget_(request.query), pairs_(a, b, request) {
+    result_.pairs_culled = pairs_.culled();
+    result_.culled_upper = pairs_.culledUpper();
   }
 
-  std::size_t size() const { return known_.size(); }
-  bool contains(const Object& object) const { return known_.count(&object) > 0; }
-
-  /// Against every object of the manager but itself, or only those that come after it.
-  void run(const Object& object, bool only_later = false) {
-    if (result_.stopped || known_.empty()) return;
-    object_ = &object;
-    only_later_ = only_later;
-    own_ = displacementOf(object, request_);
-    reach_ = enlarged(object.getAABB(), own_, range_, deviations_);
-    Object stand_in(std::make_shared<ReachBox>(reach_));
-    manager_->collide(&stand_in, this, [](Object* first, Object* second, void* self) {
-      auto& broadphase = *static_cast<Broadphase*>(self);
-      // Managers differ in which of the two they name first.
-      return broadphase.visit(broadphase.contains(*first) ? *first : *second);
-    });
-  }
-
-  /// \param pairs  in total
-  BroadphaseResult finish(std::size_t pairs) {
-    if (!result_.stopped) result_.pairs_culled = pairs - result_.pairs.size() - left_out_;
-    const double each = normalTailMass(deviations_) * (1.0 + 1e-12);
-    result_.culled_upper =
-        std::min(1.0, static_cast<double>(result_.pairs_culled) * each * (1.0 + 1e-12));
-    result_.any.upper =
-        result_.stopped ? 1.0 : anyOf({result_.any, {0.0, result_.culled_upper}}).upper;
+  BroadphaseResult answer() {
+    const std::size_t count = pairs_.near().size();
+    for (std::size_t i = 0; i < count && !result_.stopped; ++i) {
+      if (timeIsUp()) result_.interrupted = ProbabilityStatus::time_limit;
+      if (result_.interrupted) break;
+      add(i);
+    }
+    const bool all = result_.pairs.size() == count;
+    result_.any.upper = all ? anyOf({result_.any, {0.0, result_.culled_upper}}).upper : 1.0;
     return std::move(result_);
   }
 
  private:
-  struct Known {
-    std::size_t index;
-    GaussianDisplacement displacement;
-  };
-
-  bool visit(const Object& other) {
-    if (&other == object_) return false;
-    // Not every manager looks at the boxes itself.
-    if (!reach_.overlap(other.getAABB())) return false;
-    const Known& known = known_.at(&other);
-    if (only_later_ && known.index <= known_.at(object_).index) return false;
-    if (request_.considers && !request_.considers(*object_, other)) {
-      ++left_out_;
-      return false;
-    }
-    return answers_.add(*object_, other,
-                        GaussianDisplacement::fromIndependent(own_, known.displacement), result_);
+  bool timeIsUp() const {
+    return request_.query.time_limit && budget_.seconds() >= *request_.query.time_limit;
   }
 
-  const Manager* manager_;
+  void add(std::size_t i) {
+    const auto& [a, b] = pairs_.near()[i];
+    const detail::PairQuery query(a->geometry, b->geometry);
+    const auto displacement =
+        GaussianDisplacement::fromIndependent(a->displacement, b->displacement);
+    include({a->object, b->object,
+             query.answer(a->object->getTransform(), b->object->getTransform(), displacement,
+                          ofPair(i))},
+            request_, result_);
+  }
+
+  /// The request for a pair, which reports and is cancelled as a part of the whole.
+  ProbabilityRequest ofPair(std::size_t i) {
+    const std::size_t count = pairs_.near().size();
+    ProbabilityRequest request = request_.query;
+    budget_.shareTime(count - i, request);
+    if (!request_.query.on_progress) return request;
+    request.on_progress = [this, i, count](const ProbabilityProgress& of_pair) {
+      ProbabilityProgress progress;
+      progress.interval = {result_.any.lower, 1.0};
+      progress.fraction = (static_cast<double>(i) + of_pair.fraction) / static_cast<double>(count);
+      progress.seconds = budget_.seconds();
+      const bool goes_on = request_.query.on_progress(progress);
+      if (!goes_on) result_.interrupted = ProbabilityStatus::cancelled;
+      return goes_on;
+    };
+    return request;
+  }
+
   const BroadphaseRequest& request_;
+  detail::CallBudget budget_;
+  ObjectPairs pairs_;
   BroadphaseResult result_;
-  PairAnswers answers_;
-  std::unordered_map<const Object*, Known> known_;
-  DisplacementRange range_;
-  double deviations_ = 0.0;
-  const Object* object_ = nullptr;
-  GaussianDisplacement own_;
-  fcl::AABBd reach_;
-  bool only_later_ = false;
-  std::size_t left_out_ = 0;  ///< by request.considers
 };
+
+double answer(const ObjectPairs::Objects& a, const ObjectPairs::Objects& b,
+              const BroadphaseRequest& request, BroadphaseResult& result) {
+  validateRequest(request.query);
+  result = Broadphase(a, b, request).answer();
+  return result.any.middle();
+}
 
 }  // namespace
 
 double collisionProbability(const Object* object, const Manager* manager,
                             const BroadphaseRequest& request, BroadphaseResult& result) {
   if (object == nullptr) throw InvalidGeometry("the object is null");
-  Broadphase broadphase(manager, request);
-  broadphase.run(*object);
-  result = broadphase.finish(broadphase.size() - (broadphase.contains(*object) ? 1 : 0));
-  return result.any.middle();
+  return answer({object}, objectsOf(manager, "the manager"), request, result);
 }
 
 double collisionProbability(const Manager* manager_a, const Manager* manager_b,
                             const BroadphaseRequest& request, BroadphaseResult& result) {
-  if (manager_a == nullptr) throw InvalidRequest("manager A is null");
-  Broadphase broadphase(manager_b, request);
-  std::vector<Object*> objects;
-  manager_a->getObjects(objects);
-  std::size_t pairs = 0;
-  for (const Object* object : objects) {
-    broadphase.run(*object);
-    pairs += broadphase.size() - (broadphase.contains(*object) ? 1 : 0);
-  }
-  result = broadphase.finish(pairs);
-  return result.any.middle();
+  const ObjectPairs::Objects objects_a = objectsOf(manager_a, "manager A");
+  return answer(objects_a, objectsOf(manager_b, "manager B"), request, result);
 }
 
 double collisionProbability(const Manager* manager, const BroadphaseRequest& request,
                             BroadphaseResult& result) {
-  Broadphase broadphase(manager, request);
-  std::vector<Object*> objects;
-  manager->getObjects(objects);
-  for (const Object* object : objects) broadphase.run(*object, true);
-  result = broadphase.finish(objects.size() *
-                             (objects.size() - std::min<std::size_t>(1, objects.size())) / 2);
-  return result.any.middle();
+  const ObjectPairs::Objects objects = objectsOf(manager, "the manager");
+  return answer(objects, objects, request, result);
 }
 
 bool collisionProbabilityCallback(Object* a, Object* b, void* data) {
   auto& [request, result] = *static_cast<ProbabilityCallbackData*>(data);
   if (request.considers && !request.considers(*a, *b)) return false;
-  return PairAnswers(request).add(*a, *b,
-                                  GaussianDisplacement::fromIndependent(
-                                      displacementOf(*a, request), displacementOf(*b, request)),
-                                  result);
+  const PreparedQuery query(a->collisionGeometry(), b->collisionGeometry());
+  const auto displacement = GaussianDisplacement::fromIndependent(
+      detail::displacementOf(*a, request), detail::displacementOf(*b, request));
+  PairProbability pair{a, b, {}};
+  query.collisionProbability(a->getTransform(), b->getTransform(), displacement, request.query,
+                             pair.result);
+  include(std::move(pair), request, result);
+  return result.stopped;
 }
 
 }  // namespace fcl_prob

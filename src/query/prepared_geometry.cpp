@@ -2,10 +2,37 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/prepared_geometry.h"
 
+#include <limits>
+
+#include "cobstacle/support_shape.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
 
 namespace fcl_prob::detail {
+namespace {
+
+Eigen::AlignedBox3d boxOfMesh(const MeshView& mesh) {
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < mesh.vertex_count; ++i) box.extend(mesh.vertices[i]);
+  return box;
+}
+
+Eigen::AlignedBox3d boxOfShape(const SupportShape& shape) {
+  Eigen::Vector3d lowest, highest;
+  for (int k = 0; k < 3; ++k) {
+    lowest[k] = -shape.supportValue(-Eigen::Vector3d::Unit(k));
+    highest[k] = shape.supportValue(Eigen::Vector3d::Unit(k));
+  }
+  return {lowest, highest};
+}
+
+Eigen::AlignedBox3d boxOfPieces(const PieceTree& tree) {
+  if (tree.isEmpty()) return {};
+  const PieceTree::Part& whole = tree.parts[0];
+  return {whole.origin.array() - whole.radius, whole.origin.array() + whole.radius};
+}
+
+}  // namespace
 
 PreparedGeometry::PreparedGeometry(std::shared_ptr<const fcl::CollisionGeometryd> geometry,
                                    std::string name)
@@ -34,6 +61,21 @@ const ConvexBody& PreparedGeometry::rootBody() const {
                               });
   });
   return *root_body_;
+}
+
+Eigen::AlignedBox3d PreparedGeometry::localBox() const {
+  switch (kindOf(*geometry_)) {
+    case GeometryKind::mesh:
+      return boxOfMesh(meshView(*geometry_));
+    case GeometryKind::convex:
+      return boxOfShape(supportShape(*geometry_));
+    case GeometryKind::octree:
+      return boxOfPieces(pieces());
+    default: {
+      const auto everywhere = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+      return {-everywhere, everywhere};
+    }
+  }
 }
 
 const ClosedMesh* PreparedGeometry::solid(ContactMeaning contact) const {

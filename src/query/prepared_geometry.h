@@ -5,6 +5,7 @@
 
 #include <fcl/geometry/collision_geometry.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -36,6 +37,11 @@ class PreparedGeometry {
 
   /// Whether it is a bounded convex shape, which rootBody() then is.
   bool isConvex() const;
+
+  /// A box (frame of the geometry, metres) that contains all of it, up to the rounding of its own
+  /// coordinates: infinite for what is unbounded, empty for an octree without occupied cells. It
+  /// does not rest on `aabb_local`, which FCL computes when it is told to.
+  Eigen::AlignedBox3d localBox() const;
 
   /// The solid that a mesh encloses; null where surfaces count, and for what is no mesh.
   /// \throws OpenMesh
