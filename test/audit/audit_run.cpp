@@ -6,8 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csetjmp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <mutex>
 #include <sstream>
@@ -21,15 +23,36 @@ namespace {
 
 constexpr std::size_t kFailuresOfAKind = 3;
 
-/// Which scene each thread is at, for a crash.
-thread_local std::uint64_t current_index = 0;
-std::atomic<std::uint64_t> current_seed{0};
+/// Where a thread goes on after a crash of what it checks.
+thread_local sigjmp_buf after_crash;
+thread_local volatile std::sig_atomic_t is_checking = 0;
 
-void tellCrash(int signal) {
-  std::fprintf(stderr, "audit: signal %d at seed %llu, index %llu\n", signal,
-               static_cast<unsigned long long>(current_seed),
-               static_cast<unsigned long long>(current_index));
+void leaveCrash(int signal) {
+  if (is_checking) siglongjmp(after_crash, signal);
   std::_Exit(3);
+}
+
+void catchCrashes() {
+  struct sigaction action = {};
+  action.sa_handler = leaveCrash;
+  action.sa_flags = SA_NODEFER;
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) sigaction(signal, &action, nullptr);
+}
+
+/// A crash is a violation like others. What was in use then is lost, which a short run can afford.
+std::vector<Violation> checkSurviving(const Scene& scene, Tally& tally,
+                                      const CheckOptions& options = {}) {
+  std::vector<Violation> found;
+  const int signal = sigsetjmp(after_crash, 1);
+  if (signal == 0) {
+    is_checking = 1;
+    found = check(scene, tally, options);
+    is_checking = 0;
+    return found;
+  }
+  is_checking = 0;
+  ++tally.violations[scene.family + ": crash"];
+  return {{"crash", "signal " + std::to_string(signal)}};
 }
 
 double now() {
@@ -47,7 +70,6 @@ Scene sceneAt(const AuditPlan& plan, std::uint64_t index) {
 class Run {
  public:
   explicit Run(const AuditPlan& plan) : plan_(plan), next_(plan.first), begin_(now()) {
-    current_seed = plan.seed;
     if (!plan.family.empty()) sceneAt(plan, 0);  // throws here rather than in a thread
   }
 
@@ -72,11 +94,10 @@ class Run {
     for (;;) {
       const std::uint64_t index = next_++;
       if (isOver(index)) break;
-      current_index = index;
       const Scene scene = sceneAt(plan_, index);
       if (plan_.verbose) std::cout << textOf(scene) << std::flush;
       const double started = now();
-      const std::vector<Violation> found = check(scene, tally);
+      const std::vector<Violation> found = checkSurviving(scene, tally);
       tell(scene, found, now() - started);
       ++done;
     }
@@ -126,9 +147,7 @@ void writeCounts(std::ostream& out, const char* title, const Map& counts) {
 }  // namespace
 
 AuditReport runAudit(const AuditPlan& plan) {
-  std::signal(SIGSEGV, tellCrash);
-  std::signal(SIGABRT, tellCrash);
-  std::signal(SIGFPE, tellCrash);
+  catchCrashes();
   return Run(plan).run();
 }
 
@@ -138,7 +157,7 @@ Failure smallest(const Failure& failure) {
   options.only = failure.violation.check;
   const auto again = [&](const Scene& scene) -> std::optional<Violation> {
     Tally unused;
-    for (const Violation& violation : check(scene, unused, options)) {
+    for (const Violation& violation : checkSurviving(scene, unused, options)) {
       if (violation.check == failure.violation.check) return violation;
     }
     return std::nullopt;

@@ -54,7 +54,12 @@ std::optional<std::string> slopesOutside(const Scene& scene, const ProbabilityRe
     size = std::min(size, displacement.sigma.maxCoeff());
   }
   const double step = 1e-2 * size;
-  if (!(step > 0.0) || !isNarrow(result)) return std::nullopt;
+  double largest = 0.0;
+  for (const Displacement& displacement : scene.displacements) {
+    largest = std::max(largest, displacement.mean.cwiseAbs().maxCoeff());
+  }
+  // Steps that rounding of the mean would change are no use.
+  if (!(step > 1e-9 * largest) || !(step > 0.0) || !isNarrow(result)) return std::nullopt;
   for (int axis = 0; axis < 3; ++axis) {
     const auto coarse = slopesAt(scene, axis, step);
     if (!coarse) return std::nullopt;

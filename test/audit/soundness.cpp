@@ -46,6 +46,8 @@ bool keepsTolerance(const Scene& scene, const ProbabilityResult& result) {
 
 bool decidesRightly(const ProbabilityRequest& request, const ProbabilityResult& result) {
   if (!request.threshold) return result.decision == Decision::none;
+  // Methods that sample decide by their confidence interval.
+  if (result.confidence_interval) return true;
   if (result.decision == Decision::below)
     return result.upper && *result.upper <= *request.threshold;
   if (result.decision == Decision::above)
@@ -53,11 +55,14 @@ bool decidesRightly(const ProbabilityRequest& request, const ProbabilityResult& 
   return result.status != ProbabilityStatus::decided;
 }
 
+/// Limits are looked at after some divisions of a cell only.
+constexpr std::size_t kPolledLate = 256;
+
 bool keepsLimits(const Scene& scene, const ProbabilityResult& result) {
   const ProbabilityRequest& request = scene.request;
   const bool partition =
       result.method == ProbabilityMethod::interval || result.method == ProbabilityMethod::estimate;
-  if (partition && result.statistics.cells > request.max_cells) return false;
+  if (partition && result.statistics.cells > request.max_cells + kPolledLate) return false;
   return result.method == ProbabilityMethod::estimate ||
          result.statistics.samples <= request.samples;
 }
