@@ -76,6 +76,21 @@ void include(const Cell& part, Cell& box) {
 
 bool isWhole(const Cell& box, const Cell& cell) { return box.lo == cell.lo && box.hi == cell.hi; }
 
+// What is left of a cell around a box within, in up to six parts.
+template <typename Visit>
+void visitAround(Cell rest, const Cell& box, const Visit& visit) {
+  for (int k = 0; k < rest.rank; ++k) {
+    Cell part = rest;
+    part.hi[k] = box.lo[k];
+    visit(part);
+    part = rest;
+    part.lo[k] = box.hi[k];
+    visit(part);
+    rest.lo[k] = box.lo[k];
+    rest.hi[k] = box.hi[k];
+  }
+}
+
 // A box around the part of a cell with from <= m·y <= to; the cell must have such a part.
 Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to) {
   Cell box = cell;
@@ -127,11 +142,11 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
   result_ = Examination{};
   ++statistics_.cells;
   if (inherited.size() > kLongFront && witness() && witness()->covers(cell)) {
-    settle(cell);
+    settle(cell, "crossing surfaces");
     return std::move(result_);
   }
   front_.take(cell, inherited);
-  for (const Cell& covered : front_.covered()) settle(covered);
+  for (const Cell& covered : front_.covered()) settle(covered, "one pair");
   if (front_.cell().empty()) return std::move(result_);
   if (front_.coarse().empty() && front_.cutting().empty()) {
     settleFree(front_.cell());
@@ -165,8 +180,27 @@ CrossingWitness* CellExaminer::witness() {
   return witness_->usable() ? &*witness_ : nullptr;
 }
 
+void CellExaminer::claim(const char* method, bool collides, const Cell& cell) const {
+  if (observer_ && !cell.empty()) observer_->claim({method, collides, cell, {}});
+}
+
+void CellExaminer::claim(const char* method, bool collides, const Cell& cell,
+                         const CoveredPart& part) const {
+  if (observer_ && !cell.empty()) observer_->claim({method, collides, cell, part});
+}
+
+// Nothing of `cell` with m·y < s collides.
+void CellExaminer::claimBelow(const char* method, const Cell& cell, const CellPlane& plane) const {
+  if (!observer_) return;
+  CoveredPart below;
+  below.planes[0] = {-plane.m, -plane.s};
+  below.count = 1;
+  claim(method, false, cell, below);
+}
+
 // All of `cell` collides.
-void CellExaminer::settle(const Cell& cell) {
+void CellExaminer::settle(const Cell& cell, const char* method) {
+  claim(method, true, cell);
   SettledMass settled;
   settled.mass = cellMass(cell);
   if (with_moments_) {
@@ -191,12 +225,13 @@ void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double s
 
 // No surfaces meet anywhere in `cell`: one point of it tells whether the solids overlap.
 void CellExaminer::settleFree(const Cell& cell) {
-  if (!solids_ || cell.empty() || !solids_->possible(cell)) return;
+  if (!solids_ || cell.empty() || !solids_->possible(cell)) return claim("no pair", false, cell);
   switch (solids_->at(0.5 * (cell.lo + cell.hi))) {
     case Containment::inside:
-      settle(cell);
+      settle(cell, "containment");
       break;
     case Containment::outside:
+      claim("no containment", false, cell);
       break;
     case Containment::unknown: {
       const double mass = cellMass(cell).upper;
@@ -209,18 +244,8 @@ void CellExaminer::settleFree(const Cell& cell) {
 
 // What is left of the cell around `box` is free.
 void CellExaminer::settleAround(const Cell& box) {
-  if (!solids_) return;
-  Cell rest = front_.cell();
-  for (int k = 0; k < rest.rank; ++k) {
-    Cell part = rest;
-    part.hi[k] = box.lo[k];
-    settleFree(part);
-    part = rest;
-    part.lo[k] = box.hi[k];
-    settleFree(part);
-    rest.lo[k] = box.lo[k];
-    rest.hi[k] = box.hi[k];
-  }
+  if (!solids_ && !observer_) return;
+  visitAround(front_.cell(), box, [this](const Cell& part) { settleFree(part); });
 }
 
 // Whether masses under a plane may be used in the cell: not where one object may be inside the
@@ -324,6 +349,10 @@ void CellExaminer::addPart(OpenCell& open) {
   open.has_plane = true;
   open.plane = best.part.planes[0];
   open.part = best.part;
+  claim("part of a cell", true, open.cell, best.part);
+  for (int i = 0; i < possible.count; ++i) {
+    claimBelow("below what is possible", open.cell, possible.planes[i]);
+  }
   open.lower = mass;
   open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
   if (possible.count > 1)
@@ -338,11 +367,36 @@ void CellExaminer::weigh(OpenCell& open) {
   open.lower = cellHalfSpaceMass(open.cell, m, open.plane.s, kOpenAccuracy).lower;
   open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
   open.drawn = open.gap();
+  claimBelow("below what is possible", open.cell, {m, open.possible_from});
   double mass = kLeastCovered * open.gap();
   const ObstaclePart below = largestPart(open, CoveredPart::kMostPlanes - 1, mass);
   if (below.share <= 0.0) return;
   open.part = below.part;
+  claim("part below a plane", true, open.cell, below.part);
   open.lower = std::min(open.upper, open.lower + mass);
+}
+
+// Whether what stays open of the cell is only this box.
+bool CellExaminer::isCutBack(const Cell& box) const {
+  return cellMass(box).upper < kCutBack * cellMass(front_.cell()).upper;
+}
+
+// What openWithPlane() says of the cell, but for what stays open.
+void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, double settled_from,
+                               bool nothing_below) const {
+  const Cell& cell = front_.cell();
+  const Eigen::Vector3d& m = leader.inner.m;
+  const bool by_pair = !leader.pair.isHalfSpace();
+  if (settled_from < leader.inner.s) observer_->excuse(cell, m, settled_from, leader.inner.s);
+  CoveredPart above;
+  above.planes[0] = leader.inner;
+  above.count = 1;
+  claim(by_pair ? "plane of a pair" : "plane of crossing surfaces", true, cell, above);
+  const CellPlane from{m, settled_from};
+  if (nothing_below) return claimBelow("nothing below a plane", cell, from);
+  if (!isCutBack(box)) return;
+  visitAround(cell, box,
+              [&](const Cell& part) { claimBelow("beside what stays open", part, from); });
 }
 
 // The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
@@ -395,13 +449,15 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   const double sliver = sliverMass(cell, m, leader.inner.s - settled_from);
   result_.settled.mass.upper += sliver;
   result_.settled.moment_error += sliver * (1.0 + kReach);
-  if (open.front.size() == 1 && !leader.layered) return settlePart(cell, leader.inner, 1.0);
+  const bool nothing_below = open.front.size() == 1 && !leader.layered;
+  if (observer_) claimBeside(leader, box, settled_from, nothing_below);
+  if (nothing_below) return settlePart(cell, leader.inner, 1.0);
 
   open.cell = cell;
   open.has_plane = true;
   open.plane_covers = true;
   open.plane = leader.inner;
-  if (cellMass(box).upper < kCutBack * cellMass(cell).upper) {
+  if (isCutBack(box)) {
     settlePart(cell, leader.inner, 1.0);
     settlePart(box, leader.inner, -1.0);
     open.cell = box;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "partition/cell_front.h"
+#include "partition/claim_observer.h"
 #include "partition/containment.h"
 #include "partition/crossing_witness.h"
 
@@ -38,10 +39,13 @@ class CellExaminer {
   SettledMass coveredPart(const OpenCell& open) const;
 
  private:
-  void settle(const Cell& cell);
+  void settle(const Cell& cell, const char* method);
   void settlePart(const Cell& cell, const CellPlane& plane, double sign);
   void settleFree(const Cell& cell);
   void settleAround(const Cell& box);
+  void claim(const char* method, bool collides, const Cell& cell) const;
+  void claim(const char* method, bool collides, const Cell& cell, const CoveredPart& part) const;
+  void claimBelow(const char* method, const Cell& cell, const CellPlane& plane) const;
   std::optional<CuttingPair> champion() const;
   std::optional<CuttingPair> bestLeader();
   CrossingWitness* witness();
@@ -51,6 +55,9 @@ class CellExaminer {
   double lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const;
   void addPart(OpenCell& open);
   void weigh(OpenCell& open);
+  bool isCutBack(const Cell& box) const;
+  void claimBeside(const CuttingPair& leader, const Cell& box, double settled_from,
+                   bool nothing_below) const;
   void openWithPlane(const CuttingPair& leader);
 
   const WhitenedPair& pair_;
@@ -59,6 +66,7 @@ class CellExaminer {
   const SolidContact* solids_;
   bool with_moments_;
   ProbabilityStatistics& statistics_;
+  ClaimObserver* const observer_ = claim_observer;
   CubeCutter cutter_;
   Examination result_;
   std::vector<FrontPair> near_;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "partition/cell_sampling.h"
+#include "partition/claim_observer.h"
 #include "partition/closest_approach.h"
 #include "partition/partition_engine.h"
 
@@ -178,6 +179,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   if (hasSolids(a) || hasSolids(b)) {
     solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);
   }
+  if (claim_observer) claim_observer->frame(frame.whitening, displacement);
   clock.finish("whitening");
 
   const bool estimate = request.method == ProbabilityMethod::estimate;

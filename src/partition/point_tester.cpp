@@ -25,6 +25,22 @@ PointTester::PointTester(const WhitenedPair& pair, ObstacleTable& obstacles,
     : pair_(pair), obstacles_(obstacles), solids_(solids) {}
 
 void PointTester::test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
+  if (!observer_) return decide(front, points);
+  const std::vector<TestedPoint> before = points;
+  decide(front, points);
+  claim(before, points);
+}
+
+void PointTester::claim(const std::vector<TestedPoint>& before,
+                        const std::vector<TestedPoint>& points) const {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const TestedPoint& point = points[i];
+    if (before[i].collides || point.doubtful) continue;
+    observer_->claim({"sample", point.collides, {point.y, point.y, 3}, {}});
+  }
+}
+
+void PointTester::decide(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
   collectUndecided(points);
   // The leaves first: they are the cheapest to test.
   for (const bool leaves : {true, false}) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "partition/claim_observer.h"
 #include "partition/containment.h"
 #include "partition/obstacle_table.h"
 #include "partition/open_cell.h"
@@ -41,6 +42,8 @@ class PointTester {
     Range points;
   };
 
+  void decide(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points);
+  void claim(const std::vector<TestedPoint>& before, const std::vector<TestedPoint>& points) const;
   void collectUndecided(const std::vector<TestedPoint>& points);
   void padUndecided();
   void removeDecided(const std::vector<TestedPoint>& points);
@@ -54,6 +57,7 @@ class PointTester {
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
   const SolidContact* solids_;
+  ClaimObserver* const observer_ = claim_observer;
   std::vector<int> undecided_;                      ///< indices of points
   std::array<std::vector<double>, 3> coordinates_;  ///< of the undecided, padded with NaN
   std::vector<int> chosen_;  ///< indices of points, for each pair that is being looked at

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What the partition claims of its cells, against the oracle, over assorted scenes.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include "catch.h"
+#include "mesh_shapes.h"
+#include "oracle/claim_checker.h"
+#include "shapes.h"
+
+using namespace fcl_prob_test;
+using fcl_prob::ContactMeaning;
+using fcl_prob::GaussianDisplacement;
+using fcl_prob::ProbabilityMethod;
+using fcl_prob::ProbabilityRequest;
+using oracle::checkClaims;
+using oracle::ClaimBudget;
+using oracle::ClaimReport;
+
+namespace {
+
+ProbabilityRequest interval(ContactMeaning contact = ContactMeaning::fcl) {
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::interval;
+  request.contact = contact;
+  request.relative_tolerance = 0.02;
+  request.max_cells = 3000;
+  return request;
+}
+
+void checkReport(const ClaimReport& report) {
+  INFO(report.table());
+  for (const oracle::Violation& violation : report.violations) UNSCOPED_INFO(violation.text);
+  CHECK(report.total().violated == 0);
+}
+
+}  // namespace
+
+TEST_CASE("Claims of all pairs of kinds of shapes") {
+  RandomBodies random(1201);
+  std::vector<NamedGeometry> all = boundedShapes();
+  for (const NamedGeometry& mesh : meshes()) all.push_back(mesh);
+  all.push_back({"OcTree", randomOcTree(30, 0.1, 0.5, 3)});
+  ClaimReport sum;
+  for (const NamedGeometry& a : all) {
+    for (const NamedGeometry& b : all) {
+      INFO(a.name << " and " << b.name);
+      const fcl::Transform3d pose_a(random.pose(0.3)), pose_b(random.pose(1.5));
+      const ClaimReport report = checkClaims({a.geometry.get(), pose_a}, {b.geometry.get(), pose_b},
+                                             randomDisplacement(random, 0.01, 0.3), interval(),
+                                             ClaimBudget{150, 2, 2}, random.integer(0, 1 << 30));
+      checkReport(report);
+      sum += report;
+    }
+  }
+  CHECK(sum.total().checked > 5000);
+  CHECK(sum.total().undecided < 100);
+  CHECK(sum.whitening_error < 1e-13);
+}
+
+TEST_CASE("The checker finds claims that are wrong") {
+  // Told of a ball that is a little larger or smaller than the one asked about.
+  const fcl::Boxd box(1, 1, 1);
+  const fcl::Sphered ball(0.5), larger(0.501), smaller(0.499);
+  const fcl::Transform3d at_origin = fcl::Transform3d::Identity();
+  fcl::Transform3d beside = at_origin;
+  beside.translation() = Eigen::Vector3d(1.1, 0.2, 0.1);
+  const GaussianDisplacement error(Eigen::Vector3d::Zero(), 0.01 * Eigen::Matrix3d::Identity());
+  const auto violations = [&](const fcl::Sphered& told) {
+    const oracle::Scene scene({&told, at_origin}, {&box, beside}, oracle::Contact::surface);
+    fcl_prob::ProbabilityResult result;
+    const auto query = [&] {
+      fcl_prob::collisionProbability(&ball, at_origin, &box, beside, error, interval(), result);
+    };
+    return checkClaims(scene, query, ClaimBudget{}, 5).total().violated;
+  };
+  CHECK(violations(ball) == 0);
+  CHECK(violations(larger) > 0);
+  CHECK(violations(smaller) > 0);
+}
