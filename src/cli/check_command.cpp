@@ -26,7 +26,6 @@ CheckReport check(Scene scene, const std::string& bounding_volume) {
   CheckReport report;
   {
     ProgressBar bar("fcl_prob check");
-    scene.request.gradient = true;
     scene.request.on_progress = std::ref(bar);
     const TimedResult timed = prepared.query(scene.request);
     report.result = timed.result;
@@ -51,6 +50,8 @@ void addCheckCommand(CLI::App& app, int& exit_code) {
   CLI::App& command = *app.add_subcommand("check", "The collision probability of one scene");
   addSceneOptions(command, arguments->scene);
   addRequestOptions(command, arguments->scene);
+  command.add_flag("--gradient", arguments->scene.gradient,
+                   "Also the derivative of the probability by the mean displacement");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runCheck(*arguments); });

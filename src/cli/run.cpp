@@ -24,6 +24,7 @@ int complain(const std::string& message) {
 int parseAndRun(int argc, const char* const* argv) {
   CLI::App app("Collision probabilities of two shapes under Gaussian position error");
   app.name("fcl_prob");
+  app.set_version_flag("--version", "fcl_prob " FCL_PROB_VERSION);
   app.require_subcommand(1);
   int exit_code = kAnswered;
   addCheckCommand(app, exit_code);
@@ -34,7 +35,7 @@ int parseAndRun(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) return complain(error.what());
-    app.exit(error, std::cout, std::cerr);  // --help
+    app.exit(error, std::cout, std::cerr);  // --help, --version
   }
   flushOutput(std::cout, "standard output");
   return exit_code;

@@ -108,6 +108,7 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   apply(arguments.samples, request.samples);
   apply(arguments.seed, request.seed);
   apply(arguments.threads, request.threads);
+  if (arguments.gradient) request.gradient = true;
 }
 
 Scene baseScene(const SceneArguments& arguments) {

@@ -40,6 +40,7 @@ struct SceneArguments {
   std::optional<std::uint64_t> seed;
   std::optional<unsigned> threads;
   std::optional<std::string> contact;
+  bool gradient = false;
 };
 
 /// Adds the options to `command`; parsing fills `arguments`, which must live as long.

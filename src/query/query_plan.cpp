@@ -94,9 +94,14 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
 
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
-  const bool exact = !request.gradient && pair.haveExactMass(displacement);
-  return exact ? planExact(pair, displacement, request)
-               : planPartition(pair, displacement, request);
+  const bool exact = pair.haveExactMass(displacement);
+  if (exact && !request.gradient) return planExact(pair, displacement, request);
+  QueryPlan plan = planPartition(pair, displacement, request);
+  if (exact) {
+    plan.notes.push_back(
+        "a gradient is asked for: the partition instead of the exact mass, which has none");
+  }
+  return plan;
 }
 
 QueryPlan planConvexBound(const QueryPair& pair, const ProbabilityRequest& request) {
