@@ -31,7 +31,7 @@ struct ImportLimits {
 /// declares (COLLADA's `unit`); otherwise the numbers are taken as metres, and the axes are the
 /// file's. Polygons are triangulated, points and lines ignored, bitwise equal vertices welded.
 /// assimp reads in single precision: a mesh that is lost by it (further from its origin than 1e4
-/// times its size) is refused.
+/// times its size) is refused, and TriangleMesh::coordinate_error says what it rounds.
 ///
 /// Sizes, counts and indices are checked against the file itself before it is imported, and
 /// everything again afterwards: a truncated or malformed file is refused, not repaired. Even so

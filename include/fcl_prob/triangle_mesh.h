@@ -17,6 +17,11 @@ namespace fcl_prob {
 struct TriangleMesh {
   std::vector<fcl::Vector3d> vertices;   ///< metres, in the mesh's own frame
   std::vector<fcl::Triangle> triangles;  ///< three indices into `vertices` each
+
+  /// How far a coordinate may be from the one that was meant, metres: what a loader's single
+  /// precision rounds. It is told and not part of any bound; 0 where the vertices are what they
+  /// are.
+  double coordinate_error = 0.0;
 };
 
 /// \throws InvalidGeometry if there is no triangle, an index is out of range or a coordinate is not

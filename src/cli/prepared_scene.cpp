@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/prepared_scene.h"
 
+#include "cli/number_text.h"
 #include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
@@ -49,6 +50,23 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
   build_ms_ = watch.milliseconds();
 }
 
+std::vector<std::string> PreparedScene::importNotes() const {
+  // Where a shift by this much of σ moves P by less than a millionth of itself or so.
+  constexpr double kNegligible = 1e-6;
+  std::vector<std::string> notes;
+  if (displacement_.rank() == 0) return notes;
+  const double sigma = displacement_.standardDeviations()[displacement_.rank() - 1];
+  for (const auto& [name, object] : {std::pair("A", &a_), std::pair("B", &b_)}) {
+    const auto* mesh = std::get_if<TriangleMesh>(&object->shape);
+    if (mesh == nullptr || mesh->coordinate_error <= kNegligible * sigma) continue;
+    notes.push_back(std::string("mesh files are read in single precision: coordinates of ") + name +
+                    " may be off by " + numberText(mesh->coordinate_error, 2) + " m, " +
+                    numberText(mesh->coordinate_error / sigma, 2) +
+                    " of the least standard deviation, which no bound contains");
+  }
+  return notes;
+}
+
 TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   TimedResult timed;
   const Stopwatch watch;
@@ -58,6 +76,7 @@ TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
     query_->collisionProbability(a_.pose, b_.pose, displacement_, request, timed.result);
   }
   timed.time_ms = watch.milliseconds();
+  for (std::string& note : importNotes()) timed.result.plan.push_back(std::move(note));
   return timed;
 }
 

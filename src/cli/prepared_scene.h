@@ -45,6 +45,9 @@ class PreparedScene {
   const GaussianDisplacement& displacement() const { return displacement_; }
 
  private:
+  /// What the loader rounded, where that is not small beside the standard deviations.
+  std::vector<std::string> importNotes() const;
+
   ProbabilityResult boundByOwnTrees(const ProbabilityRequest& request) const;
 
   LoadedObject a_;

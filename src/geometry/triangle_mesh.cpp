@@ -53,11 +53,13 @@ TriangleMesh normalized(const TriangleMesh& mesh) {
   const fcl::Vector3d centre = 0.5 * box.min() + 0.5 * box.max();
   TriangleMesh result = mesh;
   for (fcl::Vector3d& v : result.vertices) v = (v - centre) / longest;
+  result.coordinate_error /= longest;
   return result;
 }
 
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
+  result.coordinate_error = mesh.coordinate_error;
   result.triangles.reserve(mesh.triangles.size());
   std::unordered_map<fcl::Vector3d, std::size_t, HashOfVertex> known;
   known.reserve(mesh.vertices.size());

@@ -30,6 +30,7 @@ struct Message {
   Outcome outcome;
   std::uint64_t first;
   std::uint64_t second;
+  double coordinate_error;
 };
 
 /// Three doubles and three indices, without the classes' own layout.
@@ -97,7 +98,8 @@ bool writeAll(int descriptor, const void* data, std::size_t size) {
 }
 
 void sendMesh(int descriptor, const TriangleMesh& mesh) {
-  const Message message{Outcome::mesh, mesh.vertices.size(), mesh.triangles.size()};
+  const Message message{Outcome::mesh, mesh.vertices.size(), mesh.triangles.size(),
+                        mesh.coordinate_error};
   std::vector<RawVertex> vertices;
   for (const fcl::Vector3d& v : mesh.vertices) vertices.push_back({v.x(), v.y(), v.z()});
   std::vector<RawTriangle> triangles;
@@ -108,7 +110,7 @@ void sendMesh(int descriptor, const TriangleMesh& mesh) {
 }
 
 void sendError(int descriptor, Outcome outcome, const char* text) {
-  const Message message{outcome, std::strlen(text), 0};
+  const Message message{outcome, std::strlen(text), 0, 0.0};
   writeAll(descriptor, &message, sizeof message) && writeAll(descriptor, text, message.first);
 }
 
@@ -243,6 +245,7 @@ bool receive(Receiver& receiver, const std::string& path, TriangleMesh& mesh) {
   std::vector<RawTriangle> triangles;
   if (!receiver.readItems(message.first, vertices)) return false;
   if (!receiver.readItems(message.second, triangles)) return false;
+  mesh.coordinate_error = message.coordinate_error;
   for (const RawVertex& v : vertices) mesh.vertices.emplace_back(v[0], v[1], v[2]);
   for (const RawTriangle& t : triangles) mesh.triangles.emplace_back(t[0], t[1], t[2]);
   return true;

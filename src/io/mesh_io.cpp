@@ -94,9 +94,14 @@ Eigen::Affine3d toEigen(const aiMatrix4x4& matrix, const std::string& path) {
 
 void append(const aiMesh& source, const Eigen::Affine3d& transform, TriangleMesh& mesh) {
   const std::size_t first = mesh.vertices.size();
+  // Vertices and matrices are both rounded to single precision, half an ε each.
+  constexpr double kRounding = std::numeric_limits<float>::epsilon();
+  const Eigen::Matrix3d magnitudes = transform.linear().cwiseAbs();
   for (unsigned i = 0; i < source.mNumVertices; ++i) {
-    const aiVector3D& v = source.mVertices[i];
-    mesh.vertices.emplace_back(transform * Eigen::Vector3d(v.x, v.y, v.z));
+    const Eigen::Vector3d v(source.mVertices[i].x, source.mVertices[i].y, source.mVertices[i].z);
+    mesh.vertices.emplace_back(transform * v);
+    const Eigen::Vector3d terms = magnitudes * v.cwiseAbs() + transform.translation().cwiseAbs();
+    mesh.coordinate_error = std::max(mesh.coordinate_error, kRounding * terms.maxCoeff());
   }
   for (unsigned f = 0; f < source.mNumFaces; ++f) {
     const aiFace& face = source.mFaces[f];
@@ -137,6 +142,7 @@ void checkResolution(const TriangleMesh& mesh, const std::string& path) {
 
 TriangleMesh scaled(TriangleMesh mesh, double factor, const std::string& path) {
   for (fcl::Vector3d& v : mesh.vertices) v *= factor;
+  mesh.coordinate_error *= factor;
   validateMesh(mesh, path);
   return mesh;
 }
