@@ -23,6 +23,7 @@ struct CompareArguments {
   bool json = false;
   std::string plot;
   std::string output;
+  std::size_t seeds = 10;
 };
 
 std::string titleOf(const SceneArguments& arguments) {
@@ -44,7 +45,8 @@ std::vector<ComparisonRun> runsFor(const ProbabilityRequest& request) {
   return runs;
 }
 
-Comparison compareWithProgress(const Scene& scene, const std::string& bounding_volume) {
+Comparison compareWithProgress(const Scene& scene, const std::string& bounding_volume,
+                               std::size_t seeds) {
   const PreparedScene prepared(scene, bounding_volume);
   noteInterrupts();
   ProgressBar bar("fcl_prob compare");
@@ -54,7 +56,7 @@ Comparison compareWithProgress(const Scene& scene, const std::string& bounding_v
   };
   ProbabilityRequest request = scene.request;
   request.on_progress = [](const ProbabilityProgress&) { return !interrupted(); };
-  return compare(prepared, runsFor(request), request, progress);
+  return compare(prepared, runsFor(request), request, seeds, progress);
 }
 
 void plot(const Comparison& comparison, const CompareArguments& arguments,
@@ -70,8 +72,8 @@ int runCompare(const CompareArguments& arguments) {
   if (!arguments.plot.empty() && !terminal) {
     throw InvalidRequest("--plot: the file name must end in .svg or .png");
   }
-  const Comparison comparison =
-      compareWithProgress(sceneFrom(arguments.scene), arguments.scene.bounding_volume);
+  const Comparison comparison = compareWithProgress(
+      sceneFrom(arguments.scene), arguments.scene.bounding_volume, arguments.seeds);
   if (arguments.json) {
     deliver(jsonOf(comparison).dump(1) + "\n", arguments.output);
   } else {
@@ -93,6 +95,11 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
   command.add_flag("--json", arguments->json, "JSON instead of a table")->excludes(csv);
   command.add_option("--plot", arguments->plot,
                      "Also plot error and bounds against run time, to FILE.svg or FILE.png");
+  command
+      .add_option("--seeds", arguments->seeds,
+                  "Runs of each method that samples, whose errors' root mean square is told")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}))
+      ->capture_default_str();
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runCompare(*arguments); });
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -135,6 +136,13 @@ Answer answerOf(const PreparedScene& scene, const PriorScene& prior_scene,
   return answer;
 }
 
+bool samples(const ComparisonRun& run) {
+  const ProbabilityMethod method = run.request.method;
+  return !run.prior &&
+         (method == ProbabilityMethod::estimate || method == ProbabilityMethod::monte_carlo ||
+          method == ProbabilityMethod::rare_event);
+}
+
 /// Runs that are over in a moment are repeated, and the quickest counts: the first one pays for
 /// caches and page faults that are not the method's.
 Answer quickest(const PreparedScene& scene, const PriorScene& prior_scene,
@@ -154,24 +162,77 @@ double relative(double error, double reference) {
   return reference > 0.0 ? error / reference : std::numeric_limits<double>::infinity();
 }
 
-ComparisonRecord record(const PreparedScene& scene, const PriorScene& prior_scene,
-                        const ComparisonRun& run, const ComparisonReference& reference) {
-  ComparisonRecord result;
-  result.method = run.method;
-  result.budget = run.budget;
-  try {
-    const Answer answer = quickest(scene, prior_scene, run);
-    result.result = answer.timed.result;
-    result.time_ms = answer.timed.time_ms;
-    result.status = answer.status;
-  } catch (const Exception& error) {
-    result.refusal = error.what();
-    return result;
+double rootMeanSquare(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void setError(const std::vector<double>& errors, double reference, ComparisonRecord& record) {
+  record.seeds = errors.size();
+  record.error = rootMeanSquare(errors);
+  record.relative_error = relative(*record.error, reference);
+}
+
+void setAnswer(const Answer& answer, ComparisonRecord& record) {
+  record.result = answer.timed.result;
+  record.status = answer.status;
+  record.value = record.result.probability();
+  record.time_ms = answer.timed.time_ms;
+  if (record.result.lower && record.result.upper) {
+    record.stated_error = 0.5 * (*record.result.upper - *record.result.lower);
   }
-  result.value = result.result.probability();
-  result.error = std::abs(result.value - reference.value);
-  result.relative_error = relative(result.error, reference.value);
-  return result;
+}
+
+void recordOnce(const PreparedScene& scene, const PriorScene& prior_scene, const ComparisonRun& run,
+                const ComparisonReference& reference, ComparisonRecord& record) {
+  setAnswer(quickest(scene, prior_scene, run), record);
+  setError({std::abs(record.value - reference.value)}, reference.value, record);
+}
+
+/// One seed may be right by luck: what counts is the error that is to be expected.
+void recordSeeds(const PreparedScene& scene, ComparisonRun run, std::size_t seeds,
+                 const ComparisonReference& reference, ComparisonRecord& record) {
+  std::vector<double> errors;
+  std::vector<double> stated;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < seeds; ++i, ++run.request.seed) {
+    const TimedResult timed = scene.query(run.request);
+    if (i == 0) setAnswer({timed, toString(timed.result.status)}, record);
+    errors.push_back(std::abs(timed.result.probability() - reference.value));
+    if (timed.result.standard_error) stated.push_back(*timed.result.standard_error);
+    times.push_back(timed.time_ms);
+    // A query that is cancelled says nothing about the method.
+    if (timed.result.status == ProbabilityStatus::cancelled) break;
+  }
+  if (!stated.empty()) record.stated_error = rootMeanSquare(stated);
+  record.time_ms = median(times);
+  record.seeds = errors.size();
+  if (reference.certified) setError(errors, reference.value, record);
+}
+
+ComparisonRecord recordOf(const PreparedScene& scene, const PriorScene& prior_scene,
+                          const ComparisonRun& run, std::size_t seeds,
+                          const ComparisonReference& reference) {
+  ComparisonRecord record;
+  record.method = run.method;
+  record.budget = run.budget;
+  try {
+    if (samples(run)) {
+      recordSeeds(scene, run, seeds, reference, record);
+    } else {
+      recordOnce(scene, prior_scene, run, reference, record);
+    }
+  } catch (const Exception& error) {
+    record.refusal = error.what();
+  }
+  return record;
 }
 
 }  // namespace
@@ -192,7 +253,8 @@ std::vector<ComparisonRun> defaultRuns(const ProbabilityRequest& base) {
 }
 
 Comparison compare(const PreparedScene& scene, const std::vector<ComparisonRun>& runs,
-                   const ProbabilityRequest& base, const ComparisonProgress& progress) {
+                   const ProbabilityRequest& base, std::size_t seeds,
+                   const ComparisonProgress& progress) {
   Comparison comparison;
   comparison.build_ms = scene.buildTime();
   comparison.nominal = scene.nominal();
@@ -202,7 +264,7 @@ Comparison compare(const PreparedScene& scene, const std::vector<ComparisonRun>&
   for (const ComparisonRun& run : runs) {
     const std::string what = run.method + " " + run.budget;
     if (!progress(comparison.records.size() + 1, runs.size() + 1, what)) break;
-    comparison.records.push_back(record(scene, prior_scene, run, comparison.reference));
+    comparison.records.push_back(recordOf(scene, prior_scene, run, seeds, comparison.reference));
   }
   return comparison;
 }

@@ -35,11 +35,21 @@ struct ComparisonRecord {
   std::string budget;
   std::optional<std::string> refusal;  ///< why the method cannot do this scene; then nothing below
   ProbabilityResult result;
-  std::string status;           ///< result.status, or "approximation" for what bounds nothing
-  double value = 0.0;           ///< the single number that the method gives
-  double error = 0.0;           ///< |value - reference|
-  double relative_error = 0.0;  ///< error / reference; infinite if that is 0 and the error is not
-  double time_ms = 0.0;
+  std::string status;  ///< result.status, or "approximation" for what bounds nothing
+  double value = 0.0;  ///< the single number that the method gives; of the first seed
+
+  /// |value - reference|. Of a method that samples: its root mean square over `seeds` runs, since
+  /// one draw may be right by luck. Not set where the reference is itself sampled and so is the
+  /// method.
+  std::optional<double> error;
+  std::optional<double> relative_error;  ///< error / reference; infinite if only that is 0
+
+  /// What the method itself says its error is: the standard error (root mean square over the
+  /// seeds), or half of a two-sided interval.
+  std::optional<double> stated_error;
+
+  std::size_t seeds = 1;  ///< runs that `error` is taken over: 1 for a method that does not sample
+  double time_ms = 0.0;   ///< of one run; the median over the seeds
 };
 
 struct Comparison {
@@ -57,9 +67,11 @@ using ComparisonProgress =
 /// not the budget: contact, seed, threads; its time limit, if any, holds for each run.
 std::vector<ComparisonRun> defaultRuns(const ProbabilityRequest& base);
 
-/// Runs them all. A method that refuses the scene becomes a record that says why.
+/// Runs them all, those that sample with `seeds` seeds from base.seed on. A method that refuses the
+/// scene becomes a record that says why.
 /// \throws Exception if the scene itself is bad, or no method can give a reference
 Comparison compare(const PreparedScene& scene, const std::vector<ComparisonRun>& runs,
-                   const ProbabilityRequest& base, const ComparisonProgress& progress);
+                   const ProbabilityRequest& base, std::size_t seeds,
+                   const ComparisonProgress& progress);
 
 }  // namespace fcl_prob::cli

@@ -33,15 +33,6 @@ Curves curvesOf(const Comparison& comparison) {
   return curves;
 }
 
-/// What the method itself says its error may be, in the units of `error`; its error where it does
-/// not.
-double claimedError(const ComparisonRecord& record) {
-  const ProbabilityResult& result = record.result;
-  if (result.standard_error) return *result.standard_error;
-  if (result.lower && result.upper) return 0.5 * (*result.upper - *result.lower);
-  return record.error;
-}
-
 /// The range that the method gives for P: certified, of confidence, or up to a bound.
 Bounds rangeOf(const ComparisonRecord& record) {
   const ProbabilityResult& result = record.result;
@@ -63,12 +54,14 @@ void writeData(const Curves& curves, const ComparisonReference& reference, std::
   for (std::size_t i = 0; i < curves.size(); ++i) {
     out << blockName(i) << " << EOD\n";
     for (const ComparisonRecord* record : curves[i].records) {
-      const double claimed = claimedError(*record) / std::max(reference.value, 1e-300);
-      const double error = std::max(record->relative_error, floor);
+      // A method that sampled the reference, too, has nothing but what it says of itself.
+      const double stated = record->stated_error.value_or(record->error.value_or(0.0)) /
+                            std::max(reference.value, 1e-300);
+      const double error = std::max(record->relative_error.value_or(stated), floor);
       const Bounds range = rangeOf(*record);
       const double least = kLeastShown * reference.value;
-      out << record->time_ms << ' ' << error << ' ' << std::min(error, std::max(claimed, floor))
-          << ' ' << std::max(error, claimed) << ' ' << std::max(record->value, least) << ' '
+      out << record->time_ms << ' ' << error << ' ' << std::min(error, std::max(stated, floor))
+          << ' ' << std::max(error, stated) << ' ' << std::max(record->value, least) << ' '
           << std::max(range.lower, least) << ' ' << std::max(range.upper, least) << '\n';
     }
     out << "EOD\n";

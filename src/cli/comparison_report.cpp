@@ -36,11 +36,21 @@ std::string referenceText(const ComparisonReference& reference) {
          number(reference.time_ms) + " ms)";
 }
 
+std::string relativeText(const std::optional<double>& value) {
+  return value ? number(*value, 3) : "";
+}
+
+std::optional<double> statedRelative(const ComparisonRecord& record,
+                                     const ComparisonReference& reference) {
+  if (!record.stated_error || !(reference.value > 0.0)) return std::nullopt;
+  return *record.stated_error / reference.value;
+}
+
 }  // namespace
 
 std::string tableOf(const Comparison& comparison) {
-  TextTable table(
-      {"method", "budget", "value", "interval or bound", "relative error", "time / ms", "status"});
+  TextTable table({"method", "budget", "value", "interval or bound", "relative error", "stated",
+                   "seeds", "time / ms", "status"});
   std::string refusals;
   for (const ComparisonRecord& record : comparison.records) {
     const std::string& name = record.method;
@@ -50,17 +60,21 @@ std::string tableOf(const Comparison& comparison) {
       continue;
     }
     table.add({name, record.budget, number(record.value, 6), rangeOf(record.result),
-               number(record.relative_error, 3), number(record.time_ms), record.status});
+               relativeText(record.relative_error),
+               relativeText(statedRelative(record, comparison.reference)),
+               std::to_string(record.seeds), number(record.time_ms), record.status});
   }
   return "reference: " + referenceText(comparison.reference) + "\n" + "trees built in " +
-         number(comparison.build_ms) + " ms\n\n" + table.text() + refusals;
+         number(comparison.build_ms) +
+         " ms; errors of methods that sample are root mean squares over the seeds\n\n" +
+         table.text() + refusals;
 }
 
 std::string csvOf(const Comparison& comparison) {
   constexpr int kAllDigits = 17;
   TextTable table({"method", "budget", "value", "lower", "upper", "confidence_lower",
-                   "confidence_upper", "standard_error", "error", "relative_error", "time_ms",
-                   "status"});
+                   "confidence_upper", "standard_error", "error", "relative_error", "stated_error",
+                   "seeds", "time_ms", "status"});
   for (const ComparisonRecord& record : comparison.records) {
     if (record.refusal) continue;
     const ProbabilityResult& result = record.result;
@@ -69,9 +83,9 @@ std::string csvOf(const Comparison& comparison) {
                numberOrEmpty(result.lower), numberOrEmpty(result.upper),
                confidence ? number(confidence->lower, kAllDigits) : "",
                confidence ? number(confidence->upper, kAllDigits) : "",
-               numberOrEmpty(result.standard_error), number(record.error, kAllDigits),
-               number(record.relative_error, kAllDigits), number(record.time_ms, kAllDigits),
-               record.status});
+               numberOrEmpty(result.standard_error), numberOrEmpty(record.error),
+               numberOrEmpty(record.relative_error), numberOrEmpty(record.stated_error),
+               std::to_string(record.seeds), number(record.time_ms, kAllDigits), record.status});
   }
   return table.csv();
 }
@@ -89,8 +103,10 @@ Json jsonOf(const Comparison& comparison) {
       json["confidence_interval"] = orNull(record.result.confidence_interval);
       json["standard_error"] = orNull(record.result.standard_error);
       json["raw_sum"] = orNull(record.result.statistics.raw_sum);
-      json["error"] = record.error;
-      json["relative_error"] = record.relative_error;
+      json["error"] = orNull(record.error);
+      json["relative_error"] = orNull(record.relative_error);
+      json["stated_error"] = orNull(record.stated_error);
+      json["seeds"] = record.seeds;
       json["time_ms"] = record.time_ms;
       json["status"] = record.status;
     }
