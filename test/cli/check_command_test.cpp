@@ -89,6 +89,44 @@ TEST_CASE("the JSON of check has every field of the contract", "[cli]") {
   CHECK(free_of_threshold.at("decision").is_null());
 }
 
+TEST_CASE("a gradient is computed only when asked for, and its price is told", "[cli]") {
+  const TemporaryFolder folder;
+  const auto answer = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--scene", dataFile("two_boxes.json")});
+    return checkJson(more, folder);
+  };
+  const json without = answer({});
+  CHECK(without.at("gradient").is_null());
+  CHECK(without.at("method") == "exact");
+  CHECK(without.at("upper").get<double>() - without.at("lower").get<double>() <
+        1e-9 * without.at("upper").get<double>());
+  const json with = answer({"--gradient"});
+  CHECK(with.at("gradient").size() == 3);
+  CHECK(with.at("method") == "interval");
+  CHECK(with.at("plan").dump().find("a gradient is asked for") != std::string::npos);
+}
+
+TEST_CASE("what the importer's single precision rounds is told where it matters", "[cli]") {
+  const Cubes cubes;
+  const auto planOf = [&](const char* sigma) {
+    return checkJson({cubes.file, cubes.file, "--pose-a", "1.1,0,0", "--sigma", sigma},
+                     cubes.folder)
+        .at("plan")
+        .dump();
+  };
+  CHECK(planOf("0.01,0.01,0.01").find("single precision: coordinates of A may be off by") !=
+        std::string::npos);
+  CHECK(planOf("0.5,0.5,0.5").find("single precision") == std::string::npos);
+}
+
+TEST_CASE("--version names the program and its version", "[cli]") {
+  const TemporaryFolder folder;
+  const CommandResult result = runCommand({"--version"}, folder);
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.rfind("fcl_prob 0.", 0) == 0);
+  CHECK(result.err.empty());
+}
+
 TEST_CASE("every bounding volume bounds the probability from above", "[cli]") {
   const Cubes cubes;
   const double expected = fcl_prob::normalTailMass(2.0);
