@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "geometry/exact_sum.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -18,6 +20,17 @@ constexpr double kLargestWhitened = 1e100;
 /// The coordinates that do not move are in metres.
 constexpr double kLengthUnit = 1.0;
 
+/// From the origin of A, displaced by the mean, to that of B. Exact but for one rounding: far
+/// positions may cancel.
+Eigen::Vector3d offsetBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                              const Eigen::Vector3d& mean) {
+  ExactPosition offset;
+  offset.add(b);
+  offset.add(a, -1.0);
+  offset.add(mean, -1.0);
+  return offset.value().cast<double>();
+}
+
 }  // namespace
 
 PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transform3d& pose_a,
@@ -27,14 +40,13 @@ PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transf
       rotation_a(pose_a.linear()),
       rotation_b(pose_b.linear()),
       same_rotation(rotation_a == rotation_b),
-      offset((pose_b.translation() - pose_a.translation()) - displacement.mean()) {
+      offset(offsetBetween(pose_a.translation(), pose_b.translation(), displacement.mean())) {
   whitening = Whitening(displacement, kLengthUnit).matrix();
   for (int k = 0; k < 3; ++k) {
     const double scale = k < rank ? displacement.standardDeviations()[k] : kLengthUnit;
     inverse_variances[k] = 1.0 / (scale * scale);
   }
-  const double largest = size_a + size_b + pose_a.translation().norm() +
-                         pose_b.translation().norm() + displacement.mean().norm();
+  const double largest = size_a + size_b + offset.norm();
   error = kRoundings * std::numeric_limits<double>::epsilon() * largest;
   fits = largest * whitening.cwiseAbs().maxCoeff() <= kLargestWhitened;
 }

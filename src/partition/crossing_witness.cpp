@@ -55,11 +55,11 @@ std::vector<int> spreadVertices(const PieceTree& tree, std::size_t count) {
 }
 
 std::vector<std::array<int, 6>> extremesOfComponents(const WhitenedTree& mesh) {
-  const MeshCaps& caps = *mesh.tree->caps;
-  std::vector<std::array<int, 6>> extremes(caps.component_count);
+  const SurfaceComponents& components = mesh.tree->caps->components;
+  std::vector<std::array<int, 6>> extremes(components.count);
   for (auto& six : extremes) six.fill(-1);
-  for (int v = 0; v < static_cast<int>(caps.component_of_vertex.size()); ++v) {
-    const int component = caps.component_of_vertex[v];
+  for (int v = 0; v < static_cast<int>(components.of_vertex.size()); ++v) {
+    const int component = components.of_vertex[v];
     if (component < 0) continue;
     for (int k = 0; k < 3; ++k) {
       int& lowest = extremes[component][2 * k];
@@ -168,7 +168,7 @@ std::optional<bool> CrossingWitness::isInside(Side& side, const SweptVertex& swe
 // Whether a vertex inside means contact, for all displacements of the cell.
 bool CrossingWitness::crosses(Side& side, int vertex, const Cell& cell) {
   if (solid_) return true;
-  return leaves(side, side.inner.mesh().tree->caps->component_of_vertex[vertex], cell) &&
+  return leaves(side, side.inner.mesh().tree->caps->components.of_vertex[vertex], cell) &&
          avoidsCaps(side, cell);
 }
 

@@ -7,19 +7,26 @@
 #include <limits>
 
 #include "gaussian/constants.h"
+#include "geometry/exact_sum.h"
 
 namespace fcl_prob::detail {
 
 namespace {
 
-using LongVector = Eigen::Matrix<long double, 3, 1>;
 using LongMatrix = Eigen::Matrix<long double, 3, 3>;
 
-// The middle of a part in the world frame, in extended precision: poses and origins may be large
-// and nearly cancel.
-LongVector worldOrigin(const PieceTree::Part& part, const fcl::Transform3d& pose) {
-  return pose.linear().cast<long double>() * part.origin.cast<long double>() +
-         pose.translation().cast<long double>();
+// Of the products that an exact sum of positions is made of, what they lose below the smallest
+// number.
+constexpr double kLostInProducts = 32 * std::numeric_limits<double>::denorm_min();
+
+NodeBox triangleBox(const WhitenedTree& whitened, const Eigen::Vector3i& triangle) {
+  Eigen::Vector3d lo = whitened.vertices[triangle[0]];
+  Eigen::Vector3d hi = lo;
+  for (int corner = 1; corner < 3; ++corner) {
+    lo = lo.cwiseMin(whitened.vertices[triangle[corner]]);
+    hi = hi.cwiseMax(whitened.vertices[triangle[corner]]);
+  }
+  return paddedBox(lo, hi, whitened.error);
 }
 
 // Boxes of the leaves from their vertices, then of the inner nodes from their children, which stand
@@ -39,24 +46,8 @@ void fitBoxes(WhitenedTree& whitened) {
       }
       continue;
     }
-    Eigen::Vector3d lo = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Vector3d hi = -lo;
-    const auto include = [&](int vertex) {
-      lo = lo.cwiseMin(whitened.vertices[vertex]);
-      hi = hi.cwiseMax(whitened.vertices[vertex]);
-    };
-    if (tree.isTriangle(node.piece)) {
-      for (int corner = 0; corner < 3; ++corner) include(tree.triangles[node.piece][corner]);
-    } else {
-      const int body = tree.bodyOf(node.piece);
-      const WhitenedShape& shape = whitened.shapes[tree.bodies[body].shape];
-      lo = whitened.positions[body] + shape.lo;
-      hi = whitened.positions[body] + shape.hi;
-    }
-    for (int k = 0; k < 3; ++k) {
-      box.lo[k] = lo[k] - whitened.error[k];
-      box.hi[k] = hi[k] + whitened.error[k];
-    }
+    box = tree.isTriangle(node.piece) ? triangleBox(whitened, tree.triangles[node.piece])
+                                      : bodyBox(whitened, tree.bodyOf(node.piece));
   }
 }
 
@@ -88,9 +79,12 @@ struct PartOffset {
   Eigen::Vector3d reach;  ///< bound on the terms that the coordinates are sums of: they may cancel
 };
 
+// The difference of far positions is exact, so that no bound need know how far they are.
 PartOffset partOffset(const PieceTree::Part& part, const fcl::Transform3d& pose,
-                      const Whitening& whitening, const LongVector& reference) {
-  const LongVector offset = worldOrigin(part, pose) - reference;
+                      const Whitening& whitening, const ExactPosition& minus_origin) {
+  ExactPosition position = minus_origin;
+  position.add(pose, part.origin);
+  const LongVector offset = position.value();
   const LongMatrix matrix = whitening.matrix().cast<long double>();
   return {(matrix * offset).cast<double>(), (matrix.cwiseAbs() * offset.cwiseAbs()).cast<double>()};
 }
@@ -113,7 +107,7 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
 }
 
 void whitenOne(const PartitionObject& object, const Whitening& whitening,
-               const LongVector& reference, WhitenedTree& result) {
+               const ExactPosition& minus_origin, WhitenedTree& result) {
   result.tree = object.tree;
   result.vertices.clear();
   result.positions.clear();
@@ -123,23 +117,33 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     const PieceTree::Part& part = object.tree->parts[i];
     const fcl::Transform3d& pose = object.parts[i].pose;
-    const PartOffset offset = partOffset(part, pose, whitening, reference);
+    const PartOffset offset = partOffset(part, pose, whitening, minus_origin);
     whitenPart(part, whitening.matrix(), pose.linear(), offset.whitened, result);
     farthest = farthest.cwiseMax(offset.reach);
   }
-  const Eigen::Vector3d size =
-      1.8 * object.tree->radius() * whitening.matrix().cwiseAbs().rowwise().sum();
-  result.error = 16 * kEpsilon * (2 * size + farthest).array() + std::numeric_limits<double>::min();
+  const Eigen::Vector3d stretch = whitening.matrix().cwiseAbs().rowwise().sum();
+  const Eigen::Vector3d size = 1.8 * object.tree->radius() * stretch;
+  result.error =
+      16 * kEpsilon * (2 * size + farthest) + (object.tree->error() + kLostInProducts) * stretch;
+  result.error.array() += std::numeric_limits<double>::min();
   fitBoxes(result);
 }
 
 }  // namespace
 
+NodeBox bodyBox(const WhitenedTree& whitened, int body) {
+  const WhitenedShape& shape = whitened.shapes[whitened.tree->bodies[body].shape];
+  const Eigen::Vector3d& position = whitened.positions[body];
+  return paddedBox(position + shape.lo, position + shape.hi, whitened.error);
+}
+
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
             WhitenedPair& result) {
-  const LongVector reference = worldOrigin(a.tree->parts[0], a.parts[0].pose);
-  whitenOne(a, whitening, reference, result.a);
-  whitenOne(b, whitening, reference + whitening.mean().cast<long double>(), result.b);
+  ExactPosition minus_origin;
+  minus_origin.add(a.parts[0].pose, a.tree->parts[0].origin, -1.0);
+  whitenOne(a, whitening, minus_origin, result.a);
+  minus_origin.add(whitening.mean(), -1.0);
+  whitenOne(b, whitening, minus_origin, result.b);
 }
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,

@@ -35,6 +35,17 @@ inline bool isClearOf(const NodeBox& box, const double* lo, const double* hi) {
   return false;
 }
 
+/// [lo - pad, hi + pad]
+inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
+                         const Eigen::Vector3d& pad) {
+  NodeBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = lo[k] - pad[k];
+    box.hi[k] = hi[k] + pad[k];
+  }
+  return box;
+}
+
 /// A shape of the pieces and its extent, relative to the position of a piece. What its edges, and
 /// the edges p and q of its faces, are rounded by is 8 ε of their magnitudes: of the terms that
 /// they are sums of.
@@ -62,6 +73,9 @@ struct WhitenedTree {
   /// Bound on the error of m·v for such a point v; the rounding of the sum is within it, too.
   double errorAlong(const Eigen::Vector3d& m) const { return m.cwiseAbs().dot(error); }
 };
+
+/// Around tree->bodies[body], padded as the boxes of nodes.
+NodeBox bodyBox(const WhitenedTree& whitened, int body);
 
 struct WhitenedPair {
   WhitenedTree a;
