@@ -19,6 +19,12 @@ class TruncatedGaussian;
 /// collides with `b`. Fills `result` and returns result.probability(). `result` is assigned only on
 /// success. \throws InvalidRequest, InvalidPose, InvalidGeometry, UnsupportedGeometry, OpenMesh
 /// before any work.
+///
+/// Contact is what fcl::collide finds, which leaves out a geometry that is not `isOccupied()`
+/// (cost_density >= threshold_occupied; by default all are): then P is 0, and `plan` says why. Of
+/// an octree only the cells count, not these fields; a shape or mesh that is also `isFree()`
+/// (cost_density <= threshold_free) meets none. Two octrees with a cell both occupied and free are
+/// refused by all but Monte Carlo (UnsupportedGeometry).
 double collisionProbability(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
                             const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result);

@@ -22,8 +22,11 @@ class GroupQuery {
   using Geometries = std::vector<std::shared_ptr<const fcl::CollisionGeometryd>>;
 
   /// Keeps references to the geometries, which must not change while the query lives. A Halfspace
-  /// or Plane may be in one of the groups.
-  /// \throws InvalidGeometry, UnsupportedGeometry; InvalidGeometry also for a group without members
+  /// or Plane may be in one of the groups. Members that are not occupied are left out.
+  /// \throws InvalidGeometry, UnsupportedGeometry; InvalidGeometry also for a group without
+  /// members,
+  ///         UnsupportedGeometry for a member both occupied and free where the other group has an
+  ///         octree, which alone would leave it out
   GroupQuery(Geometries group_a, Geometries group_b);
   ~GroupQuery();
   GroupQuery(GroupQuery&&) noexcept;

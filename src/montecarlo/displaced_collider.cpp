@@ -10,6 +10,7 @@
 #include "fcl_prob/triangle_mesh.h"
 #include "geometry/convex_vertices.h"
 #include "geometry/mesh_visitor.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
 
 namespace fcl_prob {
@@ -89,6 +90,7 @@ DisplacedCollider::DisplacedCollider(const fcl::CollisionGeometryd& a,
         "fcl::collide does not support the pair " + nodeTypeName(a.getNodeType()) + " and " +
         nodeTypeName(b.getNodeType()) + " (it would answer \"no collision\", or crash)");
   }
+  never_ = whyNeverInContact(a, b).has_value();
   a_ = makeSide(a, pose_a, "object A", contact);
   b_ = makeSide(b, pose_b, "object B", contact);
   // Both meshes are rebuilt or none, since both have the same bounding volume; an octree's
@@ -137,6 +139,7 @@ bool DisplacedCollider::contains(const Side& outer, const Side& inner,
 }
 
 bool DisplacedCollider::collides(const Eigen::Vector3d& displacement) const {
+  if (never_) return false;
   fcl::Transform3d displaced = a_.pose;
   displaced.translation() += displacement;
   const fcl::CollisionRequestd request;

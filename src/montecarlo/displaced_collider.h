@@ -45,6 +45,7 @@ class DisplacedCollider {
   static bool contains(const Side& outer, const Side& inner, const Eigen::Vector3d& move_of_inner);
 
   std::vector<std::string> plan_;
+  bool never_;  ///< fcl::collide leaves out one of the two; so does containment
   Side a_;
   Side b_;
 };

@@ -12,6 +12,7 @@
 #include "partition/claim_observer.h"
 #include "partition/closest_approach.h"
 #include "partition/partition_engine.h"
+#include "partition/without_contact.h"
 
 namespace fcl_prob::detail {
 
@@ -107,25 +108,6 @@ void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
   if (solids) result.plan.push_back("containment decided once for every free cell");
 }
 
-ProbabilityResult withoutContact(const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  const bool estimate = request.method == ProbabilityMethod::estimate;
-  result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
-  result.status = ProbabilityStatus::exact;
-  result.lower = 0.0;
-  result.upper = 0.0;
-  if (estimate) {
-    result.estimate = 0.0;
-    result.standard_error = 0.0;
-  }
-  if (request.gradient) {
-    result.gradient = result.gradient_lower = result.gradient_upper = Eigen::Vector3d::Zero();
-  }
-  decide(request, result);
-  result.plan.push_back("an octree without occupied cells collides with nothing");
-  return result;
-}
-
 // A standard error that is larger than asked for by no more than this factor is made smaller by
 // more samples of the same cells, otherwise by dividing them, too.
 constexpr double kMostDrawnAgain = 1.6;
@@ -171,7 +153,9 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request,
                                        const BallTruncation* ball) {
-  if (a.tree->isEmpty() || b.tree->isEmpty()) return withoutContact(request);
+  if (a.tree->isEmpty() || b.tree->isEmpty()) {
+    return withoutContact(request, "an octree without occupied cells collides with nothing");
+  }
   ProbabilityResult result;
   StageClock clock(result.statistics);
   const QueryFrame frame = queryFrame(a, b, displacement);

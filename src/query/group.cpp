@@ -10,9 +10,12 @@
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/exceptions.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
+#include "partition/without_contact.h"
 #include "query/bounded_part.h"
+#include "query/octree_cells.h"
 #include "query/prepared_geometry.h"
 #include "query/single_collide.h"
 
@@ -22,14 +25,16 @@ namespace {
 using Poses = std::vector<fcl::Transform3d>;
 using detail::PreparedGeometry;
 
-/// The members of one side, and the tree of those that are bounded.
+/// The members of one side, and the tree of those that are bounded. Members that fcl::collide
+/// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
 class Group {
  public:
   Group(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
     if (geometries.empty()) throw InvalidGeometry(name + " has no members");
     for (std::size_t i = 0; i < geometries.size(); ++i) {
       members_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
-      if (members_.back().hasPieces()) bounded_.push_back(i);
+      if (isLeftOut(*geometries[i])) continue;
+      (members_.back().hasPieces() ? bounded_ : unbounded_).push_back(i);
     }
     std::vector<const detail::PieceTree*> trees;
     for (const std::size_t i : bounded_) trees.push_back(&members_[i].pieces());
@@ -38,7 +43,10 @@ class Group {
 
   const std::deque<PreparedGeometry>& members() const { return members_; }
   const detail::PieceTree& tree() const { return *tree_; }
-  bool anyUnbounded() const { return bounded_.size() < members_.size(); }
+  const std::vector<std::size_t>& unbounded() const { return unbounded_; }
+  bool anyUnbounded() const { return !unbounded_.empty(); }
+  bool isEmpty() const { return bounded_.empty() && unbounded_.empty(); }
+  std::size_t leftOut() const { return members_.size() - bounded_.size() - unbounded_.size(); }
 
   bool haveRootBodies() const {
     return std::all_of(members_.begin(), members_.end(),
@@ -64,10 +72,21 @@ class Group {
     return object;
   }
 
+  bool hasOcTree() const {
+    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry& member) {
+      return member.geometry().getNodeType() == fcl::GEOM_OCTREE;
+    });
+  }
+
  private:
+  static bool isLeftOut(const fcl::CollisionGeometryd& geometry) {
+    return geometry.getNodeType() != fcl::GEOM_OCTREE && !geometry.isOccupied();
+  }
+
   std::string name_;
   std::deque<PreparedGeometry> members_;
   std::vector<std::size_t> bounded_;
+  std::vector<std::size_t> unbounded_;
   std::shared_ptr<const detail::PieceTree> tree_;
 };
 
@@ -84,10 +103,8 @@ class PlacedGroup {
     if (!group_.anyUnbounded()) return;
     const detail::ReachedBall ball = detail::reachedBall(other, displacement, detail::kReach);
     std::vector<const detail::PieceTree*> trees{&group_.tree()};
-    for (std::size_t i = 0; i < group_.members().size(); ++i) {
-      const PreparedGeometry& member = group_.members()[i];
-      if (member.hasPieces()) continue;
-      const auto part = detail::boundedPart(member.geometry(), poses_[i], ball);
+    for (const std::size_t i : group_.unbounded()) {
+      const auto part = detail::boundedPart(group_.members()[i].geometry(), poses_[i], ball);
       stand_ins_.push_back(detail::buildPieceTree(*part.geometry));
       trees.push_back(stand_ins_.back().get());
       object_.parts.push_back({part.pose, nullptr});
@@ -103,6 +120,21 @@ class PlacedGroup {
   std::vector<std::shared_ptr<const detail::PieceTree>> stand_ins_;
   std::shared_ptr<const detail::PieceTree> joined_;
 };
+
+/// One union of pieces must do for all pairs of members.
+void requireAlike(const Group& group, const Group& others) {
+  if (!others.hasOcTree()) return;
+  for (const PreparedGeometry& member : group.members()) {
+    if (!detail::isAlikeBesideOcTrees(member.geometry())) {
+      throw UnsupportedGeometry(detail::nodeTypeName(member.geometry().getNodeType()) +
+                                " both occupied and free in a group that meets an octree: "
+                                "fcl::collide leaves it out there and nowhere else");
+    }
+    for (const PreparedGeometry& other : others.members()) {
+      detail::requireDistinctCells(member, other);
+    }
+  }
+}
 
 void requireMethod(const ProbabilityRequest& request) {
   switch (request.method) {
@@ -129,12 +161,16 @@ struct GroupQuery::Implementation {
       single.emplace(group_a[0], group_b[0]);
     else if (a.anyUnbounded() && b.anyUnbounded()) {
       throw UnsupportedGeometry("both groups have unbounded members");
+    } else {
+      requireAlike(a, b);
+      requireAlike(b, a);
     }
   }
 
   ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,
                            const GaussianDisplacement& displacement,
                            const ProbabilityRequest& request) const {
+    if (a.isEmpty() || b.isEmpty()) return detail::withoutContact(request, note());
     PlacedGroup placed_a(a, poses_a, request.contact);
     PlacedGroup placed_b(b, poses_b, request.contact);
     const double most = sumOfRootBounds(poses_a, poses_b, displacement, request);
@@ -190,8 +226,13 @@ struct GroupQuery::Implementation {
   }
 
   std::string note() const {
+    const std::size_t left_out = a.leftOut() + b.leftOut();
     return "groups of " + std::to_string(a.members().size()) + " and " +
-           std::to_string(b.members().size()) + ": one partition for the union of their pairs";
+           std::to_string(b.members().size()) +
+           (left_out > 0
+                ? " (" + std::to_string(left_out) + " left out, as fcl::collide does: not occupied)"
+                : "") +
+           ": one partition for the union of their pairs";
   }
 };
 

@@ -9,9 +9,12 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/constants.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
+#include "partition/without_contact.h"
 #include "query/bounded_part.h"
+#include "query/octree_cells.h"
 #include "query/pair_query.h"
 #include "query/single_collide.h"
 
@@ -105,6 +108,10 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
   validateTruncatedRequest(request);
   validatePose(pose_a, "object A");
   validatePose(pose_b, "object B");
+  if (const auto why = whyNeverInContact(a_->geometry(), b_->geometry())) {
+    return withoutContact(request, *why);
+  }
+  requireDistinctCells(*a_, *b_);
   const GaussianDisplacement& gaussian = displacement.gaussian();
   const BallMass mass = ballMass(displacement.deviations(), gaussian.rank());
   const bool both_unbounded = !a_->hasPieces() && !b_->hasPieces();
