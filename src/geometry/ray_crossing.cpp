@@ -10,11 +10,11 @@ namespace fcl_prob::detail {
 namespace {
 
 /// What products below the smallest normal number lose, absolutely.
-constexpr double kUnderflow = 32 * std::numeric_limits<double>::denorm_min();
+constexpr double kLostBelowNormal = 32 * std::numeric_limits<double>::denorm_min();
 
 /// Sign of `value` if it exceeds its error, else 0.
 int certainSign(double value, double error) {
-  error += kUnderflow;
+  error += kLostBelowNormal;
   return value > error ? 1 : value < -error ? -1 : 0;
 }
 

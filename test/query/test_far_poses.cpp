@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Objects far from the origin of the world or of their own frames, against 50 digits.
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/halfspace.h>
 
@@ -270,4 +271,61 @@ TEST_CASE("a half-space far away: the closed form holds") {
     tight += *result.upper - *result.lower < 1e-8;
   }
   CHECK(tight > 0.9 * count);
+}
+
+TEST_CASE("a voxel far from the middle of its octree is where FCL has it") {
+  RandomBodies random(56);
+  for (int i = 0; i < 200; ++i) {
+    INFO("scene " << i);
+    const double resolution = random.uniform(0.01, 0.2);
+    const auto map = std::make_shared<octomap::OcTree>(resolution);
+    const Eigen::Vector3f at =
+        (resolution * random.logUniform(1.0, 3e4) * random.direction()).cast<float>();
+    map->updateNode(at.x(), at.y(), at.z(), true);
+    const fcl::OcTreed octree{std::shared_ptr<const octomap::OcTree>(map)};
+    fcl::AABBd voxel = octree.getRootBV();
+    for (const fcl::OcTreed::OcTreeNode* node = octree.getRoot(); octree.nodeHasChildren(node);) {
+      unsigned int child = 0;
+      while (!octree.nodeChildExists(node, child)) ++child;
+      fcl::AABBd part;
+      fcl::computeChildBV(voxel, child, part);
+      voxel = part;
+      node = octree.getNodeChild(node, child);
+    }
+    const fcl::Boxd wall(1, 1, 1);
+    fcl::Transform3d pose = fcl::Transform3d::Identity();
+    pose.translation() = voxel.center();
+    pose.translation().x() = voxel.max_.x() + 0.5;
+    const double sigma = random.logUniform(1e-14, 1e-10);
+    ProbabilityResult result;
+    collisionProbability(&octree, fcl::Transform3d::Identity(), &wall, pose,
+                         GaussianDisplacement::fromStandardDeviations({sigma, 0, 0}),
+                         tightRequest(ProbabilityMethod::interval), result);
+    const HighPrecision gap =
+        HighPrecision(pose.translation().x()) - HighPrecision(0.5) - HighPrecision(voxel.max_.x());
+    checkHolds(boundsOf(result), trueTail(gap / HighPrecision(sigma)));
+  }
+}
+
+TEST_CASE("a half-space in a group is where its pose has it, though that is not quite a rotation") {
+  RandomBodies random(57);
+  const auto box = std::make_shared<fcl::Boxd>(1, 1, 1);
+  const fcl::Transform3d here = fcl::Transform3d::Identity();
+  for (int i = 0; i < 50; ++i) {
+    INFO("scene " << i);
+    const auto ground =
+        std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitX(), random.uniform(-2.0, 2.0));
+    fcl::Transform3d pose = here;
+    pose.linear() *= 1 + random.uniform(-4e-10, 4e-10);
+    pose.translation().x() = -0.5 - ground->d;
+    const double sigma = random.logUniform(1e-11, 1e-9);
+    ProbabilityResult result;
+    GroupQuery(GroupQuery::Geometries{box, box}, GroupQuery::Geometries{ground})
+        .collisionProbability({here, here}, {pose},
+                              GaussianDisplacement::fromStandardDeviations({sigma, 0, 0}),
+                              tightRequest(ProbabilityMethod::interval), result);
+    const HighPrecision top = HighPrecision(ground->d) / HighPrecision(pose.linear()(0, 0)) +
+                              HighPrecision(pose.translation().x());
+    checkHolds(boundsOf(result), trueTail((HighPrecision(-0.5) - top) / HighPrecision(sigma)));
+  }
 }

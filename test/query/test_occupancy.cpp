@@ -15,6 +15,7 @@
 #include "fcl_prob/group.h"
 #include "fcl_prob/mixture.h"
 #include "fcl_prob/monte_carlo.h"
+#include "geometry/geometry_kind.h"
 #include "geometry/occupancy.h"
 #include "mesh_shapes.h"
 #include "shapes.h"
@@ -35,7 +36,7 @@ TriangleMesh triangleMesh() {
   return mesh;
 }
 
-/// An octree of one cell that is its root, if `levels` is 0.
+/// An octree of one cell.
 Geometry singleCell() {
   const auto tree = std::make_shared<octomap::OcTree>(0.5);
   tree->setNodeValue(0.25, 0.25, 0.25, 1.0F);
@@ -65,6 +66,16 @@ void randomizeFields(RandomBodies& random, fcl::CollisionGeometryd& geometry) {
   setFields(geometry, value(), value(), value());
 }
 
+/// FCL calls a null function for a Halfspace and most kinds of meshes.
+bool crashesFcl(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b) {
+  const auto is = [](const fcl::CollisionGeometryd& geometry, detail::GeometryKind kind) {
+    return detail::kindOf(geometry) == kind;
+  };
+  using detail::GeometryKind;
+  return (is(a, GeometryKind::mesh) && is(b, GeometryKind::unbounded)) ||
+         (is(b, GeometryKind::mesh) && is(a, GeometryKind::unbounded));
+}
+
 bool hit(const Geometry& a, const Geometry& b) {
   fcl::CollisionResultd result;
   return fcl::collide(a.get(), kIdentity, b.get(), kIdentity, fcl::CollisionRequestd(), result) > 0;
@@ -92,6 +103,7 @@ TEST_CASE("of geometries that are free or uncertain fcl::collide leaves out what
   for (const NamedGeometry& a : first) {
     for (const NamedGeometry& b : second) {
       if (!fclSupportsPair(*a.geometry, *b.geometry)) continue;
+      if (crashesFcl(*a.geometry, *b.geometry)) continue;
       setFields(*a.geometry, 1, 1, 0);
       setFields(*b.geometry, 1, 1, 0);
       if (!hit(a.geometry, b.geometry)) continue;
@@ -172,7 +184,7 @@ TEST_CASE("free space for methods of few kinds, mixtures, truncations and solids
   collisionProbability(query, kIdentity, kIdentity,
                        GaussianMixture({{0.5, someDisplacement()}, {0.5, someDisplacement()}}), {},
                        result);
-  CHECK(*result.upper == 0.0);
+  CHECK(*result.upper < 1e-300);
 }
 
 TEST_CASE("members of groups that are not occupied are left out") {
@@ -215,7 +227,7 @@ TEST_CASE("two octrees with cells both occupied and free are refused") {
   const auto treeOf = [](float log_odds) {
     const auto tree = std::make_shared<octomap::OcTree>(0.1);
     tree->setNodeValue(0.05, 0.05, 0.05, 1.0F);
-    tree->setNodeValue(0.55, 0.05, 0.05, log_odds);
+    tree->setNodeValue(0.15, 0.05, 0.05, log_odds);  // of the same parent
     return std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree));
   };
   const Geometry doubtful = treeOf(0.0F);  // at or above one threshold, at or below the other
