@@ -2,8 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cobstacle/pair_frame.h"
 
+#include <algorithm>
 #include <limits>
 
+#include "gaussian/power_of_two.h"
 #include "geometry/exact_sum.h"
 
 namespace fcl_prob::detail {
@@ -14,11 +16,18 @@ namespace {
 /// doubled.
 constexpr double kRoundings = 128.0;
 
+/// Sums and products below the smallest normal double.
+constexpr double kTiny = 1e-300;
+
 /// The cube of this, and what a sum of many of them has, is finite.
 constexpr double kLargestWhitened = 1e100;
 
-/// The coordinates that do not move are in metres.
-constexpr double kLengthUnit = 1.0;
+/// The coordinates that do not move are in about the largest length that there is, so that nothing
+/// depends on the scale; a power of two, of which the square is finite.
+double lengthUnit(double largest) { return powerOfTwoAt(std::clamp(largest, 1e-150, 1e150)); }
+
+/// Also of vectors so short that their squares underflow.
+double lengthOf(const Eigen::Vector3d& v) { return std::max(v.norm(), v.cwiseAbs().maxCoeff()); }
 
 /// From the origin of A, displaced by the mean, to that of B. Exact but for one rounding: far
 /// positions may cancel.
@@ -41,13 +50,15 @@ PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transf
       rotation_b(pose_b.linear()),
       same_rotation(rotation_a == rotation_b),
       offset(offsetBetween(pose_a.translation(), pose_b.translation(), displacement.mean())) {
-  whitening = Whitening(displacement, kLengthUnit).matrix();
+  const double largest = size_a + size_b + lengthOf(offset);
+  const double unit = lengthUnit(largest);
+  whitening = Whitening(displacement, unit).matrix();
   for (int k = 0; k < 3; ++k) {
-    const double scale = k < rank ? displacement.standardDeviations()[k] : kLengthUnit;
+    const double scale = k < rank ? displacement.standardDeviations()[k] : unit;
     inverse_variances[k] = 1.0 / (scale * scale);
   }
-  const double largest = size_a + size_b + offset.norm();
-  error = kRoundings * std::numeric_limits<double>::epsilon() * largest;
+  error =
+      largest > 0.0 ? kRoundings * std::numeric_limits<double>::epsilon() * largest + kTiny : 0.0;
   fits = largest * whitening.cwiseAbs().maxCoeff() <= kLargestWhitened;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "gaussian/constants.h"
+#include "gaussian/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -100,13 +101,6 @@ Eigen::Matrix3d oneSidedJacobi(Eigen::Matrix<double, 3, 6>& factor) {
   return axes;
 }
 
-// 2^k next to the largest entry, so that squares neither overflow nor underflow.
-double powerOfTwoScale(double largest) {
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return std::ldexp(1.0, exponent);
-}
-
 }  // namespace
 
 PrincipalAxes orderedAxes(const Eigen::Vector3d& standard_deviations, const Eigen::Matrix3d& axes) {
@@ -145,7 +139,7 @@ PrincipalAxes principalAxesOfCovariance(const Eigen::Matrix3d& covariance) {
 PrincipalAxes principalAxesOfFactor(const Eigen::Matrix<double, 3, 6>& factor) {
   const double largest = factor.cwiseAbs().maxCoeff();
   if (largest == 0) return orderedAxes(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
-  const double scale = powerOfTwoScale(largest);
+  const double scale = powerOfTwoAt(largest);  // squares neither overflow nor underflow
   Eigen::Matrix<double, 3, 6> rows = factor / scale;
   const Eigen::Vector3d entry_scale = rows.rowwise().norm();
   const Eigen::Matrix3d axes = oneSidedJacobi(rows);
