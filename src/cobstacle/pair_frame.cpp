@@ -40,6 +40,14 @@ Eigen::Vector3d offsetBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b
   return offset.value().cast<double>();
 }
 
+/// A bound on the share by which a matrix that is a rotation only to 1e-9 changes lengths; 0 if it
+/// is one to rounding, which kRoundings counts.
+double stretchOf(const Eigen::Matrix3d& rotation) {
+  const double defect =
+      (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return defect > 16.0 * std::numeric_limits<double>::epsilon() ? 2.0 * defect : 0.0;
+}
+
 }  // namespace
 
 PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transform3d& pose_a,
@@ -49,6 +57,7 @@ PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transf
       rotation_a(pose_a.linear()),
       rotation_b(pose_b.linear()),
       same_rotation(rotation_a == rotation_b),
+      ball_stretch(std::max(stretchOf(rotation_a), stretchOf(rotation_b))),
       offset(offsetBetween(pose_a.translation(), pose_b.translation(), displacement.mean())) {
   const double largest = size_a + size_b + lengthOf(offset);
   const double unit = lengthUnit(largest);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
 
@@ -18,6 +19,9 @@ constexpr double kSymmetryTolerance = 1e-9;
 constexpr double kDefinitenessTolerance = 1e-12;
 constexpr double kIsotropyTolerance = 1e-12;
 constexpr double kRotationTolerance = 1e-9;
+
+// Of products of axes that are inverted by transposing, which all bounds on rounding allow for.
+constexpr double kAxesRounding = 8 * detail::kEpsilon;
 
 // Both 1/sigma and sigma² stay finite.
 constexpr double kLeastStandardDeviation = 1e-300;
@@ -103,9 +107,13 @@ Eigen::Matrix3d covarianceOf(const detail::PrincipalAxes& axes) {
   return symmetricPart(factor * factor.transpose());
 }
 
+// Of columns that should be orthonormal.
+double orthonormalityDefect(const Eigen::Matrix3d& matrix) {
+  return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
+
 void requireRotation(const Eigen::Matrix3d& rotation) {
-  const double defect =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double defect = orthonormalityDefect(rotation.transpose());
   if (!(defect <= kRotationTolerance)) {
     throw InvalidPose("matrix is not a rotation: R Rᵀ differs from the identity by " +
                       numberText(defect));
@@ -178,10 +186,16 @@ GaussianDisplacement GaussianDisplacement::reversed() const { return withMean(-m
 
 GaussianDisplacement GaussianDisplacement::rotated(const Eigen::Matrix3d& rotation) const {
   requireRotation(rotation);
+  const Eigen::Matrix3d covariance = symmetricPart(rotation * covariance_ * rotation.transpose());
+  const Eigen::Matrix3d axes = rotation * axes_;
+  if (orthonormalityDefect(axes) > kAxesRounding) {
+    return {rotation * mean_, detail::principalAxesOfOblique(standard_deviations_, axes),
+            covariance};
+  }
   GaussianDisplacement result = *this;
   result.mean_ = requireFiniteMean(rotation * mean_);
-  result.axes_ = rotation * axes_;
-  result.covariance_ = symmetricPart(rotation * covariance_ * rotation.transpose());
+  result.axes_ = axes;
+  result.covariance_ = covariance;
   return result;
 }
 

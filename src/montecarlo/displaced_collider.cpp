@@ -5,6 +5,8 @@
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/narrowphase/collision.h>
 
+#include <Eigen/LU>
+
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/triangle_mesh.h"
@@ -128,7 +130,8 @@ DisplacedCollider::Side DisplacedCollider::makeSide(const fcl::CollisionGeometry
 bool DisplacedCollider::contains(const Side& outer, const Side& inner,
                                  const Eigen::Vector3d& move_of_inner) {
   if (!outer.solid) return false;
-  const Eigen::Matrix3d to_outer = outer.pose.linear().transpose();
+  // Not the transpose: poses are rotations to 1e-9 only.
+  const Eigen::Matrix3d to_outer = outer.pose.linear().inverse();
   const Eigen::Vector3d offset =
       inner.pose.translation() + move_of_inner - outer.pose.translation();
   for (const Eigen::Vector3d& point : inner.points) {

@@ -3,6 +3,7 @@
 // Sections of every scale and thinness against truth in 50 digits: a deviation and a length are
 // never compared, and nothing thin is taken for flat.
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/sphere.h>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -11,6 +12,7 @@
 #include "../gaussian/high_precision.h"
 #include "catch.h"
 #include "fcl_prob/convex_pcd.h"
+#include "fcl_prob/normal_mass.h"
 #include "narrowphase/exact_hull.h"
 #include "random_bodies.h"
 
@@ -267,6 +269,31 @@ TEST_CASE("the mass of a section does not depend on the unit of length") {
       CHECK(there.lower == Approx(here.lower).epsilon(1e-10).margin(1e-290));
       CHECK(there.upper == Approx(here.upper).epsilon(1e-10).margin(1e-290));
     }
+  }
+}
+
+TEST_CASE("the mass of balls holds for either meaning of a pose that is nearly rigid") {
+  // A ball's image under the matrix is an ellipsoid, which is between these two balls.
+  RandomBodies random(1205);
+  for (int i = 0; i < 300; ++i) {
+    const double radius_a = random.uniform(0.2, 1.0), radius_b = random.uniform(0.2, 1.0);
+    Eigen::Isometry3d pose_a = random.pose(1.0), pose_b = random.pose(1.0);
+    const double off = random.logUniform(1e-14, 2e-10);
+    for (int k = 0; k < 9; ++k) pose_a.linear()(k / 3, k % 3) += random.uniform(-off, off);
+    const Eigen::Matrix3d& r = pose_a.linear();
+    const double stretch =
+        1.5 * (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    const double sigma = random.uniform(0.1, 0.5);
+    const Bounds bounds = convexPairMass(
+        ConvexBody(fcl::Sphered(radius_a)), pose_a, ConvexBody(fcl::Sphered(radius_b)), pose_b,
+        GaussianDisplacement::fromStandardDeviations(Eigen::Vector3d::Constant(sigma)));
+    const double distance = (pose_a.translation() - pose_b.translation()).norm() / sigma;
+    const auto massOf = [&](double share) {
+      return fcl_prob::normalBallMass(distance, (radius_a * (1 + share) + radius_b) / sigma);
+    };
+    INFO("case " << i << " off by " << off);
+    CHECK(bounds.lower <= massOf(-stretch).upper);
+    CHECK(bounds.upper >= massOf(stretch).lower);
   }
 }
 
