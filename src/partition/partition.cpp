@@ -58,10 +58,14 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   return {rotated, std::move(pair)};
 }
 
-// ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative), W the rows that move.
+constexpr const char* kNoGradient =
+    "no gradient: what the mean changes where A does not move is no moment of the section";
+
+// ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative). Only with a density: where A does not
+// move, P still changes with the mean, by what the boundary of the section sweeps, which no moment
+// of the section tells.
 void fillGradient(const QueryFrame& frame, const MomentBounds& moment, ProbabilityResult& result) {
-  Eigen::Matrix3d moving = frame.whitening.matrix();
-  for (int k = frame.whitening.rank(); k < 3; ++k) moving.row(k).setZero();
+  const Eigen::Matrix3d moving = frame.whitening.matrix();
   const Eigen::Vector3d middle = 0.5 * (moment.lower + moment.upper);
   const Eigen::Vector3d half = 0.5 * (moment.upper - moment.lower);
   const Eigen::Vector3d gradient = moving.transpose() * middle;
@@ -78,8 +82,7 @@ void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
   result.standard_error = sampled.standardError();
   result.statistics.samples = sampled.samples;
   if (!with_gradient) return;
-  Eigen::Matrix3d moving = frame.whitening.matrix();
-  for (int k = frame.whitening.rank(); k < 3; ++k) moving.row(k).setZero();
+  const Eigen::Matrix3d moving = frame.whitening.matrix();
   Eigen::Vector3d moment = engine.settled().moment + sampled.moment;
   for (const OpenCell& cell : engine.openCells()) moment += engine.coveredPart(cell).moment;
   result.gradient = moving.transpose() * moment;
@@ -96,7 +99,8 @@ void decide(const ProbabilityRequest& request, ProbabilityResult& result) {
                                                          : Decision::undecided;
 }
 
-void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
+void describe(const QueryFrame& frame, bool solids, const ProbabilityRequest& request,
+              ProbabilityResult& result) {
   const int rank = frame.whitening.rank();
   result.plan.push_back("partition of the displacement space into " +
                         std::to_string(result.statistics.cells) + " cells, " +
@@ -105,6 +109,7 @@ void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
     result.plan.push_back("covariance of rank " + std::to_string(rank) + ": " +
                           std::to_string(3 - rank) + " axes left out of the cells");
   }
+  if (request.gradient && rank < 3) result.plan.push_back(kNoGradient);
   if (solids) result.plan.push_back("containment decided once for every free cell");
 }
 
@@ -181,10 +186,11 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const Bounds interval = engine.interval();
   result.lower = interval.lower;
   result.upper = interval.upper;
-  if (request.gradient) fillGradient(frame, engine.moment(), result);
-  if (estimate) fillEstimate(frame, engine, sampled, request.gradient, result);
+  const bool with_gradient = request.gradient && frame.whitening.rank() == 3;
+  if (with_gradient) fillGradient(frame, engine.moment(), result);
+  if (estimate) fillEstimate(frame, engine, sampled, with_gradient, result);
   decide(request, result);
-  describe(frame, solids != nullptr, result);
+  describe(frame, solids != nullptr, request, result);
   return result;
 }
 

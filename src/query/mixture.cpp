@@ -133,6 +133,9 @@ class MixtureQuery {
         detail::decisionOf({total.lower.value_or(0.0), total.upper.value_or(1.0)}, request_);
     total.plan.insert(total.plan.begin(), "mixture of " + std::to_string(components_.size()) +
                                               " Gaussians: the sum of their answers by weight");
+    if (request_.gradient && !total.gradient) {
+      total.plan.push_back("no gradient: not every component has one");
+    }
     return total;
   }
 
