@@ -13,6 +13,7 @@
 
 namespace fcl_prob {
 
+class GaussianMixture;
 class TruncatedGaussian;
 
 /// The probability that `a`, displaced by `displacement` (relative to `b`, world frame, metres),
@@ -55,6 +56,10 @@ class PreparedQuery {
   friend double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
                                      const fcl::Transform3d& pose_b,
                                      const TruncatedGaussian& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+  friend double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
+                                     const fcl::Transform3d& pose_b,
+                                     const GaussianMixture& displacement,
                                      const ProbabilityRequest& request, ProbabilityResult& result);
 
   struct Implementation;

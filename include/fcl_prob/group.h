@@ -10,11 +10,14 @@
 
 namespace fcl_prob {
 
+class GaussianMixture;
+class TruncatedGaussian;
+
 /// Two groups of geometries, prepared once: the links of an arm against an obstacle, or an obstacle
 /// made of parts. All members of A are displaced by the same random translation relative to all
 /// members of B, so that P(any contact) is neither a sum nor a product over the pairs: one
 /// partition works on the union of their C-obstacles. (Obstacles whose displacements are
-/// independent: anyOfIndependent().)
+/// independent: anyOfIndependent(); mixtures and truncated displacements: fcl_prob/mixture.h.)
 ///
 /// Const and thread-safe after construction.
 class GroupQuery {
@@ -44,6 +47,18 @@ class GroupQuery {
                               const ProbabilityRequest& request, ProbabilityResult& result) const;
 
  private:
+  // Declared for callers in fcl_prob/mixture.h.
+  friend double collisionProbability(const GroupQuery& query,
+                                     const std::vector<fcl::Transform3d>& poses_a,
+                                     const std::vector<fcl::Transform3d>& poses_b,
+                                     const GaussianMixture& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+  friend double collisionProbability(const GroupQuery& query,
+                                     const std::vector<fcl::Transform3d>& poses_a,
+                                     const std::vector<fcl::Transform3d>& poses_b,
+                                     const TruncatedGaussian& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

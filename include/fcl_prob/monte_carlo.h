@@ -14,6 +14,8 @@
 
 namespace fcl_prob {
 
+class GaussianMixture;
+
 /// Whether fcl::collide answers this pair. For meshes of different bounding volumes and for
 /// TriangleP FCL 0.7 prints a warning and returns "no collision"; on a Convex with a Plane it
 /// crashes. (It also crashes on AABB and KDOP meshes with a Halfspace or Plane, but those are
@@ -40,6 +42,16 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
                                         const GaussianDisplacement& displacement,
                                         const ProbabilityRequest& request);
 
+/// The same for a mixture (fcl_prob/mixture.h): every sample first draws its component, so that the
+/// interval, the samples and the limits are those of the whole. The gradient, that of moving all
+/// components alike, needs all of them to have full rank.
+ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
+                                        const fcl::Transform3d& pose_a,
+                                        const fcl::CollisionGeometryd& b,
+                                        const fcl::Transform3d& pose_b,
+                                        const GaussianMixture& displacement,
+                                        const ProbabilityRequest& request);
+
 /// The same for small probabilities, by importance sampling.
 ///
 /// Finds the nearest displacement that collides in the whitened frame (FCL's mesh distance of the
@@ -50,7 +62,8 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
 /// fits. request.absolute_tolerance is not used. statistics.effective_samples says how many equally
 /// weighted hits the hits are worth.
 ///
-/// \throws as monteCarloProbability(); InvalidRequest also if the covariance is 0.
+/// \throws as monteCarloProbability(); InvalidRequest also if the covariance is 0, or so small
+/// beside the objects that their size in standard deviations is above 1e150.
 ProbabilityResult rareEventProbability(const fcl::CollisionGeometryd& a,
                                        const fcl::Transform3d& pose_a,
                                        const fcl::CollisionGeometryd& b,

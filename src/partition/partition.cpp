@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "partition/cell_sampling.h"
 #include "partition/claim_observer.h"
@@ -78,8 +80,9 @@ void fillGradient(const QueryFrame& frame, const MomentBounds& moment, Probabili
 
 void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
                   const SampledMass& sampled, bool with_gradient, ProbabilityResult& result) {
-  result.estimate = engine.estimate(sampled);
-  result.standard_error = sampled.standardError();
+  const EngineEstimate estimate = engine.estimate(sampled);
+  result.estimate = estimate.value;
+  result.standard_error = estimate.standard_error;
   result.statistics.samples = sampled.samples;
   if (!with_gradient) return;
   const Eigen::Matrix3d moving = frame.whitening.matrix();
@@ -87,8 +90,12 @@ void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
   for (const OpenCell& cell : engine.openCells()) moment += engine.coveredPart(cell).moment;
   result.gradient = moving.transpose() * moment;
   const Eigen::Vector3d doubt = moving.cwiseAbs().transpose() * sampled.moment_doubt;
+  Eigen::Vector3d of_moment;
+  for (int k = 0; k < 3; ++k) {
+    of_moment[k] = sampled.moment_spread[static_cast<std::size_t>(k)].standardError();
+  }
   const Eigen::Vector3d variance =
-      moving.cwiseAbs2().transpose() * sampled.moment_variance + doubt.cwiseAbs2();
+      moving.cwiseAbs2().transpose() * of_moment.cwiseAbs2() + doubt.cwiseAbs2();
   result.gradient_standard_error = variance.cwiseSqrt();
 }
 
@@ -118,32 +125,52 @@ void describe(const QueryFrame& frame, bool solids, const ProbabilityRequest& re
 constexpr double kMostDrawnAgain = 1.6;
 
 // Samples what the engine leaves open. Where that varies more than expected, more samples are drawn
-// or more cells are divided.
+// or more cells are divided: until the standard error is what was asked for, or a limit is reached.
 SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
-                            ProbabilityStatus& status) {
-  constexpr int kMostRounds = 4;
+                            const ProbabilityStatistics& statistics, ProbabilityStatus& status) {
+  constexpr int kMostTimesDrawnAgain = 2;
   constexpr double kReserve = 1.1;
+  std::optional<ProbabilityStatus> interrupted;
+  if (status == ProbabilityStatus::cancelled) interrupted = status;  // and not asked again
+  const auto draw = [&](double count) {
+    return sampler.sample(engine.openCells(), count, [&] {
+      if (!interrupted) interrupted = engine.interruption();
+      return interrupted.has_value();
+    });
+  };
   double drawn = engine.samplesToDraw(status);
-  SampledMass sampled = sampler.sample(engine.openCells(), drawn);
-  for (int round = 1; round < kMostRounds && status == ProbabilityStatus::converged; ++round) {
-    const double target = engine.targetError(engine.estimate(sampled));
+  SampledMass sampled = draw(drawn);
+  int times_again = 0;
+  while (status == ProbabilityStatus::converged && !interrupted) {
+    const EngineEstimate estimate = engine.estimate(sampled);
+    const double target = engine.targetError(estimate.value);
+    if (!(estimate.standard_error > target)) return sampled;
     if (sampled.doubt > target) {
       status = ProbabilityStatus::resolution_limit;
-      break;
+      return sampled;
     }
-    const double ratio = sampled.standardError() / target;
-    if (!(ratio > 1.0)) break;
-    if (ratio <= kMostDrawnAgain) {
+    const double ratio = estimate.standard_error / target;
+    if (ratio <= kMostDrawnAgain && ++times_again <= kMostTimesDrawnAgain) {
       const double more = (kReserve * ratio * ratio - 1.0) * drawn;
-      sampled = average(sampled, sampler.sample(engine.openCells(), more));
+      const SampledMass again = draw(more);
+      if (!again.interrupted) sampled = average(sampled, again);
       drawn += more;
       continue;
     }
-    engine.expectDeviation(kReserve * ratio);
+    times_again = 0;
+    const std::size_t cells = statistics.cells;
+    const double drawn_before = std::exchange(drawn, 0.0);
+    engine.expectDeviation(kReserve * std::max(ratio, kReserve));
     status = engine.run(true);
     drawn = engine.samplesToDraw(status);
-    sampled = sampler.sample(engine.openCells(), drawn);
+    sampled = draw(drawn);
+    // Numbers so small that neither cells nor samples make a difference.
+    const bool stands_still = statistics.cells == cells && !(drawn > drawn_before);
+    if (stands_still && status == ProbabilityStatus::converged) {
+      status = ProbabilityStatus::resolution_limit;
+    }
   }
+  if (interrupted && status == ProbabilityStatus::converged) status = *interrupted;
   return sampled;
 }
 
@@ -180,7 +207,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   SampledMass sampled;
   if (estimate) {
     CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), request.seed);
-    sampled = sampleOpenCells(engine, sampler, result.status);
+    sampled = sampleOpenCells(engine, sampler, result.statistics, result.status);
     clock.finish("sampling");
   }
   const Bounds interval = engine.interval();

@@ -8,16 +8,21 @@
 #include <string>
 
 #include "fcl_prob/combined_bounds.h"
-#include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
+#include "narrowphase/convex_pair_mass.h"
 #include "partition/partition.h"
 #include "partition/without_contact.h"
 #include "query/bounded_part.h"
+#include "query/call_budget.h"
+#include "query/mixture_query.h"
 #include "query/octree_cells.h"
 #include "query/prepared_geometry.h"
+#include "query/request_limits.h"
 #include "query/single_collide.h"
+#include "query/tolerance_note.h"
+#include "query/truncation.h"
 
 namespace fcl_prob {
 namespace {
@@ -136,6 +141,9 @@ void requireAlike(const Group& group, const Group& others) {
   }
 }
 
+/// Of the time limit, for a first sum of bounds that is seldom the answer.
+constexpr double kShareOfRootBounds = 0.1;
+
 void requireMethod(const ProbabilityRequest& request) {
   switch (request.method) {
     case ProbabilityMethod::automatic:
@@ -167,10 +175,23 @@ struct GroupQuery::Implementation {
     }
   }
 
+  /// \throws InvalidRequest, InvalidPose, UnsupportedGeometry
+  void validate(const Poses& poses_a, const Poses& poses_b,
+                const ProbabilityRequest& request) const {
+    validateRequest(request);
+    a.validate(poses_a);
+    b.validate(poses_b);
+    if (!single) requireMethod(request);
+  }
+
+  /// \param ball  null: the displacement is not truncated; else the request is that of meeting and
+  /// being within it
   ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,
                            const GaussianDisplacement& displacement,
-                           const ProbabilityRequest& request) const {
+                           const ProbabilityRequest& request,
+                           const detail::BallTruncation* ball = nullptr) const {
     if (a.isEmpty() || b.isEmpty()) return detail::withoutContact(request, note());
+    const detail::CallBudget budget(request);
     PlacedGroup placed_a(a, poses_a, request.contact);
     PlacedGroup placed_b(b, poses_b, request.contact);
     const double most = sumOfRootBounds(poses_a, poses_b, displacement, request);
@@ -179,7 +200,8 @@ struct GroupQuery::Implementation {
     placed_a.boundBy(placed_b.object(), displacement);
     placed_b.boundBy(placed_a.object(), displacement);
     ProbabilityResult result =
-        detail::partitionProbability(placed_a.object(), placed_b.object(), displacement, request);
+        detail::partitionProbability(placed_a.object(), placed_b.object(), displacement,
+                                     detail::withTimeLeft(request, budget), ball);
     result.upper = std::max(*result.lower, std::min(*result.upper, most));
     result.plan.insert(result.plan.begin(), note());
     return result;
@@ -192,17 +214,19 @@ struct GroupQuery::Implementation {
                          const ProbabilityRequest& request) const {
     const bool wanted = !request.gradient && request.method != ProbabilityMethod::estimate;
     if (!wanted || !a.haveRootBodies() || !b.haveRootBodies()) return 1.0;
+    detail::RequestLimits limits(request, kShareOfRootBounds);
     // A larger sum ends no query.
     const double useful = std::max(request.absolute_tolerance, request.threshold.value_or(0.0));
     std::vector<Bounds> pairs;
     double sum = 0.0;
     for (std::size_t i = 0; i < poses_a.size(); ++i) {
       for (std::size_t j = 0; j < poses_b.size(); ++j) {
-        const double bound = convexPcd(a.members()[i].rootBody(), poses_a[i],
-                                       b.members()[j].rootBody(), poses_b[j], displacement)
-                                 .least;
+        const double bound =
+            detail::convexPcd(a.members()[i].rootBody(), poses_a[i], b.members()[j].rootBody(),
+                              poses_b[j], displacement, limits.interruption())
+                .least;
         sum += bound;
-        if (sum > useful) return 1.0;
+        if (sum > useful || limits.reason()) return 1.0;
         pairs.push_back({0.0, bound});
       }
     }
@@ -248,15 +272,57 @@ double GroupQuery::collisionProbability(const std::vector<fcl::Transform3d>& pos
                                         const GaussianDisplacement& displacement,
                                         const ProbabilityRequest& request,
                                         ProbabilityResult& result) const {
-  validateRequest(request);
-  implementation_->a.validate(poses_a);
-  implementation_->b.validate(poses_b);
+  implementation_->validate(poses_a, poses_b, request);
   if (implementation_->single) {
     return implementation_->single->collisionProbability(poses_a[0], poses_b[0], displacement,
                                                          request, result);
   }
-  requireMethod(request);
   result = implementation_->answer(poses_a, poses_b, displacement, request);
+  detail::noteTolerance(request, result);
+  return result.probability();
+}
+
+double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,
+                            const std::vector<fcl::Transform3d>& poses_b,
+                            const GaussianMixture& displacement, const ProbabilityRequest& request,
+                            ProbabilityResult& result) {
+  const GroupQuery::Implementation& group = *query.implementation_;
+  group.validate(poses_a, poses_b, request);
+  if (group.single) {
+    return collisionProbability(*group.single, poses_a[0], poses_b[0], displacement, request,
+                                result);
+  }
+  result = detail::mixtureProbability(
+      displacement, request,
+      [&](const GaussianDisplacement& component, const ProbabilityRequest& of_component) {
+        return group.answer(poses_a, poses_b, component, of_component);
+      });
+  return result.probability();
+}
+
+double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,
+                            const std::vector<fcl::Transform3d>& poses_b,
+                            const TruncatedGaussian& displacement,
+                            const ProbabilityRequest& request, ProbabilityResult& result) {
+  const GroupQuery::Implementation& group = *query.implementation_;
+  group.validate(poses_a, poses_b, request);
+  if (group.single) {
+    return collisionProbability(*group.single, poses_a[0], poses_b[0], displacement, request,
+                                result);
+  }
+  const detail::TruncatedQuery truncated(displacement, request);
+  ProbabilityResult answered;
+  if (truncated.isWhole()) {
+    answered =
+        group.answer(poses_a, poses_b, displacement.gaussian(), truncated.requestOfContact());
+    truncated.ofContact(answered);
+  } else {
+    answered = group.answer(poses_a, poses_b, displacement.gaussian(), truncated.requestOfJoint(),
+                            &truncated.ball());
+    truncated.ofJoint(answered);
+  }
+  detail::noteTolerance(request, answered);
+  result = std::move(answered);
   return result.probability();
 }
 

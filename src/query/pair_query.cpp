@@ -8,9 +8,11 @@
 #include "geometry/validation.h"
 #include "partition/partition.h"
 #include "partition/without_contact.h"
+#include "query/call_budget.h"
 #include "query/exact_mass.h"
 #include "query/octree_cells.h"
 #include "query/single_collide.h"
+#include "query/tolerance_note.h"
 #include "query/unbounded_pair.h"
 
 namespace fcl_prob::detail {
@@ -26,6 +28,24 @@ bool samples(const QueryPlan& plan) {
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const GaussianDisplacement& displacement,
                                     const ProbabilityRequest& request) const {
+  ProbabilityResult result = answerOfGaussian(pose_a, pose_b, displacement, request);
+  noteTolerance(request, result);
+  return result;
+}
+
+ProbabilityResult PairQuery::sampled(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                     const GaussianMixture& displacement,
+                                     const ProbabilityRequest& request) const {
+  ProbabilityResult result =
+      monteCarloProbability(a_->geometry(), pose_a, b_->geometry(), pose_b, displacement, request);
+  noteTolerance(request, result);
+  return result;
+}
+
+ProbabilityResult PairQuery::answerOfGaussian(const fcl::Transform3d& pose_a,
+                                              const fcl::Transform3d& pose_b,
+                                              const GaussianDisplacement& displacement,
+                                              const ProbabilityRequest& request) const {
   validateRequest(request);
   validatePose(pose_a, "object A");
   validatePose(pose_b, "object B");
@@ -69,6 +89,7 @@ ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& 
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request) const {
   requireDistinctCells(*a_, *b_);
+  const CallBudget budget(request);
   // Open meshes are refused wherever the shapes are.
   const ClosedMesh* const solid_a = a_->solid(request.contact);
   const ClosedMesh* const solid_b = b_->solid(request.contact);
@@ -76,8 +97,10 @@ ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& 
     auto result = intervalOfRootBound(pair, displacement, request);
     if (result) return *result;
   }
-  return partitionProbability({&a_->pieces(), {{pair.pose_a, solid_a}}},
-                              {&b_->pieces(), {{pair.pose_b, solid_b}}}, displacement, request);
+  const PartitionObject a{&a_->pieces(), {{pair.pose_a, solid_a}}};
+  const PartitionObject b{&b_->pieces(), {{pair.pose_b, solid_b}}};
+  if (!request.time_limit) return partitionProbability(a, b, displacement, request);
+  return partitionProbability(a, b, displacement, withTimeLeft(request, budget));
 }
 
 }  // namespace fcl_prob::detail
