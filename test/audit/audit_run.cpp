@@ -63,8 +63,8 @@ class Watchdog {
   timer_t timer_ = {};
 };
 
-/// Of one scene, a hundred times what a slow one takes.
-constexpr long kHangs = 40;
+/// Of one scene, some ten times what the slowest one takes.
+constexpr long kHangs = 8;
 
 /// A crash is a violation like others. What was in use then is lost, which a short run can afford.
 std::vector<Violation> checkSurviving(const Scene& scene, Tally& tally,
@@ -144,7 +144,10 @@ class Run {
     }
     for (const Violation& violation : found) {
       if (plan_.verbose) std::cout << violation.check << ": " << violation.detail << "\n";
-      failures_[scene.family + ": " + violation.check].push_back({scene, violation});
+      const std::string kind = scene.family + ": " + violation.check;
+      std::vector<Failure>& failures = failures_[kind];
+      if (failures.empty()) std::cout << kind << ", index " << scene.index << std::endl;
+      failures.push_back({scene, violation});
     }
   }
 
