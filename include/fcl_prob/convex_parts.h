@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fcl_prob/convex_body.h"
@@ -22,7 +23,7 @@ struct DecompositionRequest {
   /// Two parts become one if their common hull exceeds the two by no more than this part of the
   /// volume of the hull of the whole mesh, at least 0: fewer parts than max_parts where more would
   /// bring little. (A mesh without volume: fewer parts only where it is convex.)
-  double concavity = 1e-3;
+  double concavity = 1e-4;
 
   /// Pieces that the mesh is cut into before they are put together again to parts; at least
   /// max_parts. More pieces take longer and fit better.
@@ -59,6 +60,13 @@ class ConvexParts {
 
   /// The same for FCL, whose collide() and managers take it: one object a part.
   std::shared_ptr<const fcl::Convexd> geometry(std::size_t part) const;
+
+  /// Which two parts make the smallest hull together, then which two of what is left, and so on:
+  /// parts have the numbers below size(), unions those that follow in this order.
+  const std::vector<std::pair<std::size_t, std::size_t>>& unions() const;
+
+  /// All parts as geometries, for GroupQuery and FCL's managers: objects with one displacement.
+  std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> geometries() const;
 
  private:
   struct Data;

@@ -11,5 +11,7 @@
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/group.h"
 #include "fcl_prob/mixture.h"
+#include "fcl_prob/part_tree.h"
+#include "fcl_prob/parts_bounds.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"

@@ -103,6 +103,7 @@ struct ConvexParts::Data {
   std::vector<ConvexBody> bodies;
   std::vector<double> volumes;
   std::vector<std::shared_ptr<const fcl::Convexd>> geometries;
+  std::vector<std::pair<std::size_t, std::size_t>> unions;
 };
 
 ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request) {
@@ -117,6 +118,9 @@ ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& r
     data->volumes.push_back(detail::hullVolume(polytope.vertices));
     data->geometries.push_back(convexOf(polytope));
   }
+  std::vector<detail::PointSet> corners;
+  for (const ConvexPolytope& polytope : data->polytopes) corners.push_back(polytope.vertices);
+  data->unions = detail::unionOrder(std::move(corners));
   data_ = std::move(data);
 }
 
@@ -132,6 +136,14 @@ double ConvexParts::volume(std::size_t part) const { return data_->volumes.at(pa
 
 std::shared_ptr<const fcl::Convexd> ConvexParts::geometry(std::size_t part) const {
   return data_->geometries.at(part);
+}
+
+const std::vector<std::pair<std::size_t, std::size_t>>& ConvexParts::unions() const {
+  return data_->unions;
+}
+
+std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> ConvexParts::geometries() const {
+  return {data_->geometries.begin(), data_->geometries.end()};
 }
 
 }  // namespace fcl_prob

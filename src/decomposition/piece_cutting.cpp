@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <optional>
 
 #include "cobstacle/cut_polytope.h"
@@ -174,6 +176,22 @@ void unitePieces(std::size_t count, double excess, std::vector<PointSet>& pieces
     if (pieces.size() <= count && least.excess > excess) return;
     unions.unite(least);
   }
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> unionOrder(std::vector<PointSet> pieces) {
+  std::vector<std::size_t> numbers(pieces.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  std::vector<std::pair<std::size_t, std::size_t>> order;
+  std::size_t next = pieces.size();
+  for (Unions unions(pieces); pieces.size() > 1;) {
+    const Unions::Choice least = unions.least();
+    order.emplace_back(numbers[least.a], numbers[least.b]);
+    numbers[least.a] = next++;
+    numbers[least.b] = numbers.back();
+    numbers.pop_back();
+    unions.unite(least);
+  }
+  return order;
 }
 
 }  // namespace fcl_prob::detail

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "fcl_prob/triangle_mesh.h"
@@ -21,5 +22,9 @@ std::vector<PointSet> cutIntoPieces(const TriangleMesh& mesh, std::size_t count)
 /// Unites the two sets whose common hull exceeds their own by the least volume, until there are no
 /// more than `count`, and as long as that is at most `excess` (cubic metres).
 void unitePieces(std::size_t count, double excess, std::vector<PointSet>& pieces);
+
+/// Which two sets are united after one another until one is left, as unitePieces() does: sets have
+/// the numbers of their order, unions those that follow.
+std::vector<std::pair<std::size_t, std::size_t>> unionOrder(std::vector<PointSet> pieces);
 
 }  // namespace fcl_prob::detail
