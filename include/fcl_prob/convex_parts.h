@@ -18,7 +18,7 @@ namespace fcl_prob {
 
 struct DecompositionRequest {
   /// Parts at most, at least 1.
-  std::size_t max_parts = 16;
+  std::size_t max_parts = 24;
 
   /// Two parts become one if their common hull exceeds the two by no more than this part of the
   /// volume of the hull of the whole mesh, at least 0: fewer parts than max_parts where more would
@@ -27,7 +27,7 @@ struct DecompositionRequest {
 
   /// Pieces that the mesh is cut into before they are put together again to parts; at least
   /// max_parts. More pieces take longer and fit better.
-  std::size_t pieces = 64;
+  std::size_t pieces = 96;
 };
 
 /// Convex polytopes in the frame of a mesh, metres, whose union contains every triangle of it: the

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "cobstacle/cut_polytope.h"
 #include "fcl_prob/convex_polytope.h"
@@ -136,13 +137,15 @@ bool KnownObstacle::contains(const Eigen::Vector3d& point) const {
 }
 
 Bounds intersectionMass(const KnownObstacle& a, const KnownObstacle& b) {
-  const double error = a.error() + kHeightRounding * lengthOf(a.faces());
   for (const double loosening : kLoosenings) {
-    FaceSet common = cutBy(b, a, 2.0 * error, loosening * lengthOf(a.faces()));
-    if (common.faceCount() < 4) return {0.0, 0.0};
-    if (!common.closed()) continue;
-    const Bounds mass = massOfHull(common, error);
-    return {massInside(a, b, std::move(common)), std::clamp(mass.upper, 0.0, 1.0)};
+    for (const auto& [body, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+      const double error = body->error() + kHeightRounding * lengthOf(body->faces());
+      FaceSet common = cutBy(*other, *body, 2.0 * error, loosening * lengthOf(body->faces()));
+      if (common.faceCount() < 4) return {0.0, 0.0};
+      if (!common.closed()) continue;
+      const Bounds mass = massOfHull(common, error);
+      return {massInside(a, b, std::move(common)), std::clamp(mass.upper, 0.0, 1.0)};
+    }
   }
   return {0.0, 1.0};
 }

@@ -186,7 +186,9 @@ class Sums {
     const auto known = common_.find(key);
     if (known != common_.end()) return known->second;
     ++result_.intersections;
-    return common_[key] = intersectionMass(*obstacles_[key.first], *obstacles_[key.second]);
+    Bounds mass = intersectionMass(*obstacles_[key.first], *obstacles_[key.second]);
+    mass.upper = std::min({mass.upper, masses_[i].upper, masses_[j].upper});
+    return common_[key] = mass;
   }
 
   bool worthIt(double overlap) {
