@@ -103,6 +103,18 @@ void checkRandomScene(RandomBodies& random) {
   CHECK(bounds.any.lower <= *of_parts.upper);
 }
 
+ProbabilityResult decide(const ConvexParts& parts, const fcl::Transform3d& pose, double threshold) {
+  ProbabilityRequest request;
+  request.threshold = threshold;
+  ProbabilityResult result;
+  GroupQuery(parts.geometries(), parts.geometries())
+      .collisionProbability(
+          std::vector<fcl::Transform3d>(parts.size(), pose),
+          std::vector<fcl::Transform3d>(parts.size(), fcl::Transform3d::Identity()),
+          GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15}), request, result);
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE("one pair has its exact mass on both sides", "[decomposition]") {
@@ -176,6 +188,22 @@ TEST_CASE("bounds of parts refuse what they cannot use", "[decomposition]") {
   CHECK_THROWS_AS(generalPcd(PartTree(parts, PartVolume::obb), identity,
                              PartTree(parts, PartVolume::aabb), identity, displacement),
                   InvalidRequest);
+}
+
+TEST_CASE("thresholds that sums decide start no partition", "[decomposition]") {
+  const ConvexParts torus(torusMesh(1.0, 0.3, 20, 10), quick());
+  REQUIRE(torus.size() > 1);
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.translation() = Vector3d(2.7, 0.2, 0.1);
+  const ProbabilityResult whole = decide(torus, pose, 0.5);
+  const double p = 0.5 * (*whole.lower + *whole.upper);
+  REQUIRE(p > 0.01);
+  const ProbabilityResult below = decide(torus, pose, 2.0 * *whole.upper);
+  CHECK(below.decision == Decision::below);
+  CHECK(below.statistics.cells == 0);
+  const ProbabilityResult above = decide(torus, pose, 0.3 * *whole.lower);
+  CHECK(above.decision == Decision::above);
+  CHECK(above.statistics.cells == 0);
 }
 
 TEST_CASE("bounds with parts are never below the meshes' probability, on random scenes",
