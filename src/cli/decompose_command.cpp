@@ -3,6 +3,7 @@
 #include "cli/decompose_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -28,14 +29,16 @@ std::string summaryOf(const ConvexParts& parts, const TriangleMesh& mesh, double
   double volume = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) volume += parts.volume(i);
   return std::to_string(mesh.triangles.size()) + " triangles in " + std::to_string(parts.size()) +
-         " convex parts of " + numberText(volume, 4) + " m^3 in all, " + numberText(time_ms, 4) +
-         " ms\n";
+         " convex part" + (parts.size() == 1 ? "" : "s") + " of " + numberText(volume, 4) +
+         " m^3 in all, " + numberText(time_ms, 4) + " ms\n";
 }
 
 int runDecompose(const DecomposeArguments& arguments) {
   const TriangleMesh mesh = loadMeshIsolated(arguments.mesh, arguments.options);
   const Stopwatch watch;
-  const ConvexParts parts(mesh, arguments.request);
+  DecompositionRequest request = arguments.request;
+  request.pieces = std::max(request.pieces, request.max_parts);
+  const ConvexParts parts(mesh, request);
   const double time_ms = watch.milliseconds();
   writeFile(arguments.output, objOf(parts));
   deliver(summaryOf(parts, mesh, time_ms), "");
