@@ -41,15 +41,15 @@ class ConvexParts {
   /// same rounding.
   ///
   /// Every part is the hull of its pieces, moved outwards by more than what rounding may have moved
-  /// the cuts by (1e-13 of the largest coordinate). That the parts cover the mesh is proven
-  /// afterwards, triangle by triangle, from the parts alone.
-  /// \throws InvalidGeometry if the mesh is malformed, or the cover cannot be proven;
-  /// InvalidRequest if a number is out of its range
+  /// the cuts by (1e-12 to 2e-12 of the largest coordinate). That the parts cover the mesh is
+  /// proven afterwards, triangle by triangle, from the parts alone. \throws InvalidGeometry if the
+  /// mesh is malformed, or the cover cannot be proven; InvalidRequest if a number is out of its
+  /// range
   explicit ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request = {});
 
   std::size_t size() const;
 
-  /// Its corners and faces; without volume it would have no faces, but parts always have some.
+  /// Its corners and faces. Parts of flat meshes are as thick as they are moved outwards.
   const ConvexPolytope& polytope(std::size_t part) const;
 
   /// The same for bounds and masses of pairs: fcl_prob/convex_pcd.h.

@@ -112,14 +112,14 @@ ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& r
   const int exponent = exponentOfSize(mesh);
   auto data = std::make_shared<Data>();
   data->polytopes = coverOf(scaled(mesh, -exponent), request);
+  std::vector<detail::PointSet> corners;
   for (ConvexPolytope& polytope : data->polytopes) {
+    corners.push_back(polytope.vertices);
+    data->volumes.push_back(std::ldexp(detail::hullVolume(corners.back()), 3 * exponent));
     scale(polytope, exponent);
     data->bodies.emplace_back(polytope.vertices);
-    data->volumes.push_back(detail::hullVolume(polytope.vertices));
     data->geometries.push_back(convexOf(polytope));
   }
-  std::vector<detail::PointSet> corners;
-  for (const ConvexPolytope& polytope : data->polytopes) corners.push_back(polytope.vertices);
   data->unions = detail::unionOrder(std::move(corners));
   data_ = std::move(data);
 }

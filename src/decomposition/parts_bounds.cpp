@@ -200,8 +200,8 @@ class Sums {
     for (const auto& [i, j] : heaviestTree(overlaps_)) {
       if (worthIt(overlaps_[i][j])) twice += common(i, j).lower;
     }
-    return raised(sum_ - twice * (1.0 - 2.0 * kEpsilon * static_cast<double>(masses_.size()))) +
-           2.0 * kEpsilon * sum_;
+    const double less = twice * (1.0 - 2.0 * kEpsilon * static_cast<double>(masses_.size()));
+    return raised(sum_) - less + 4.0 * kEpsilon * sum_;
   }
 
   /// Pairs are taken in, in the order of their masses, as long as that seems to add something.
