@@ -14,6 +14,8 @@
 #include "fcl_prob/group.h"
 #include "fcl_prob/mixture.h"
 #include "fcl_prob/monte_carlo.h"
+#include "fcl_prob/part_tree.h"
+#include "fcl_prob/parts_bounds.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/triangle_mesh.h"

@@ -20,10 +20,11 @@ struct CheckArguments {
   std::string output;
 };
 
-CheckReport check(Scene scene, const std::string& bounding_volume) {
-  const PreparedScene prepared(scene, bounding_volume);
+CheckReport check(Scene scene, const std::string& bounding_volume, PartsUse parts) {
+  const PreparedScene prepared(scene, bounding_volume, parts);
   noteInterrupts();
   CheckReport report;
+  if (parts == PartsUse::bounds) report.method = kPartsBounds;
   {
     ProgressBar bar("fcl_prob check");
     scene.request.on_progress = std::ref(bar);
@@ -38,7 +39,8 @@ CheckReport check(Scene scene, const std::string& bounding_volume) {
 }
 
 int runCheck(const CheckArguments& arguments) {
-  const CheckReport report = check(sceneFrom(arguments.scene), arguments.scene.bounding_volume);
+  const CheckReport report =
+      check(sceneFrom(arguments.scene), arguments.scene.bounding_volume, partsUse(arguments.scene));
   deliver(arguments.json ? jsonOf(report).dump() + "\n" : textOf(report), arguments.output);
   return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
 }

@@ -35,19 +35,21 @@ std::string titleOf(const SceneArguments& arguments) {
 }
 
 /// The runs of the default list, or only those of the method that --method names.
-std::vector<ComparisonRun> runsFor(const ProbabilityRequest& request) {
+std::vector<ComparisonRun> runsFor(const ProbabilityRequest& request, PartsUse parts) {
   std::vector<ComparisonRun> runs = defaultRuns(request);
-  if (request.method == ProbabilityMethod::automatic) return runs;
+  const bool bounds = parts == PartsUse::bounds;
+  if (request.method == ProbabilityMethod::automatic && !bounds) return runs;
   const auto other = [&](const ComparisonRun& run) {
+    if (bounds || run.parts == PartsUse::bounds) return !bounds || run.parts != parts;
     return run.prior || run.request.method != request.method;
   };
   runs.erase(std::remove_if(runs.begin(), runs.end(), other), runs.end());
   return runs;
 }
 
-Comparison compareWithProgress(const Scene& scene, const std::string& bounding_volume,
+Comparison compareWithProgress(const Scene& scene, const SceneArguments& arguments,
                                std::size_t seeds) {
-  const PreparedScene prepared(scene, bounding_volume);
+  const PreparedScene prepared(scene, arguments.bounding_volume);
   noteInterrupts();
   ProgressBar bar("fcl_prob compare");
   const auto progress = [&bar](std::size_t index, std::size_t count, const std::string& what) {
@@ -56,7 +58,7 @@ Comparison compareWithProgress(const Scene& scene, const std::string& bounding_v
   };
   ProbabilityRequest request = scene.request;
   request.on_progress = [](const ProbabilityProgress&) { return !interrupted(); };
-  return compare(prepared, runsFor(request), request, seeds, progress);
+  return compare(prepared, runsFor(request, partsUse(arguments)), request, seeds, progress);
 }
 
 void plot(const Comparison& comparison, const CompareArguments& arguments,
@@ -72,8 +74,8 @@ int runCompare(const CompareArguments& arguments) {
   if (!arguments.plot.empty() && !terminal) {
     throw InvalidRequest("--plot: the file name must end in .svg or .png");
   }
-  const Comparison comparison = compareWithProgress(
-      sceneFrom(arguments.scene), arguments.scene.bounding_volume, arguments.seeds);
+  const Comparison comparison =
+      compareWithProgress(sceneFrom(arguments.scene), arguments.scene, arguments.seeds);
   if (arguments.json) {
     deliver(jsonOf(comparison).dump(1) + "\n", arguments.output);
   } else {

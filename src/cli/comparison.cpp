@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/stopwatch.h"
+
 namespace fcl_prob::cli {
 namespace {
 
@@ -62,14 +64,26 @@ class RunList {
   void once(ProbabilityMethod method) { add(method, "-"); }
 
   void prior(const PriorRun& run) {
-    runs_.push_back({toString(run.method), run.budget(), base_, run});
+    runs_.push_back({toString(run.method), run.budget(), base_, run, PartsUse::none});
+  }
+
+  void withParts(double delta) {
+    for (const ProbabilityMethod method :
+         {ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min}) {
+      std::ostringstream text;
+      text << "parts, delta " << delta;
+      ProbabilityRequest& request = add(method, text.str());
+      request.confidence = delta;
+      runs_.back().parts = PartsUse::leaves;
+    }
+    runs_.push_back({kPartsBounds, "-", base_, std::nullopt, PartsUse::bounds});
   }
 
   const std::vector<ComparisonRun>& runs() const { return runs_; }
 
  private:
   ProbabilityRequest& add(ProbabilityMethod method, const std::string& budget) {
-    runs_.push_back({toString(method), budget, base_, std::nullopt});
+    runs_.push_back({toString(method), budget, base_, std::nullopt, PartsUse::none});
     runs_.back().request.method = method;
     return runs_.back().request;
   }
@@ -113,19 +127,49 @@ ComparisonReference referenceFor(const PreparedScene& scene, ProbabilityRequest 
   }
 }
 
+/// Hulls are the tightest volumes of general-pcd.
+constexpr const char* kVolumeOfParts = "convex";
+
+/// The scene for methods that are not those of a PreparedQuery. Meshes are decomposed when the
+/// first of them is run.
+class OtherMethods {
+ public:
+  explicit OtherMethods(const PreparedScene& scene) : scene_(scene), prior_(scene) {}
+
+  PriorAnswer prior(const PriorRun& run, ContactMeaning contact) const {
+    return prior_.answer(run, contact);
+  }
+
+  TimedResult withParts(const ComparisonRun& run) {
+    if (!parts_) {
+      parts_.emplace(scene_.objectA(), scene_.objectB(), scene_.displacement(), kVolumeOfParts);
+    }
+    TimedResult timed;
+    const Stopwatch watch;
+    timed.result = parts_->answer(run.parts, run.request);
+    timed.time_ms = watch.milliseconds();
+    return timed;
+  }
+
+ private:
+  const PreparedScene& scene_;
+  PriorScene prior_;
+  std::optional<PartsScene> parts_;
+};
+
 /// A result, and a name for its status that ProbabilityStatus may not have.
 struct Answer {
   TimedResult timed;
   std::string status;
 };
 
-Answer answerOf(const PreparedScene& scene, const PriorScene& prior_scene,
-                const ComparisonRun& run) {
+Answer answerOf(const PreparedScene& scene, OtherMethods& others, const ComparisonRun& run) {
   if (!run.prior) {
-    const TimedResult timed = scene.query(run.request);
+    const TimedResult timed =
+        run.parts == PartsUse::none ? scene.query(run.request) : others.withParts(run);
     return {timed, toString(timed.result.status)};
   }
-  const PriorAnswer prior = prior_scene.answer(*run.prior, run.request.contact);
+  const PriorAnswer prior = others.prior(*run.prior, run.request.contact);
   Answer answer;
   answer.timed.time_ms = prior.time_ms;
   answer.timed.result.status = ProbabilityStatus::bound_only;
@@ -145,14 +189,12 @@ bool samples(const ComparisonRun& run) {
 
 /// Runs that are over in a moment are repeated, and the quickest counts: the first one pays for
 /// caches and page faults that are not the method's.
-Answer quickest(const PreparedScene& scene, const PriorScene& prior_scene,
-                const ComparisonRun& run) {
+Answer quickest(const PreparedScene& scene, OtherMethods& others, const ComparisonRun& run) {
   constexpr double kMoment_ms = 10.0;
   constexpr int kRepeats = 5;
-  Answer best = answerOf(scene, prior_scene, run);
+  Answer best = answerOf(scene, others, run);
   for (int i = 1; i < kRepeats && best.timed.time_ms < kMoment_ms; ++i) {
-    best.timed.time_ms =
-        std::min(best.timed.time_ms, answerOf(scene, prior_scene, run).timed.time_ms);
+    best.timed.time_ms = std::min(best.timed.time_ms, answerOf(scene, others, run).timed.time_ms);
   }
   return best;
 }
@@ -190,9 +232,9 @@ void setAnswer(const Answer& answer, ComparisonRecord& record) {
   }
 }
 
-void recordOnce(const PreparedScene& scene, const PriorScene& prior_scene, const ComparisonRun& run,
+void recordOnce(const PreparedScene& scene, OtherMethods& others, const ComparisonRun& run,
                 const ComparisonReference& reference, ComparisonRecord& record) {
-  setAnswer(quickest(scene, prior_scene, run), record);
+  setAnswer(quickest(scene, others, run), record);
   setError({std::abs(record.value - reference.value)}, reference.value, record);
 }
 
@@ -217,7 +259,7 @@ void recordSeeds(const PreparedScene& scene, ComparisonRun run, std::size_t seed
   if (reference.certified) setError(errors, reference.value, record);
 }
 
-ComparisonRecord recordOf(const PreparedScene& scene, const PriorScene& prior_scene,
+ComparisonRecord recordOf(const PreparedScene& scene, OtherMethods& others,
                           const ComparisonRun& run, std::size_t seeds,
                           const ComparisonReference& reference) {
   ComparisonRecord record;
@@ -227,7 +269,7 @@ ComparisonRecord recordOf(const PreparedScene& scene, const PriorScene& prior_sc
     if (samples(run)) {
       recordSeeds(scene, run, seeds, reference, record);
     } else {
-      recordOnce(scene, prior_scene, run, reference, record);
+      recordOnce(scene, others, run, reference, record);
     }
   } catch (const Exception& error) {
     record.refusal = error.what();
@@ -248,6 +290,7 @@ std::vector<ComparisonRun> defaultRuns(const ProbabilityRequest& base) {
   list.once(Method::convex_pcd);
   list.byDelta(Method::general_pcd, {0.9, 0.99, 0.999});
   list.byDelta(Method::general_pcd_min, {0.9, 0.99, 0.999});
+  list.withParts(0.99);
   for (const PriorRun& run : priorRunsOfComparison()) list.prior(run);
   return list.runs();
 }
@@ -260,11 +303,11 @@ Comparison compare(const PreparedScene& scene, const std::vector<ComparisonRun>&
   comparison.nominal = scene.nominal();
   if (!progress(0, runs.size() + 1, "reference")) return comparison;
   comparison.reference = referenceFor(scene, base);
-  const PriorScene prior_scene(scene);
+  OtherMethods others(scene);
   for (const ComparisonRun& run : runs) {
     const std::string what = run.method + " " + run.budget;
     if (!progress(comparison.records.size() + 1, runs.size() + 1, what)) break;
-    comparison.records.push_back(recordOf(scene, prior_scene, run, seeds, comparison.reference));
+    comparison.records.push_back(recordOf(scene, others, run, seeds, comparison.reference));
   }
   return comparison;
 }

@@ -19,6 +19,7 @@ struct ComparisonRun {
   std::string budget;  ///< "1 %" (relative tolerance), "10000 samples", "delta 0.99"
   ProbabilityRequest request;
   std::optional<PriorRun> prior;  ///< one of the prior methods, instead of the request's
+  PartsUse parts = PartsUse::none;
 };
 
 /// What the errors are measured against.

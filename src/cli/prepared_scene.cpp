@@ -32,16 +32,18 @@ ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest
 
 }  // namespace
 
-PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume)
-    : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume) {
-}
+PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume, PartsUse parts)
+    : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume,
+                    parts) {}
 
 PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
                              const GaussianDisplacement& displacement,
-                             const std::string& bounding_volume)
-    : a_(std::move(a)), b_(std::move(b)), displacement_(displacement) {
+                             const std::string& bounding_volume, PartsUse parts)
+    : a_(std::move(a)), b_(std::move(b)), displacement_(displacement), use_of_parts_(parts) {
   const Stopwatch watch;
-  if (isOwnVolume(bounding_volume)) {
+  if (parts != PartsUse::none) {
+    parts_ = std::make_unique<PartsScene>(a_, b_, displacement_, bounding_volume);
+  } else if (isOwnVolume(bounding_volume)) {
     own_trees_ = makeTreePair(bounding_volume, requiredMesh(a_), requiredMesh(b_));
   } else {
     query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
@@ -70,7 +72,9 @@ std::vector<std::string> PreparedScene::importNotes() const {
 TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   TimedResult timed;
   const Stopwatch watch;
-  if (own_trees_) {
+  if (parts_) {
+    timed.result = parts_->answer(use_of_parts_, request);
+  } else if (own_trees_) {
     timed.result = boundByOwnTrees(request);
   } else {
     query_->collisionProbability(a_.pose, b_.pose, displacement_, request, timed.result);

@@ -8,6 +8,7 @@
 
 #include "cli/geometry.h"
 #include "cli/nominal_answer.h"
+#include "cli/parts_scene.h"
 #include "cli/tree_pair.h"
 #include "fcl_prob/collision_probability.h"
 
@@ -23,12 +24,14 @@ struct TimedResult {
 class PreparedScene {
  public:
   /// \param bounding_volume  one of boundingVolumeNames()
+  /// \param parts            decomposes the meshes, and answers with their parts only
   /// \throws what the loader, the trees and the query throw
-  PreparedScene(const Scene& scene, const std::string& bounding_volume);
+  PreparedScene(const Scene& scene, const std::string& bounding_volume,
+                PartsUse parts = PartsUse::none);
 
   /// The same for objects that are loaded already.
   PreparedScene(LoadedObject a, LoadedObject b, const GaussianDisplacement& displacement,
-                const std::string& bounding_volume);
+                const std::string& bounding_volume, PartsUse parts = PartsUse::none);
 
   /// The query alone, without loading and building.
   /// \throws InvalidRequest if the bounding volume is not FCL's and the method not general-pcd
@@ -56,6 +59,8 @@ class PreparedScene {
   double build_ms_ = 0.0;
   std::unique_ptr<PreparedQuery> query_;
   std::unique_ptr<TreePair> own_trees_;  ///< of bounding volumes that FCL does not have
+  std::unique_ptr<PartsScene> parts_;
+  PartsUse use_of_parts_;
 };
 
 /// A limit came before what was asked for; the result is valid all the same.

@@ -71,13 +71,17 @@ void addNominal(const NominalAnswer& nominal, Lines& line) {
   }
 }
 
+std::string methodOf(const CheckReport& report) {
+  return report.method.empty() ? toString(report.result.method) : report.method;
+}
+
 }  // namespace
 
 Json jsonOf(const CheckReport& report) {
   const ProbabilityResult& result = report.result;
   const Json decision =
       result.decision == Decision::none ? Json(nullptr) : Json(toString(result.decision));
-  return {{"method", toString(result.method)},
+  return {{"method", methodOf(report)},
           {"probability", result.probability()},
           {"lower", orNull(result.lower)},
           {"upper", orNull(result.upper)},
@@ -103,7 +107,7 @@ std::string textOf(const CheckReport& report) {
     line("decision") << toString(result.decision) << " (threshold " << report.threshold << ")";
   }
   addNominal(report.nominal, line);
-  line("method") << toString(result.method) << ": " << toString(result.status);
+  line("method") << methodOf(report) << ": " << toString(result.status);
   line("time") << std::setprecision(4) << report.time_ms << " ms, and " << report.build_ms
                << " ms to build the trees";
   if (result.gradient) {

@@ -14,6 +14,7 @@ namespace fcl_prob::cli {
 /// A result with what surrounds it.
 struct CheckReport {
   ProbabilityResult result;
+  std::string method = {};  ///< instead of result.method, if not empty
   double threshold = -1.0;  ///< the one that was asked about, if result.decision is set
   NominalAnswer nominal;
   double time_ms = 0.0;   ///< the query alone

@@ -9,6 +9,7 @@
 #include "cli/bench_command.h"
 #include "cli/check_command.h"
 #include "cli/compare_command.h"
+#include "cli/decompose_command.h"
 #include "cli/export_command.h"
 #include "cli/output.h"
 #include "fcl_prob/exceptions.h"
@@ -31,6 +32,7 @@ int parseAndRun(int argc, const char* const* argv) {
   addCompareCommand(app, exit_code);
   addBenchCommand(app, exit_code);
   addExportCommand(app, exit_code);
+  addDecomposeCommand(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

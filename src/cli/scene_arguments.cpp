@@ -82,11 +82,12 @@ void applyMeshOptions(const std::string& option, bool normalize, std::optional<d
 }
 
 void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) {
-  if (arguments.method) {
+  if (arguments.method && *arguments.method != kPartsBounds) {
     const auto method = methodFromString(*arguments.method);
     if (!method) {
       std::string names;
       for (const std::string& name : methodNames()) names += " " + name;
+      names += std::string(" ") + kPartsBounds;
       throw InvalidRequest("--method: unknown method " + detail::inQuotes(*arguments.method) +
                            "; known are" + names);
     }
@@ -147,9 +148,13 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
 void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
   std::string methods;
   for (const std::string& name : methodNames()) methods += (methods.empty() ? "" : ", ") + name;
-  command.add_option("--method", arguments.method, "One of " + methods);
+  command.add_option("--method", arguments.method, "One of " + methods + ", " + kPartsBounds);
   command.add_option("--bv", arguments.bounding_volume, "Bounding volumes of the meshes' trees")
       ->check(CLI::IsMember(boundingVolumeNames()));
+  command
+      .add_option("--leaves", arguments.leaves,
+                  "What general-pcd's trees end at: triangles, or convex parts of the meshes")
+      ->check(CLI::IsMember({"triangles", "parts"}));
   command.add_option("--relative-tolerance", arguments.relative_tolerance,
                      "Width of the interval relative to its upper end");
   command.add_option("--absolute-tolerance", arguments.absolute_tolerance,
@@ -179,6 +184,11 @@ Scene sceneFrom(const SceneArguments& arguments) {
   applyDisplacement(arguments, scene);
   applyRequest(arguments, scene.request);
   return scene;
+}
+
+PartsUse partsUse(const SceneArguments& arguments) {
+  if (arguments.method && *arguments.method == kPartsBounds) return PartsUse::bounds;
+  return arguments.leaves == "parts" ? PartsUse::leaves : PartsUse::none;
 }
 
 }  // namespace fcl_prob::cli

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/parts_scene.h"
 #include "fcl_prob/scene_io.h"
 
 namespace CLI {
@@ -31,6 +32,7 @@ struct SceneArguments {
 
   std::optional<std::string> method;
   std::string bounding_volume = "obbrss";
+  std::string leaves = "triangles";
   std::optional<double> relative_tolerance;
   std::optional<double> absolute_tolerance;
   std::optional<double> threshold;
@@ -53,5 +55,8 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments);
 /// command line says in its place. Meshes are not read. \throws Exception that begins with the
 /// option at fault.
 Scene sceneFrom(const SceneArguments& arguments);
+
+/// Whether the method or --leaves asks for convex parts.
+PartsUse partsUse(const SceneArguments& arguments);
 
 }  // namespace fcl_prob::cli

@@ -6,6 +6,7 @@
 
 #include "cli/fcl_loop.h"
 #include "cli/number_text.h"
+#include "cli/parts_scene.h"
 #include "cli/prior_runs.h"
 #include "cli/random_frames.h"
 #include "cli/stopwatch.h"
@@ -16,6 +17,7 @@ namespace fcl_prob::cli {
 namespace {
 
 constexpr double kConfidence = 0.99;  // δ of the paper
+constexpr std::size_t kFewParts = 5;
 constexpr std::size_t kMonteCarloSamples = 10'000;
 
 const TriangleMesh& meshOf(const LoadedObject& object) {
@@ -74,6 +76,15 @@ struct Table1Scene::TreeBounds {
   GeneralPcdResult minimum;
   double sum_ms = 0.0;
   double minimum_ms = 0.0;
+};
+
+struct Table1Scene::PartsPair {
+  ConvexParts a;
+  ConvexParts b;
+
+  std::string counts() const {
+    return std::to_string(a.size()) + " and " + std::to_string(b.size()) + " parts";
+  }
 };
 
 std::string toString(RowKind kind) {
@@ -140,7 +151,62 @@ Table1Row Table1Scene::rowOf(const std::string& name, const TreeBounds& bounds,
 }
 
 Table1Row Table1Scene::volumeRow(const std::string& volume) const {
-  return rowOf(volume, boundByTrees(volume, meshes()), volume);
+  return rowOf(volume + ", triangles", boundByTrees(volume, meshes()));
+}
+
+Table1Scene::PartsPair Table1Scene::parts(std::size_t count) const {
+  DecompositionRequest request;
+  request.max_parts = count;
+  return {ConvexParts(meshOf(scene_.objectA()), request),
+          ConvexParts(meshOf(scene_.objectB()), request)};
+}
+
+Table1Row Table1Scene::partsRow(const std::string& volume, const PartsPair& parts) const {
+  const PartTree a(parts.a, partVolumeFromString(volume));
+  const PartTree b(parts.b, partVolumeFromString(volume));
+  const auto bound = [&](GeneralPcdVariant variant, double& time_ms) {
+    GeneralPcdRequest request;
+    request.confidence = kConfidence;
+    request.variant = variant;
+    const Stopwatch watch;
+    const GeneralPcdResult result = generalPcd(a, scene_.objectA().pose, b, scene_.objectB().pose,
+                                               scene_.displacement(), request);
+    time_ms = watch.milliseconds();
+    return result;
+  };
+  TreeBounds bounds;
+  bounds.root_volume = a.volume(0);
+  bounds.sum = bound(GeneralPcdVariant::sum, bounds.sum_ms);
+  bounds.minimum = bound(GeneralPcdVariant::minimum, bounds.minimum_ms);
+  Table1Row row = rowOf(volume + ", parts", bounds, volume);
+  row.level_error.reset();
+  row.leaf_error = a.volumeOfLeaves() / enclosed_volume_;
+  row.remark =
+      parts.counts() + ", " + std::to_string(bounds.sum.pairs_summed) + " pairs in the sum";
+  return row;
+}
+
+Table1Row Table1Scene::partsBoundsRow(const PartsPair& parts) const {
+  const Stopwatch watch;
+  const PartsBoundsResult bounds = partsBounds(parts.a, scene_.objectA().pose, parts.b,
+                                               scene_.objectB().pose, scene_.displacement());
+  Table1Row row =
+      plainRow(kPartsBounds, RowKind::upper_bound, bounds.any.upper, watch.milliseconds());
+  row.raw_sum = bounds.sum;
+  row.remark = parts.counts() + ", " + std::to_string(bounds.pairs) + " pairs, " +
+               std::to_string(bounds.intersections) + " intersections; P of the parts at least " +
+               numberText(bounds.any.lower, 4);
+  return row;
+}
+
+std::vector<Table1Row> Table1Scene::partsRows() const {
+  const PartsPair many = parts(DecompositionRequest().max_parts);
+  std::vector<Table1Row> rows;
+  for (const std::string& volume : volumesOfTable1()) rows.push_back(partsRow(volume, many));
+  rows.push_back(partsRow("convex", parts(kFewParts)));
+  rows.back().method = "convex, few parts";
+  rows.push_back(partsBoundsRow(many));
+  return rows;
 }
 
 double Table1Scene::meanBoxVolume(std::size_t frames, std::uint64_t seed) const {
@@ -175,7 +241,7 @@ Table1Row Table1Scene::frameRow(std::size_t frames, std::uint64_t seed) const {
   mean.sum_ms = sum_ms.value();
   mean.minimum.upper = minimum.value();
   mean.minimum_ms = minimum_ms.value();
-  Table1Row row = rowOf("aabb, random frames", mean, "aabb");
+  Table1Row row = rowOf("aabb, random frames", mean);
   row.remark = "mean of " + std::to_string(frames) + " frames; raw sum ± " +
                numberText(sum.standardError(), 2) + ", min ± " +
                numberText(minimum.standardError(), 2);

@@ -28,6 +28,7 @@ struct Table1Row {
   std::optional<double> root_error;   ///< BVE of the root, over the volume that the mesh encloses
   std::optional<double> hull_error;   ///< the same over the volume of its convex hull
   std::optional<double> level_error;  ///< BVE of level kBveLevel
+  std::optional<double> leaf_error;   ///< BVE of all leaves, where those are convex parts
   std::optional<double> value;        ///< probability, or bound clipped at 1
   std::optional<double> raw_sum;
   std::optional<double> minimum;  ///< bound by min(parent, sum)
@@ -53,6 +54,10 @@ class Table1Scene {
   /// GeneralPCD over trees of one bounding volume.
   Table1Row volumeRow(const std::string& volume) const;
 
+  /// The same over trees of convex parts, the paper's own setting, for every bounding volume; then
+  /// convex hulls of fewer parts, and Hunter's and Bonferroni's bounds.
+  std::vector<Table1Row> partsRows() const;
+
   /// The mean over frames of the world that are turned at random, as the paper averages its AABBs.
   /// The root's BVE, which needs no tree, is over at least kBveFrames of them.
   Table1Row frameRow(std::size_t frames, std::uint64_t seed) const;
@@ -72,11 +77,15 @@ class Table1Scene {
  private:
   struct MeshPair;
   struct TreeBounds;
+  struct PartsPair;
 
   MeshPair meshes() const;
   TreeBounds boundByTrees(const std::string& volume, const MeshPair& pair) const;
   Table1Row rowOf(const std::string& name, const TreeBounds& bounds,
-                  const std::string& published_as) const;
+                  const std::string& published_as = "") const;
+  PartsPair parts(std::size_t count) const;
+  Table1Row partsRow(const std::string& volume, const PartsPair& parts) const;
+  Table1Row partsBoundsRow(const PartsPair& parts) const;
   Table1Row queryRow(const std::string& name, const ProbabilityRequest& request,
                      RowKind kind) const;
   double meanBoxVolume(std::size_t frames, std::uint64_t seed) const;

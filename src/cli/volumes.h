@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "cobstacle/bounding_volumes.h"
 #include "fcl_prob/convex_hull_tree.h"
 #include "fcl_prob/triangle_mesh.h"
+#include "traversal/bv_volumes.h"
 
 namespace fcl_prob::cli {
 
@@ -20,22 +20,7 @@ double enclosedVolume(const TriangleMesh& mesh);
 /// Volume of the convex hull of its vertices, cubic metres.
 double hullVolume(const TriangleMesh& mesh);
 
-/// Volume of the convex set that a bounding volume is, cubic metres. FCL's own volume() is that of
-/// the enclosing box for k-DOPs, and not the volume for RSS. Of OBBRSS that of the OBB counts, of
-/// kIOS the least of its OBB and its spheres: what generalPcd() uses.
-double volumeOf(const fcl::AABBd& box);
-double volumeOf(const fcl::OBBd& box);
-double volumeOf(const fcl::RSSd& rss);
-double volumeOf(const fcl::OBBRSSd& both);
-double volumeOf(const fcl::kIOSd& kios);
-double volumeOf(const SphereBv& sphere);
-double volumeOfSlabs(const std::vector<detail::Slab>& slabs);
-
-inline double volumeOf(const Kdop26& dop) { return volumeOfSlabs(detail::slabsOf(dop)); }
-template <std::size_t N>
-double volumeOf(const fcl::KDOP<double, N>& dop) {
-  return volumeOfSlabs(detail::slabsOf(dop));
-}
+using detail::volumeOf;
 
 /// For levels 0 to `levels` - 1 of a tree: the volumes of all nodes at that depth, added up. Where
 /// nodes overlap, their common volume counts more than once. A leaf counts at all levels below it.

@@ -9,6 +9,7 @@
 
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/parts_bounds.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "narrowphase/convex_pair_mass.h"
@@ -29,6 +30,9 @@ namespace {
 
 using Poses = std::vector<fcl::Transform3d>;
 using detail::PreparedGeometry;
+
+/// Of the threshold: what may be left out of the sums that decide it.
+constexpr double kNegligible = 1e-6;
 
 /// The members of one side, and the tree of those that are bounded. Members that fcl::collide
 /// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
@@ -56,6 +60,22 @@ class Group {
   bool haveRootBodies() const {
     return std::all_of(members_.begin(), members_.end(),
                        [](const PreparedGeometry& member) { return member.hasRootBody(); });
+  }
+
+  bool isConvexInOnePlace(const Poses& poses) const {
+    const auto same = [&](const fcl::Transform3d& pose) {
+      return pose.matrix() == poses[0].matrix();
+    };
+    return std::all_of(poses.begin(), poses.end(), same) &&
+           std::all_of(members_.begin(), members_.end(),
+                       [](const PreparedGeometry& member) { return member.isConvex(); });
+  }
+
+  /// Of convex members.
+  std::vector<ConvexBody> bodies() const {
+    std::vector<ConvexBody> bodies;
+    for (const PreparedGeometry& member : members_) bodies.push_back(member.rootBody());
+    return bodies;
   }
 
   void validate(const Poses& poses) const {
@@ -196,6 +216,10 @@ struct GroupQuery::Implementation {
     PlacedGroup placed_b(b, poses_b, request.contact);
     const double most = sumOfRootBounds(poses_a, poses_b, displacement, request);
     if (auto far = intervalOfSum(most, request)) return *far;
+    // Those bounds are of contact, not of contact within an ellipsoid.
+    if (!ball) {
+      if (auto decided = decidedByPairs(poses_a, poses_b, displacement, request)) return *decided;
+    }
     // At most one of the two has unbounded members.
     placed_a.boundBy(placed_b.object(), displacement);
     placed_b.boundBy(placed_a.object(), displacement);
@@ -231,6 +255,35 @@ struct GroupQuery::Implementation {
       }
     }
     return anyOf(pairs).upper;
+  }
+
+  /// Convex members in one place, as the parts of a mesh are: sums of masses may decide the
+  /// threshold, and no partition is begun.
+  std::optional<ProbabilityResult> decidedByPairs(const Poses& poses_a, const Poses& poses_b,
+                                                  const GaussianDisplacement& displacement,
+                                                  const ProbabilityRequest& request) const {
+    if (!request.threshold || request.gradient || request.method == ProbabilityMethod::estimate) {
+      return std::nullopt;
+    }
+    if (!a.isConvexInOnePlace(poses_a) || !b.isConvexInOnePlace(poses_b)) return std::nullopt;
+    if (a.leftOut() + b.leftOut() > 0) return std::nullopt;
+    detail::RequestLimits limits(request);
+    PartsBoundsRequest parts;
+    parts.negligible = kNegligible * *request.threshold;
+    parts.interruption = limits.interruption();
+    const PartsBoundsResult bounds =
+        partsBounds(a.bodies(), poses_a[0], b.bodies(), poses_b[0], displacement, parts);
+    const Decision decision = detail::decisionOf(bounds.any, request);
+    if (decision != Decision::below && decision != Decision::above) return std::nullopt;
+    ProbabilityResult result;
+    result.method = ProbabilityMethod::interval;
+    result.lower = bounds.any.lower;
+    result.upper = bounds.any.upper;
+    result.status = ProbabilityStatus::decided;
+    result.decision = decision;
+    result.statistics.leaf_pairs = bounds.pairs;
+    result.plan.push_back("decided by Hunter's and Bonferroni's bounds on pairs of convex members");
+    return result;
   }
 
   static std::optional<ProbabilityResult> intervalOfSum(double most,

@@ -7,27 +7,10 @@
 #include "fcl_prob/convex_hull_tree.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
+#include "traversal/bv_volumes.h"
 
 namespace fcl_prob {
 namespace detail {
-namespace {
-
-double volumeOf(const ConvexMesh& mesh) {
-  const Eigen::Vector3d& origin = mesh.vertices.front();
-  double volume = 0.0;
-  for (const ConvexMesh::Face& face : mesh.faces) {
-    const auto corner = [&](int c) -> Eigen::Vector3d {
-      return mesh.vertices[mesh.corners[face.first + c]] - origin;
-    };
-    for (int c = 1; c + 1 < face.count; ++c) {
-      volume += corner(0).dot(corner(c).cross(corner(c + 1))) / 6.0;
-    }
-  }
-  return std::max(volume, 0.0);
-}
-
-}  // namespace
-
 void HullTree::build() {
   // FCL numbers children after their parents, so that backwards they come first.
   for (std::size_t i = nodes_.size(); i-- > 0;) {

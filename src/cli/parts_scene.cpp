@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/parts_scene.h"
+
+#include <map>
+
+#include "cli/number_text.h"
+#include "fcl_prob/exceptions.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+ProbabilityResult boundedBy(double upper, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.method = request.method;
+  result.upper = upper;
+  result.status = ProbabilityStatus::bound_only;
+  if (request.threshold) {
+    result.decision = upper < *request.threshold ? Decision::below : Decision::undecided;
+  }
+  return result;
+}
+
+}  // namespace
+
+PartVolume partVolumeFromString(const std::string& bounding_volume) {
+  static const std::map<std::string, PartVolume> volumes{
+      {"sphere", PartVolume::sphere}, {"aabb", PartVolume::aabb},
+      {"obb", PartVolume::obb},       {"rss", PartVolume::rss},
+      {"obbrss", PartVolume::obbrss}, {"kios", PartVolume::kios},
+      {"kdop16", PartVolume::kdop16}, {"kdop18", PartVolume::kdop18},
+      {"kdop24", PartVolume::kdop24}, {"kdop26", PartVolume::kdop26},
+      {"convex", PartVolume::convex}};
+  const auto volume = volumes.find(bounding_volume);
+  if (volume == volumes.end()) {
+    throw InvalidRequest("unknown bounding volume '" + bounding_volume + "'");
+  }
+  return volume->second;
+}
+
+PartsScene::Object::Object(const LoadedObject& object, PartVolume volume) : pose(object.pose) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
+    const ConvexParts parts(*mesh);
+    for (std::size_t i = 0; i < parts.size(); ++i) bodies.push_back(parts.body(i));
+    tree.emplace(parts, volume);
+  } else {
+    bodies.emplace_back(*std::get<PrimitiveShape>(object.shape));
+  }
+}
+
+PartsScene::PartsScene(const LoadedObject& a, const LoadedObject& b,
+                       const GaussianDisplacement& displacement, const std::string& bounding_volume)
+    : displacement_(displacement),
+      a_(a, partVolumeFromString(bounding_volume)),
+      b_(b, partVolumeFromString(bounding_volume)) {}
+
+ProbabilityResult PartsScene::answer(PartsUse use, const ProbabilityRequest& request) const {
+  validateRequest(request);
+  if (request.contact == ContactMeaning::solid && (a_.tree || b_.tree)) {
+    throw UnsupportedGeometry(
+        "parts are proven to cover the surfaces of meshes, not the solids that they enclose");
+  }
+  return use == PartsUse::bounds ? bothSides(request) : sum(request);
+}
+
+GeneralPcdResult PartsScene::generalPcd(const GeneralPcdRequest& request) const {
+  if (!a_.tree || !b_.tree) throw UnsupportedGeometry("trees over parts are for two meshes");
+  return fcl_prob::generalPcd(*a_.tree, a_.pose, *b_.tree, b_.pose, displacement_, request);
+}
+
+PartsBoundsResult PartsScene::bounds(const PartsBoundsRequest& request) const {
+  return partsBounds(a_.bodies, a_.pose, b_.bodies, b_.pose, displacement_, request);
+}
+
+ProbabilityResult PartsScene::sum(const ProbabilityRequest& request) const {
+  const bool minimum = request.method == ProbabilityMethod::general_pcd_min;
+  if (!minimum && request.method != ProbabilityMethod::general_pcd) {
+    throw InvalidRequest("--leaves: parts are for --method general-pcd and general-pcd-min only");
+  }
+  GeneralPcdRequest pcd_request;
+  pcd_request.confidence = request.confidence;
+  pcd_request.max_pairs = request.max_cells;
+  pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
+  const GeneralPcdResult pcd = generalPcd(pcd_request);
+  ProbabilityResult result = boundedBy(pcd.upper, request);
+  if (!pcd.complete) result.status = ProbabilityStatus::cell_limit;
+  result.statistics.raw_sum = pcd.raw_sum;
+  result.statistics.pairs_tested = pcd.pairs_bounded;
+  result.statistics.leaf_pairs = pcd.leaf_pairs;
+  result.plan.push_back("GeneralPCD over trees of " + std::to_string(a_.bodies.size()) + " and " +
+                        std::to_string(b_.bodies.size()) + " convex parts");
+  return result;
+}
+
+ProbabilityResult PartsScene::bothSides(const ProbabilityRequest& request) const {
+  PartsBoundsRequest bounds_request;
+  bounds_request.negligible = 1e-3 * request.absolute_tolerance;
+  const PartsBoundsResult parts = bounds(bounds_request);
+  ProbabilityResult result = boundedBy(parts.any.upper, request);
+  result.statistics.raw_sum = parts.sum;
+  result.statistics.leaf_pairs = parts.pairs;
+  result.plan.push_back("Hunter's bound on the sum over " + std::to_string(parts.pairs) +
+                        " pairs of convex parts, with " + std::to_string(parts.intersections) +
+                        " intersections");
+  if (!a_.tree && !b_.tree) {
+    result.lower = parts.any.lower;
+    if (request.threshold && *result.lower > *request.threshold) result.decision = Decision::above;
+  } else {
+    result.plan.push_back("the parts themselves touch with a probability of at least " +
+                          numberText(parts.any.lower, 6) + " (Bonferroni)");
+  }
+  return result;
+}
+
+}  // namespace fcl_prob::cli

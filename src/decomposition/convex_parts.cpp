@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/convex_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "decomposition/cover_proof.h"
+#include "decomposition/hull_volume.h"
+#include "decomposition/padded_hull.h"
+#include "decomposition/piece_cutting.h"
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
+
+namespace fcl_prob {
+namespace {
+
+/// Where the largest coordinate is between 1/2 and 1: by how much parts are moved outwards, and how
+/// much of that the proof of the cover may use up.
+constexpr double kPadding = 1e-12;
+constexpr double kMargin = 0.5 * kPadding;
+
+void validateDecompositionRequest(const DecompositionRequest& request) {
+  if (request.max_parts == 0) throw InvalidRequest("max_parts is 0, must be at least 1");
+  if (request.pieces < request.max_parts) {
+    throw InvalidRequest("pieces is " + std::to_string(request.pieces) +
+                         ", must be at least max_parts, which is " +
+                         std::to_string(request.max_parts));
+  }
+  if (!(request.concavity >= 0.0)) {
+    throw InvalidRequest("concavity is " + detail::numberText(request.concavity) +
+                         ", must be at least 0");
+  }
+}
+
+/// The largest coordinate is below two to this power.
+int exponentOfSize(const TriangleMesh& mesh) {
+  double largest = 0.0;
+  for (const fcl::Vector3d& v : mesh.vertices) {
+    largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return exponent;
+}
+
+/// By a power of two, which rounds nothing that matters (subnormal numbers are below the padding).
+TriangleMesh scaled(TriangleMesh mesh, int exponent) {
+  const auto power = [exponent](double x) { return std::ldexp(x, exponent); };
+  for (fcl::Vector3d& v : mesh.vertices) v = v.unaryExpr(power);
+  return mesh;
+}
+
+void scale(ConvexPolytope& polytope, int exponent) {
+  for (Eigen::Vector3d& v : polytope.vertices) {
+    v = v.unaryExpr([exponent](double x) { return std::ldexp(x, exponent); });
+  }
+  for (ConvexPolytope::Face& face : polytope.faces) {
+    face.offset = std::ldexp(face.offset, exponent);
+  }
+}
+
+std::vector<detail::PointSet> pointsOfParts(const TriangleMesh& mesh,
+                                            const DecompositionRequest& request) {
+  std::vector<detail::PointSet> pieces = detail::cutIntoPieces(mesh, request.pieces);
+  const detail::PointSet all(mesh.vertices.begin(), mesh.vertices.end());
+  detail::unitePieces(request.max_parts, request.concavity * detail::hullVolume(all), pieces);
+  if (pieces.size() == 1) return {all};
+  return pieces;
+}
+
+/// Of a mesh with coordinates of at most 1. \throws InvalidGeometry if the cover is not proven.
+std::vector<ConvexPolytope> coverOf(const TriangleMesh& mesh, const DecompositionRequest& request) {
+  std::vector<ConvexPolytope> polytopes;
+  for (const detail::PointSet& points : pointsOfParts(welded(mesh), request)) {
+    polytopes.push_back(detail::paddedHull(points, kPadding));
+  }
+  if (const auto triangle = detail::firstUncovered(mesh, polytopes, kMargin)) {
+    throw InvalidGeometry("mesh to decompose: triangle " + std::to_string(*triangle) +
+                          " could not be proven to be within the parts");
+  }
+  return polytopes;
+}
+
+std::shared_ptr<const fcl::Convexd> convexOf(const ConvexPolytope& polytope) {
+  auto faces = std::make_shared<std::vector<int>>();
+  for (const ConvexPolytope::Face& face : polytope.faces) {
+    faces->push_back(static_cast<int>(face.vertices.size()));
+    faces->insert(faces->end(), face.vertices.begin(), face.vertices.end());
+  }
+  const auto vertices = std::make_shared<const std::vector<fcl::Vector3d>>(
+      polytope.vertices.begin(), polytope.vertices.end());
+  auto convex = std::make_shared<fcl::Convexd>(vertices, static_cast<int>(polytope.faces.size()),
+                                               std::move(faces));
+  convex->computeLocalAABB();
+  return convex;
+}
+
+}  // namespace
+
+struct ConvexParts::Data {
+  std::vector<ConvexPolytope> polytopes;
+  std::vector<ConvexBody> bodies;
+  std::vector<double> volumes;
+  std::vector<std::shared_ptr<const fcl::Convexd>> geometries;
+  std::vector<std::pair<std::size_t, std::size_t>> unions;
+};
+
+ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request) {
+  validateMesh(mesh, "mesh to decompose");
+  validateDecompositionRequest(request);
+  const int exponent = exponentOfSize(mesh);
+  auto data = std::make_shared<Data>();
+  data->polytopes = coverOf(scaled(mesh, -exponent), request);
+  std::vector<detail::PointSet> corners;
+  for (ConvexPolytope& polytope : data->polytopes) {
+    corners.push_back(polytope.vertices);
+    data->volumes.push_back(std::ldexp(detail::hullVolume(corners.back()), 3 * exponent));
+    scale(polytope, exponent);
+    data->bodies.emplace_back(polytope.vertices);
+    data->geometries.push_back(convexOf(polytope));
+  }
+  data->unions = detail::unionOrder(std::move(corners));
+  data_ = std::move(data);
+}
+
+std::size_t ConvexParts::size() const { return data_->polytopes.size(); }
+
+const ConvexPolytope& ConvexParts::polytope(std::size_t part) const {
+  return data_->polytopes.at(part);
+}
+
+const ConvexBody& ConvexParts::body(std::size_t part) const { return data_->bodies.at(part); }
+
+double ConvexParts::volume(std::size_t part) const { return data_->volumes.at(part); }
+
+std::shared_ptr<const fcl::Convexd> ConvexParts::geometry(std::size_t part) const {
+  return data_->geometries.at(part);
+}
+
+const std::vector<std::pair<std::size_t, std::size_t>>& ConvexParts::unions() const {
+  return data_->unions;
+}
+
+std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> ConvexParts::geometries() const {
+  return {data_->geometries.begin(), data_->geometries.end()};
+}
+
+}  // namespace fcl_prob

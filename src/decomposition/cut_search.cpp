@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "decomposition/cut_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <limits>
+
+#include "decomposition/hull_volume.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr int kPlanesPerDirection = 7;
+constexpr int kSupportDirections = 92;
+constexpr int kRefinements = 4;
+
+/// Gains below this part of a hull's volume are no more than what the comparison misses.
+constexpr double kLeastGain = 1e-6;
+
+/// Points on a sphere, about evenly (Fibonacci's spiral).
+std::vector<Eigen::Vector3d> spiral(int count) {
+  const double golden_angle = boost::math::constants::pi<double>() * (3.0 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3d> directions;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double radius = std::sqrt(1.0 - z * z);
+    directions.emplace_back(radius * std::cos(golden_angle * i),
+                            radius * std::sin(golden_angle * i), z);
+  }
+  return directions;
+}
+
+/// The extreme points of a set that grows, in a fixed set of directions.
+class ExtremePoints {
+ public:
+  ExtremePoints()
+      : highest_(directions().size(), -std::numeric_limits<double>::infinity()),
+        points_(directions().size()) {}
+
+  void add(const Eigen::Vector3d& point) {
+    for (std::size_t k = 0; k < highest_.size(); ++k) {
+      const double height = directions()[k].dot(point);
+      if (height > highest_[k]) {
+        highest_[k] = height;
+        points_[k] = point;
+      }
+    }
+  }
+
+  void add(const ExtremePoints& other) {
+    for (std::size_t k = 0; k < highest_.size(); ++k) {
+      if (other.highest_[k] > highest_[k]) {
+        highest_[k] = other.highest_[k];
+        points_[k] = other.points_[k];
+      }
+    }
+  }
+
+  double hullVolume() const {
+    Points distinct;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      if (std::isfinite(highest_[k])) distinct.push_back(points_[k]);
+    }
+    const auto before = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+      return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+    };
+    std::sort(distinct.begin(), distinct.end(), before);
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    return detail::hullVolume(distinct);
+  }
+
+ private:
+  static const std::vector<Eigen::Vector3d>& directions() {
+    static const std::vector<Eigen::Vector3d> all = spiral(kSupportDirections);
+    return all;
+  }
+
+  std::vector<double> highest_;
+  Points points_;
+};
+
+/// Planes of one direction.
+class ParallelCuts {
+ public:
+  ParallelCuts(const SurfacePiece& piece, const Eigen::Vector3d& normal)
+      : piece_(piece), normal_(normal) {
+    for (const Eigen::Vector3d& v : piece.vertices()) heights_.push_back(normal.dot(v));
+    sorted_ = heights_;
+    std::sort(sorted_.begin(), sorted_.end());
+    sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
+  }
+
+  /// The least volume of the two hulls at some heights, all of them heights of vertices.
+  std::pair<double, double> best() const {
+    const std::vector<double> offsets = evenOffsets();
+    std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0.0};
+    const auto volumes = volumesAt(offsets);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      best = std::min(best, std::pair(volumes[i], offsets[i]));
+    }
+    return best;
+  }
+
+  std::pair<double, double> refined(std::pair<double, double> best) const {
+    double step = (sorted_.back() - sorted_.front()) / (kPlanesPerDirection + 1);
+    for (int i = 0; i < kRefinements; ++i) {
+      step *= 0.5;
+      const double middle = best.second;
+      for (const double offset : {middle - step, middle + step}) {
+        const double at = vertexHeightNear(offset);
+        if (isInside(at)) best = std::min(best, std::pair(volumesAt({at}).front(), at));
+      }
+    }
+    return best;
+  }
+
+ private:
+  bool isInside(double offset) const { return offset > sorted_.front() && offset < sorted_.back(); }
+
+  double vertexHeightNear(double height) const {
+    const auto above = std::lower_bound(sorted_.begin(), sorted_.end(), height);
+    if (above == sorted_.begin()) return sorted_.front();
+    if (above == sorted_.end()) return sorted_.back();
+    return *above - height < height - *(above - 1) ? *above : *(above - 1);
+  }
+
+  std::vector<double> evenOffsets() const {
+    std::vector<double> offsets;
+    for (int i = 1; i <= kPlanesPerDirection; ++i) {
+      const double share = static_cast<double>(i) / (kPlanesPerDirection + 1);
+      const double at =
+          vertexHeightNear(sorted_.front() + share * (sorted_.back() - sorted_.front()));
+      if (isInside(at) && (offsets.empty() || at > offsets.back())) offsets.push_back(at);
+    }
+    return offsets;
+  }
+
+  /// For rising offsets.
+  std::vector<double> volumesAt(const std::vector<double>& offsets) const {
+    // Between two planes in a row every vertex is looked at once, whatever their number.
+    std::vector<ExtremePoints> slabs(offsets.size() + 1);
+    const auto slab_of = [&](double height) {
+      return std::lower_bound(offsets.begin(), offsets.end(), height) - offsets.begin();
+    };
+    for (std::size_t i = 0; i < heights_.size(); ++i) {
+      slabs[slab_of(heights_[i])].add(piece_.vertices()[i]);
+    }
+    std::vector<ExtremePoints> on_plane(offsets.size());
+    for (const auto& [from, to] : piece_.edges()) addCrossings(from, to, offsets, on_plane);
+
+    std::vector<double> volumes(offsets.size(), 0.0);
+    ExtremePoints below, above;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      below.add(slabs[i]);
+      below.add(on_plane[i]);
+      volumes[i] += below.hullVolume();
+    }
+    for (std::size_t i = offsets.size(); i-- > 0;) {
+      above.add(slabs[i + 1]);
+      above.add(on_plane[i]);
+      volumes[i] += above.hullVolume();
+    }
+    return volumes;
+  }
+
+  void addCrossings(int from, int to, const std::vector<double>& offsets,
+                    std::vector<ExtremePoints>& on_plane) const {
+    const int low = heights_[from] <= heights_[to] ? from : to;
+    const int high = from + to - low;
+    auto i = std::lower_bound(offsets.begin(), offsets.end(), heights_[low]) - offsets.begin();
+    for (; i < static_cast<std::ptrdiff_t>(offsets.size()) && offsets[i] <= heights_[high]; ++i) {
+      const double below = heights_[low] - offsets[i];
+      const double above = heights_[high] - offsets[i];
+      on_plane[i].add(below < above ? crossingPoint(piece_.vertices()[low], below,
+                                                    piece_.vertices()[high], above)
+                                    : piece_.vertices()[low]);
+    }
+  }
+
+  const SurfacePiece& piece_;
+  Eigen::Vector3d normal_;
+  std::vector<double> heights_;
+  std::vector<double> sorted_;
+};
+
+/// Those of a 26-DOP and the principal axes of the vertices.
+Points cutDirections(const SurfacePiece& piece) {
+  Points directions;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const bool first_of_two = x > 0 || (x == 0 && (y > 0 || (y == 0 && z > 0)));
+        if (first_of_two) directions.push_back(Eigen::Vector3d(x, y, z).normalized());
+      }
+    }
+  }
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& v : piece.vertices()) mean += v;
+  mean /= static_cast<double>(piece.vertices().size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& v : piece.vertices()) spread += (v - mean) * (v - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  for (int k = 0; k < 3; ++k) directions.push_back(axes.eigenvectors().col(k));
+  return directions;
+}
+
+}  // namespace
+
+BestCut bestCut(const SurfacePiece& piece) {
+  ExtremePoints whole;
+  for (const Eigen::Vector3d& v : piece.vertices()) whole.add(v);
+  const double volume = whole.hullVolume();
+  std::pair<double, double> best{volume, 0.0};
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& direction : cutDirections(piece)) {
+    const auto of_direction = ParallelCuts(piece, direction).best();
+    if (of_direction.first >= best.first) continue;
+    best = of_direction;
+    normal = direction;
+  }
+  if (normal.isZero()) return {};
+  best = ParallelCuts(piece, normal).refined(best);
+  const double gain = volume - best.first;
+  if (!(gain > kLeastGain * volume)) return {};
+  return {{normal, best.second}, gain};
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// fcl_prob decompose, and the methods that use convex parts, from outside.
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "command.h"
+#include "fcl_prob/mesh_io.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob_test;
+using nlohmann::json;
+
+namespace {
+
+/// Two boxes beside each other, in a shape that is not convex.
+std::string angleFile(const TemporaryFolder& folder) {
+  std::string text;
+  int first = 1;
+  for (const auto& [lower, upper] :
+       {std::pair(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.2, 1, 0.2)),
+        std::pair(Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(1, 0.2, 0.2))}) {
+    for (int i = 0; i < 8; ++i) {
+      text += "v";
+      for (int k = 0; k < 3; ++k) text += " " + std::to_string((i >> k & 1) ? upper[k] : lower[k]);
+      text += "\n";
+    }
+    for (const auto& f : {std::array{0, 2, 3, 1},
+                          {4, 5, 7, 6},
+                          {0, 1, 5, 4},
+                          {2, 6, 7, 3},
+                          {0, 4, 6, 2},
+                          {1, 3, 7, 5}}) {
+      text += "f";
+      for (const int corner : f) text += " " + std::to_string(first + corner);
+      text += "\n";
+    }
+    first += 8;
+  }
+  return folder.write("angle.obj", text);
+}
+
+json answerOf(const std::vector<std::string>& options, const TemporaryFolder& folder) {
+  const std::string mesh = angleFile(folder);
+  std::vector<std::string> arguments{"check",         mesh,      mesh,          "--pose-b",
+                                     "0.3,0.45,0.05", "--sigma", "0.1,0.1,0.1", "--json"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const CommandResult result = runCommand(arguments, folder);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  return json::parse(result.out);
+}
+
+}  // namespace
+
+TEST_CASE("decompose writes one object a part", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string output = folder.path("parts.obj");
+  const CommandResult result =
+      runCommand({"decompose", angleFile(folder), "--output", output}, folder);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.out.find("in 2 convex parts") != std::string::npos);
+  const std::string text = readWhole(output);
+  CHECK(text.find("o part_1\n") != std::string::npos);
+  CHECK(text.find("o part_2\n") != std::string::npos);
+  CHECK(text.find("o part_3\n") == std::string::npos);
+  CHECK(loadMesh(output).triangles.size() == 24);
+
+  const CommandResult one = runCommand(
+      {"decompose", angleFile(folder), "--parts", "1", "--output", folder.path("one.obj")}, folder);
+  CHECK(one.out.find("in 1 convex part") != std::string::npos);
+  CHECK(runCommand({"decompose", angleFile(folder)}, folder).refused());
+  CHECK(runCommand({"decompose", angleFile(folder), "--parts", "0", "--output", output}, folder)
+            .refused());
+}
+
+TEST_CASE("bounds with parts are above the certified lower bound", "[cli]") {
+  const TemporaryFolder folder;
+  const double lower =
+      answerOf({"--method", "interval", "--contact", "fcl"}, folder).at("lower").get<double>();
+  REQUIRE(lower > 0.01);
+  for (const std::string volume : {"sphere", "aabb", "obb", "rss", "obbrss", "kios", "kdop16",
+                                   "kdop18", "kdop24", "kdop26", "convex"}) {
+    const json sum =
+        answerOf({"--method", "general-pcd", "--leaves", "parts", "--bv", volume}, folder);
+    CHECK(sum.at("upper").get<double>() >= lower);
+    CHECK(sum.at("statistics").at("leaf_pairs").get<int>() <= 4);
+  }
+  const json bounds = answerOf({"--method", "parts-bounds"}, folder);
+  CHECK(bounds.at("method") == "parts-bounds");
+  CHECK(bounds.at("lower").is_null());
+  CHECK(bounds.at("upper").get<double>() >= lower);
+  const json hulls =
+      answerOf({"--method", "general-pcd", "--leaves", "parts", "--bv", "convex"}, folder);
+  CHECK(bounds.at("upper").get<double>() <= hulls.at("statistics").at("raw_sum").get<double>());
+  CHECK(answerOf({"--method", "parts-bounds", "--threshold", "0.999"}, folder).at("decision") ==
+        "below");
+}
+
+TEST_CASE("parts are refused where they prove nothing", "[cli]") {
+  const TemporaryFolder folder;
+  const std::string mesh = angleFile(folder);
+  const std::vector<std::string> scene{"check",     mesh,      mesh,         "--pose-b",
+                                       "0.5,0.5,0", "--sigma", "0.1,0.1,0.1"};
+  const auto refused = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), scene.begin(), scene.end());
+    return runCommand(options, folder).refused();
+  };
+  CHECK(refused({"--method", "parts-bounds", "--contact", "solid"}));
+  CHECK(refused({"--method", "general-pcd", "--leaves", "parts", "--contact", "solid"}));
+  CHECK(refused({"--method", "interval", "--leaves", "parts"}));
+  CHECK(refused({"--method", "general-pcd", "--leaves", "vertices"}));
+}
