@@ -2,12 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/gaussian_displacement.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
+#include "gaussian/rotation.h"
 
 namespace fcl_prob {
 namespace {
@@ -17,7 +17,6 @@ using detail::numberText;
 constexpr double kSymmetryTolerance = 1e-9;
 constexpr double kDefinitenessTolerance = 1e-12;
 constexpr double kIsotropyTolerance = 1e-12;
-constexpr double kRotationTolerance = 1e-9;
 
 // Both 1/sigma and sigma² stay finite.
 constexpr double kLeastStandardDeviation = 1e-300;
@@ -103,19 +102,6 @@ Eigen::Matrix3d covarianceOf(const detail::PrincipalAxes& axes) {
   return symmetricPart(factor * factor.transpose());
 }
 
-void requireRotation(const Eigen::Matrix3d& rotation) {
-  const double defect =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(defect <= kRotationTolerance)) {
-    throw InvalidPose("matrix is not a rotation: R Rᵀ differs from the identity by " +
-                      numberText(defect));
-  }
-  if (rotation.determinant() < 0) {
-    throw InvalidPose("matrix is a reflection, not a rotation: determinant " +
-                      numberText(rotation.determinant()));
-  }
-}
-
 }  // namespace
 
 GaussianDisplacement::GaussianDisplacement()
@@ -177,7 +163,7 @@ GaussianDisplacement GaussianDisplacement::withMean(const Eigen::Vector3d& mean)
 GaussianDisplacement GaussianDisplacement::reversed() const { return withMean(-mean_); }
 
 GaussianDisplacement GaussianDisplacement::rotated(const Eigen::Matrix3d& rotation) const {
-  requireRotation(rotation);
+  detail::requireRotation(rotation);
   GaussianDisplacement result = *this;
   result.mean_ = requireFiniteMean(rotation * mean_);
   result.axes_ = rotation * axes_;
