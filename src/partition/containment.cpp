@@ -56,7 +56,11 @@ void SolidContact::addDirections(const PartitionObject& inner, const WhitenedTre
       direction.outer_box = of_outer.boxes[outer.tree->parts[j].root];
       direction.inner_box = of_inner.boxes[inner.tree->parts[i].root];
       direction.sign = sign;
+      // The boxes contain motions, on either side.
       direction.rounding = 4 * (of_inner.error + of_outer.error);
+      for (const WhitenedTree* tree : {&of_inner, &of_outer}) {
+        if (!tree->node_motions.empty()) direction.rounding += 2 * tree->node_motions[0];
+      }
       directions_.push_back(std::move(direction));
     }
   }
