@@ -11,5 +11,8 @@
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/group.h"
 #include "fcl_prob/mixture.h"
+#include "fcl_prob/pose_error.h"
+#include "fcl_prob/pose_probability.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
+#include "fcl_prob/random_configuration.h"
