@@ -32,15 +32,22 @@ ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume)
-    : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume) {
-}
+    : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume,
+                    scene.pose_error) {}
 
 PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
                              const GaussianDisplacement& displacement,
-                             const std::string& bounding_volume)
-    : a_(std::move(a)), b_(std::move(b)), displacement_(displacement) {
+                             const std::string& bounding_volume,
+                             const std::optional<PoseError>& pose_error)
+    : a_(std::move(a)), b_(std::move(b)), displacement_(displacement), pose_error_(pose_error) {
   const Stopwatch watch;
-  if (isOwnVolume(bounding_volume)) {
+  if (pose_error) {
+    if (isOwnVolume(bounding_volume)) {
+      throw InvalidRequest("--bv: sphere, kdop26 and convex are not for errors of poses");
+    }
+    pose_query_ = std::make_unique<PreparedPoseQuery>(buildGeometry(a_, bounding_volume),
+                                                      buildGeometry(b_, bounding_volume));
+  } else if (isOwnVolume(bounding_volume)) {
     own_trees_ = makeTreePair(bounding_volume, requiredMesh(a_), requiredMesh(b_));
   } else {
     query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
@@ -52,7 +59,9 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
 TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   TimedResult timed;
   const Stopwatch watch;
-  if (own_trees_) {
+  if (pose_query_) {
+    pose_query_->collisionProbability(a_.pose, b_.pose, *pose_error_, request, timed.result);
+  } else if (own_trees_) {
     timed.result = boundByOwnTrees(request);
   } else {
     query_->collisionProbability(a_.pose, b_.pose, displacement_, request, timed.result);
@@ -77,8 +86,11 @@ ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& reque
 
 NominalAnswer PreparedScene::nominal() const {
   constexpr const char* kVolume = "obbrss";
-  return nominalAnswer(buildGeometry(a_, kVolume), a_.pose, buildGeometry(b_, kVolume), b_.pose,
-                       displacement_.mean());
+  const fcl::Transform3d pose =
+      pose_error_ ? displacedPose(a_.pose, pose_error_->convention(), pose_error_->mean())
+                  : a_.pose;
+  const Eigen::Vector3d mean = pose_error_ ? Eigen::Vector3d::Zero() : displacement_.mean();
+  return nominalAnswer(buildGeometry(a_, kVolume), pose, buildGeometry(b_, kVolume), b_.pose, mean);
 }
 
 bool stoppedByLimit(ProbabilityStatus status) {

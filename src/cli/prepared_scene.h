@@ -10,6 +10,7 @@
 #include "cli/nominal_answer.h"
 #include "cli/tree_pair.h"
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/pose_probability.h"
 
 namespace fcl_prob::cli {
 
@@ -28,7 +29,8 @@ class PreparedScene {
 
   /// The same for objects that are loaded already.
   PreparedScene(LoadedObject a, LoadedObject b, const GaussianDisplacement& displacement,
-                const std::string& bounding_volume);
+                const std::string& bounding_volume,
+                const std::optional<PoseError>& pose_error = std::nullopt);
 
   /// The query alone, without loading and building.
   /// \throws InvalidRequest if the bounding volume is not FCL's and the method not general-pcd
@@ -44,15 +46,20 @@ class PreparedScene {
   const LoadedObject& objectB() const { return b_; }
   const GaussianDisplacement& displacement() const { return displacement_; }
 
+  /// Of A's pose, where it is more than a displacement.
+  const std::optional<PoseError>& poseError() const { return pose_error_; }
+
  private:
   ProbabilityResult boundByOwnTrees(const ProbabilityRequest& request) const;
 
   LoadedObject a_;
   LoadedObject b_;
   GaussianDisplacement displacement_;
+  std::optional<PoseError> pose_error_;
   double build_ms_ = 0.0;
   std::unique_ptr<PreparedQuery> query_;
-  std::unique_ptr<TreePair> own_trees_;  ///< of bounding volumes that FCL does not have
+  std::unique_ptr<PreparedPoseQuery> pose_query_;  ///< instead, with a pose error
+  std::unique_ptr<TreePair> own_trees_;            ///< of bounding volumes that FCL does not have
 };
 
 /// A limit came before what was asked for; the result is valid all the same.
