@@ -4,6 +4,7 @@
 
 #include <fcl/narrowphase/collision.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "fcl_prob/triangle_mesh.h"
@@ -11,6 +12,7 @@
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
 #include "montecarlo/random_samples.h"
+#include "partition/whitened_tree.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -19,26 +21,17 @@ constexpr std::uint64_t kStream = 0x636f6e74;
 constexpr std::uint64_t kSamples = 200;
 constexpr int kEnoughHits = 40;
 
-// The middle of the parts of the two bounding boxes that are nearest to each other.
-Eigen::Vector3d betweenBoxes(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
-                             const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b) {
-  const auto box = [](const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
-    fcl::AABBd result;
-    for (int corner = 0; corner < 8; ++corner) {
-      Eigen::Vector3d point;
-      for (int k = 0; k < 3; ++k) {
-        const bool low = (corner >> k) % 2 == 0;
-        point[k] = low ? geometry.aabb_local.min_[k] : geometry.aabb_local.max_[k];
-      }
-      result += Eigen::Vector3d(pose * point);
-    }
-    return result;
-  };
-  const fcl::AABBd of_a = box(a, pose_a);
-  const fcl::AABBd of_b = box(b, pose_b);
-  const Eigen::Vector3d lo = of_a.min_.cwiseMax(of_b.min_);
-  const Eigen::Vector3d hi = of_a.max_.cwiseMin(of_b.max_);
-  return 0.5 * (lo + hi);
+// The middle of what the two bounding boxes share, or of the gap between them.
+Eigen::Vector3d betweenBoxes(const PartitionObject& a, const PartitionObject& b) {
+  const Whitening metres(GaussianDisplacement::fromStandardDeviations({1.0, 1.0, 1.0}));
+  const WhitenedPair pair = whiten(a, b, metres);
+  Eigen::Vector3d middle;
+  for (int k = 0; k < 3; ++k) {
+    middle[k] = 0.5 * std::max(pair.a.boxes[0].lo[k], pair.b.boxes[0].lo[k]) +
+                0.5 * std::min(pair.a.boxes[0].hi[k], pair.b.boxes[0].hi[k]);
+  }
+  // Whitened frames have their origin at the middle of the first part of A, and axes of their own.
+  return a.parts[0].pose * a.tree->parts[0].origin + metres.inverse() * middle;
 }
 
 // The mean of the contacts at displaced poses, each moved back with A; nothing without contact.
@@ -70,10 +63,13 @@ bool meanContact(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_
 
 }  // namespace
 
-Eigen::Vector3d likelyContact(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
-                              const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
+Eigen::Vector3d likelyContact(const PreparedGeometry& prepared_a, const fcl::Transform3d& pose_a,
+                              const PreparedGeometry& prepared_b, const fcl::Transform3d& pose_b,
                               const GaussianDisplacement& displacement, std::uint64_t seed) {
-  Eigen::Vector3d point = betweenBoxes(a, pose_a, b, pose_b);
+  Eigen::Vector3d point = betweenBoxes({&prepared_a.pieces(), {{pose_a, nullptr}}},
+                                       {&prepared_b.pieces(), {{pose_b, nullptr}}});
+  const fcl::CollisionGeometryd& a = prepared_a.geometry();
+  const fcl::CollisionGeometryd& b = prepared_b.geometry();
   // Contacts of triangles only: those of shapes come from an iteration that need not end.
   if (kindOf(a) != GeometryKind::mesh || kindOf(b) != GeometryKind::mesh) return point;
   const auto model_a = buildModel<fcl::OBBRSSd>(triangleMesh(meshView(a)));

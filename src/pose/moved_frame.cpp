@@ -21,23 +21,39 @@ GaussianDisplacement mapped(const GaussianDisplacement& displacement, const Eige
   return {map * displacement.mean(), covariance};
 }
 
+bool isExponential(PoseConvention convention) {
+  return convention == PoseConvention::world_exponential ||
+         convention == PoseConvention::body_exponential;
+}
+
+// In the axes of the world and about the frame's own origin, for exponentials, too: the levers of
+// rotations are no longer than they must be.
+PoseError aboutOrigin(const PoseError& error, const fcl::Transform3d& frame) {
+  fcl::Transform3d to_origin = fcl::Transform3d::Identity();
+  if (error.convention() == PoseConvention::body_exponential) {
+    to_origin.linear() = frame.linear();
+  } else if (error.convention() == PoseConvention::world_exponential) {
+    to_origin.translation() = -frame.translation();
+  } else {
+    return error.inWorldFrame(frame);
+  }
+  return error.transformed(to_origin);
+}
+
 }  // namespace
 
 MovedFrame::MovedFrame(const fcl::Transform3d& frame, const PoseError& error,
                        const std::string& name)
     : frame_(validated(frame, name)),
-      convention_(error.inWorldFrame(frame).convention()),
-      conditional_(error.inWorldFrame(frame)) {}
+      exponential_(isExponential(error.convention())),
+      conditional_(aboutOrigin(error, frame)) {}
 
 ConditionalMotion MovedFrame::at(const Eigen::VectorXd& z) const {
   const Eigen::Vector3d theta = conditional_.rotationVector(z);
   const GaussianDisplacement translation = conditional_.translation(z);
   ConditionalMotion result{fcl::Transform3d::Identity(), translation};
   result.motion.linear() = rotationOf(theta);
-  if (convention_ == PoseConvention::world_exponential) {
-    result.displacement = mapped(translation, translationJacobian(theta));
-    return result;
-  }
+  if (exponential_) result.displacement = mapped(translation, translationJacobian(theta));
   const Eigen::Vector3d origin = frame_.translation();
   result.motion.translation() = origin - result.motion.linear() * origin;
   return result;

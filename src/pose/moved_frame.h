@@ -23,14 +23,16 @@ class MovedFrame {
   int rank() const { return conditional_.rank(); }
   const ConditionalTranslation& conditional() const { return conditional_; }
   const fcl::Transform3d& frame() const { return frame_; }
-  PoseConvention convention() const { return convention_; }
+
+  /// Whether the translation is that of the Lie algebra of SE(3).
+  bool isExponential() const { return exponential_; }
 
   ConditionalMotion at(const Eigen::VectorXd& z) const;
 
  private:
   fcl::Transform3d frame_;
-  PoseConvention convention_;  ///< of the world frame
-  ConditionalTranslation conditional_;
+  bool exponential_;
+  ConditionalTranslation conditional_;  ///< axes of the world, about the frame's origin
 };
 
 }  // namespace fcl_prob::detail

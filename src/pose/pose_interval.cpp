@@ -69,8 +69,8 @@ class PoseInterval {
             b.pieces().radius() + a.pieces().parts[0].origin.norm() +
             b.pieces().parts[0].origin.norm();
     const ConditionalMotion nominal = frame_.at(Eigen::VectorXd::Zero(frame_.rank()));
-    reference_ = likelyContact(a.geometry(), nominal.motion * pose_a, b.geometry(), pose_b,
-                               nominal.displacement, request.seed);
+    reference_ =
+        likelyContact(a, nominal.motion * pose_a, b, pose_b, nominal.displacement, request.seed);
   }
 
   ProbabilityResult run() {

@@ -143,14 +143,11 @@ class CellMotionBuilder {
   CellMotion take() { return std::move(result_); }
 
  private:
-  bool exponential() const { return frame_.convention() == PoseConvention::world_exponential; }
-
   // The first-order turns, and what they leave: |u(1) - u(0) - ω × u| <= ¾ |Δθ|² |u|, since
   // |J(θ) - J(θ')| <= ½ |θ - θ'| for the Jacobian J of the exponential and |ω| <= |Δθ|.
   void build(const Eigen::Vector3d& reference, double size) {
     const Eigen::Matrix3d jacobian = translationJacobian(theta_);
-    const Eigen::Vector3d about =
-        exponential() ? Eigen::Vector3d::Zero().eval() : frame_.frame().translation().eval();
+    const Eigen::Vector3d about = frame_.frame().translation();
     const Eigen::Vector3d lever = reference - about;
     PointMotion& motion = result_.motion;
     motion.centre = reference;
@@ -158,14 +155,15 @@ class CellMotionBuilder {
     motion.ball =
         motion.remainder * lever.norm() + 64 * kEpsilon * (size + about.norm() + reference.norm());
     Eigen::MatrixXd shifts(3, half_.size());
-    const Eigen::Matrix3d to_world = exponential() ? jacobian : Eigen::Matrix3d::Identity().eval();
+    const Eigen::Matrix3d to_world =
+        frame_.isExponential() ? jacobian : Eigen::Matrix3d::Identity().eval();
     for (Eigen::Index j = 0; j < half_.size(); ++j) {
       const Eigen::Vector3d turn = jacobian * conditional_.rotationFactor().col(j);
       motion.turns.push_back(turn * half_[j]);
       shifts.col(j) = to_world * conditional_.slope().col(j) + turn.cross(lever);
     }
     const GaussianDisplacement& displacement = result_.displacement;
-    if (exponential()) addExponential();
+    if (frame_.isExponential()) addExponential();
     const Eigen::Vector3d mean = displacement.mean() + shifts * (mean_ - middle_);
     share(shifts);
     result_.displacement = displacement.withMean(mean);
