@@ -9,6 +9,7 @@
 
 #include "fcl_prob/bounds.h"
 #include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/pose_error.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 
@@ -51,6 +52,14 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
                                         const fcl::Transform3d& pose_b,
                                         const GaussianMixture& displacement,
                                         const ProbabilityRequest& request);
+
+/// The same for an error of A's pose in all six dimensions; no gradient.
+/// \throws as above
+ProbabilityResult poseMonteCarloProbability(const fcl::CollisionGeometryd& a,
+                                            const fcl::Transform3d& pose_a,
+                                            const fcl::CollisionGeometryd& b,
+                                            const fcl::Transform3d& pose_b, const PoseError& error,
+                                            const ProbabilityRequest& request);
 
 /// The same for small probabilities, by importance sampling.
 ///

@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/gaussian_displacement.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
+#include "gaussian/rotation.h"
 
 namespace fcl_prob {
 namespace {
@@ -18,7 +18,6 @@ using detail::numberText;
 constexpr double kSymmetryTolerance = 1e-9;
 constexpr double kDefinitenessTolerance = 1e-12;
 constexpr double kIsotropyTolerance = 1e-12;
-constexpr double kRotationTolerance = 1e-9;
 
 // Of products of axes that are inverted by transposing, which all bounds on rounding allow for.
 constexpr double kAxesRounding = 8 * detail::kEpsilon;
@@ -112,18 +111,6 @@ double orthonormalityDefect(const Eigen::Matrix3d& matrix) {
   return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-void requireRotation(const Eigen::Matrix3d& rotation) {
-  const double defect = orthonormalityDefect(rotation.transpose());
-  if (!(defect <= kRotationTolerance)) {
-    throw InvalidPose("matrix is not a rotation: R Rᵀ differs from the identity by " +
-                      numberText(defect));
-  }
-  if (rotation.determinant() < 0) {
-    throw InvalidPose("matrix is a reflection, not a rotation: determinant " +
-                      numberText(rotation.determinant()));
-  }
-}
-
 }  // namespace
 
 GaussianDisplacement::GaussianDisplacement()
@@ -185,7 +172,7 @@ GaussianDisplacement GaussianDisplacement::withMean(const Eigen::Vector3d& mean)
 GaussianDisplacement GaussianDisplacement::reversed() const { return withMean(-mean_); }
 
 GaussianDisplacement GaussianDisplacement::rotated(const Eigen::Matrix3d& rotation) const {
-  requireRotation(rotation);
+  detail::requireRotation(rotation);
   const Eigen::Matrix3d covariance = symmetricPart(rotation * covariance_ * rotation.transpose());
   const Eigen::Matrix3d axes = rotation * axes_;
   if (orthonormalityDefect(axes) > kAxesRounding) {

@@ -3,14 +3,13 @@
 #include "fcl_prob/monte_carlo.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "fcl_prob/mixture.h"
+#include "montecarlo/counting_run.h"
 #include "montecarlo/displaced_collider.h"
 #include "montecarlo/random_samples.h"
-#include "montecarlo/sampling_run.h"
 
 namespace fcl_prob {
 namespace {
@@ -48,28 +47,19 @@ class SampledDisplacements {
   std::vector<double> cumulated_;  ///< weights up to each, of several
 };
 
-class MonteCarloRun : public detail::SamplingRun {
+class MonteCarloRun : public detail::CountingRun {
  public:
   MonteCarloRun(const detail::DisplacedCollider& collider, SampledDisplacements displacements,
                 const ProbabilityRequest& request)
-      : SamplingRun(request, request.samples, request.absolute_tolerance),
+      : CountingRun(request),
         collider_(collider),
         displacements_(std::move(displacements)),
-        request_(request),
-        collided_(kSlots) {}
+        request_(request) {}
 
-  ProbabilityResult result(const detail::Stopwatch& watch) {
-    ProbabilityResult result = run(watch);
-    result.method = ProbabilityMethod::monte_carlo;
-    const auto n = static_cast<double>(counted());
-    const auto hits = static_cast<double>(hits_);
-    const double smoothed = (hits + 0.5) / (n + 1.0);
-    result.estimate = hits / n;
-    result.standard_error = std::sqrt(smoothed * (1.0 - smoothed) / n);
-    result.statistics.hits = hits_;
-    result.statistics.seconds.emplace_back("sampling", watch.seconds());
-    if (request_.gradient) gradient_.report(displacements_.haveFullRank(), counted(), result);
-    return result;
+  ProbabilityResult resultWithGradient(const detail::Stopwatch& watch) {
+    ProbabilityResult answer = result(watch);
+    if (request_.gradient) gradient_.report(displacements_.haveFullRank(), counted(), answer);
+    return answer;
   }
 
  private:
@@ -83,28 +73,20 @@ class MonteCarloRun : public detail::SamplingRun {
     return y;
   }
 
-  void evaluate(std::size_t index, std::size_t slot) override {
+  bool collides(std::size_t index) const override {
     const Whitening& whitening = whiteningOf(index);
-    collided_[slot] = collider_.collides(whitening.unapply(normals(index, whitening.rank())));
+    return collider_.collides(whitening.unapply(normals(index, whitening.rank())));
   }
 
-  void count(std::size_t index, std::size_t slot) override {
-    if (!collided_[slot]) return;
-    ++hits_;
+  void countHit(std::size_t index) override {
     if (!request_.gradient) return;
     const Whitening& whitening = whiteningOf(index);
     gradient_.add(whitening, normals(index, whitening.rank()), 1.0);
   }
 
-  Bounds interval(double confidence) const override {
-    return clopperPearsonInterval(hits_, counted(), confidence);
-  }
-
   const detail::DisplacedCollider& collider_;
   SampledDisplacements displacements_;
   const ProbabilityRequest& request_;
-  std::vector<unsigned char> collided_;
-  std::size_t hits_ = 0;
   detail::GradientSum gradient_;
 };
 
@@ -115,8 +97,8 @@ ProbabilityResult sampled(const fcl::CollisionGeometryd& a, const fcl::Transform
   validateRequest(request);
   const detail::Stopwatch watch;
   const detail::DisplacedCollider collider(a, pose_a, b, pose_b, request.contact);
-  ProbabilityResult result =
-      MonteCarloRun(collider, SampledDisplacements(displacement), request).result(watch);
+  ProbabilityResult result = MonteCarloRun(collider, SampledDisplacements(displacement), request)
+                                 .resultWithGradient(watch);
   result.plan.insert(result.plan.begin(), collider.plan().begin(), collider.plan().end());
   result.plan.push_back("Monte Carlo: displaced fcl::collide; the interval has confidence " +
                         std::to_string(request.confidence) + ", nothing is certified");

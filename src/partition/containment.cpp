@@ -47,7 +47,11 @@ SolidContact::SolidContact(const PartitionObject& a, const PartitionObject& b,
   const std::vector<SurfacePart> parts_of_b = surfaceParts(b, pair.b);
   parts_of_a_ = boxesOf(parts_of_a);
   parts_of_b_ = boxesOf(parts_of_b);
-  const Eigen::Vector3d rounding = 4 * (pair.a.error + pair.b.error);
+  Eigen::Vector3d rounding = 4 * (pair.a.error + pair.b.error);
+  // The boxes may contain motions, on either side.
+  for (const WhitenedTree* tree : {&pair.a, &pair.b}) {
+    if (!tree->node_motions.empty()) rounding += 2 * tree->node_motions[0];
+  }
   addDirections(a, parts_of_a, b, pair.b, {1.0, whitening.mean(), rounding});
   addDirections(b, parts_of_b, a, pair.a, {-1.0, -whitening.mean(), rounding});
 }

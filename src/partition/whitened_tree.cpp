@@ -48,6 +48,11 @@ void fitBoxes(WhitenedTree& whitened) {
     }
     box = tree.isTriangle(node.piece) ? triangleBox(whitened, tree.triangles[node.piece])
                                       : bodyBox(whitened, tree.bodyOf(node.piece));
+    if (whitened.node_motions.empty()) continue;
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] -= whitened.node_motions[i][k];
+      box.hi[k] += whitened.node_motions[i][k];
+    }
   }
 }
 
@@ -106,6 +111,63 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
   }
 }
 
+// The largest motion of the corners of a box around a body.
+Eigen::Vector3d motionOfBody(const PointMotion& motion, const Eigen::Matrix3d& whitening,
+                             const fcl::Transform3d& pose, const Eigen::Vector3d& position,
+                             const SupportShape& body) {
+  Eigen::Vector3d lo, hi;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    lo[k] = position[k] - body.supportValue(-axis);
+    hi[k] = position[k] + body.supportValue(axis);
+  }
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d point;
+    for (int k = 0; k < 3; ++k) point[k] = (corner >> k) % 2 == 0 ? lo[k] : hi[k];
+    largest = largest.cwiseMax(motion.bound(whitening, pose * point));
+  }
+  return largest;
+}
+
+// Of every vertex, and of the pieces of every node.
+void boundMotions(const PartitionObject& object, const Eigen::Matrix3d& whitening,
+                  WhitenedTree& result) {
+  result.vertex_motions.clear();
+  result.node_motions.clear();
+  if (!object.motion) return;
+  const PieceTree& tree = *object.tree;
+  std::vector<Eigen::Vector3d> of_bodies;
+  for (std::size_t i = 0; i < object.parts.size(); ++i) {
+    const PieceTree::Part& part = tree.parts[i];
+    const fcl::Transform3d& pose = object.parts[i].pose;
+    for (int v = part.vertices.begin; v < part.vertices.end; ++v) {
+      result.vertex_motions.push_back(
+          object.motion->bound(whitening, pose * Eigen::Vector3d(part.origin + tree.vertices[v])));
+    }
+    for (int b = part.bodies.begin; b < part.bodies.end; ++b) {
+      const PieceTree::Body& body = tree.bodies[b];
+      of_bodies.push_back(motionOfBody(*object.motion, whitening, pose, part.origin + body.position,
+                                       tree.shapes[body.shape].body));
+    }
+  }
+  result.node_motions.resize(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const PieceTree::Node& node = tree.nodes[i];
+    Eigen::Vector3d& motion = result.node_motions[i];
+    if (!node.isLeaf()) {
+      motion = result.node_motions[node.left].cwiseMax(result.node_motions[node.right]);
+    } else if (tree.isTriangle(node.piece)) {
+      const Eigen::Vector3i& t = tree.triangles[node.piece];
+      motion = result.vertex_motions[t[0]]
+                   .cwiseMax(result.vertex_motions[t[1]])
+                   .cwiseMax(result.vertex_motions[t[2]]);
+    } else {
+      motion = of_bodies[tree.bodyOf(node.piece)];
+    }
+  }
+}
+
 void whitenOne(const PartitionObject& object, const Whitening& whitening,
                const ExactPosition& minus_origin, WhitenedTree& result) {
   result.tree = object.tree;
@@ -126,6 +188,7 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
   result.error =
       16 * kEpsilon * (2 * size + farthest) + (object.tree->error() + kLostInProducts) * stretch;
   result.error.array() += std::numeric_limits<double>::min();
+  boundMotions(object, whitening.matrix(), result);
   fitBoxes(result);
 }
 
