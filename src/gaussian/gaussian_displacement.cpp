@@ -6,6 +6,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/constants.h"
+#include "gaussian/covariance_limits.h"
 #include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
 #include "gaussian/rotation.h"
@@ -13,10 +14,11 @@
 namespace fcl_prob {
 namespace {
 
+using detail::kDefinitenessTolerance;
+using detail::kLargestCovariance;
+using detail::kSymmetryTolerance;
 using detail::numberText;
 
-constexpr double kSymmetryTolerance = 1e-9;
-constexpr double kDefinitenessTolerance = 1e-12;
 constexpr double kIsotropyTolerance = 1e-12;
 
 // Of products of axes that are inverted by transposing, which all bounds on rounding allow for.
@@ -25,9 +27,6 @@ constexpr double kAxesRounding = 8 * detail::kEpsilon;
 // Both 1/sigma and sigma² stay finite.
 constexpr double kLeastStandardDeviation = 1e-300;
 constexpr double kLargestStandardDeviation = 1e150;
-
-// An eigenvalue is at most three times the largest entry.
-constexpr double kLargestCovariance = 1e300;
 
 std::string entryName(const std::string& matrix, Eigen::Index row, Eigen::Index column) {
   return matrix + "(" + std::to_string(row) + ", " + std::to_string(column) + ")";

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/covariance_limits.h"
 #include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
 #include "gaussian/rotation.h"
@@ -15,14 +16,14 @@
 namespace fcl_prob {
 namespace {
 
+using detail::kDefinitenessTolerance;
+using detail::kLargestCovariance;
+using detail::kSymmetryTolerance;
 using detail::numberText;
 using Vector6 = PoseError::Vector6;
 using Matrix6 = PoseError::Matrix6;
 
 constexpr double kPi = boost::math::constants::pi<double>();
-constexpr double kSymmetryTolerance = 1e-9;
-constexpr double kDefinitenessTolerance = 1e-12;
-constexpr double kLargestCovariance = 1e300;
 
 std::string entryName(int row, int column) {
   static const char* const names[] = {"x", "y", "z", "rx", "ry", "rz"};

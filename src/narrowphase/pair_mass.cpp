@@ -23,7 +23,7 @@ constexpr double kDotRounding = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr double kMostTilt = 1e-3;
 
 /// Below the smallest normal double, absolutely.
-constexpr double kTiny = 1e-300;
+constexpr double kUnderflow = 1e-300;
 
 /// Distance from a point inside to the plane of a face, from below, whatever rounding made of the
 /// face's normal.
@@ -139,12 +139,12 @@ Bounds massOfPrism(int rank, const FaceSet& faces, const MassEffort& effort) {
         faces.vertices().begin(), faces.vertices().end(),
         [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return p.x() < q.x(); });
     const double mass = normalIntervalMass(first->x(), last->x());
-    const double rounding = 2.0 * kIntervalMassRelativeError * mass + kTiny;
+    const double rounding = 2.0 * kIntervalMassRelativeError * mass + kUnderflow;
     return {mass - rounding, mass + rounding};
   }
   Bounds mass = polytopeMass(toClosedPolytope(faces), 0.0, effort);
   mass.lower /= prismMass(rank) * (1.0 + 8.0 * kIntervalMassRelativeError);
-  mass.upper = mass.upper / (prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError)) + kTiny;
+  mass.upper = mass.upper / (prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError)) + kUnderflow;
   return mass;
 }
 

@@ -45,7 +45,7 @@ int setsFor(std::size_t cells) {
 constexpr double kMostInSet = 4096;
 
 // Cells between two looks at the clock.
-constexpr std::size_t kPollEvery = 16;
+constexpr std::size_t kCellsBetweenPolls = 16;
 
 // A point of the unit cube for one set of samples of a cell.
 Eigen::Vector3d uniformPoint(std::uint64_t seed, std::uint64_t cell, std::uint64_t set) {
@@ -243,7 +243,7 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
   total.spread.unit = unit_;
   for (SampledVariance& spread : total.moment_spread) spread.unit = unit_;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i % kPollEvery == 0 && !total.interrupted) total.interrupted = isDue(interruption);
+    if (i % kCellsBetweenPolls == 0 && !total.interrupted) total.interrupted = isDue(interruption);
     if (total.interrupted) {
       total.mass += 0.5 * cells[i].gap();
       total.doubt += 0.5 * cells[i].gap();

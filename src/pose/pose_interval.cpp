@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kDividedAtATime = 4;
 
 // Of the tolerance, what the partition in one cell may leave open.
-constexpr double kInnerShare = 0.35;
+constexpr double kPartitionShare = 0.35;
 constexpr std::size_t kMostInnerCells = 20'000;
 
 // A partition stops where twice the work has left this share of the width: what is left then is how
@@ -176,7 +176,7 @@ class PoseInterval {
     ProbabilityRequest request = request_;
     request.method = ProbabilityMethod::interval;
     request.relative_tolerance = 0.0;
-    request.absolute_tolerance = kInnerShare * target();
+    request.absolute_tolerance = kPartitionShare * target();
     request.threshold.reset();
     request.time_limit.reset();
     request.gradient = false;
