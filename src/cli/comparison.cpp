@@ -274,7 +274,7 @@ void recordSeeds(const PreparedScene& scene, ComparisonRun run, std::size_t seed
   if (!stated.empty()) record.stated_error = rootMeanSquare(stated);
   record.time_ms = median(times);
   record.seeds = errors.size();
-  if (reference.certified) setError(errors, reference.value, record);
+  if (reference.kind != ReferenceKind::counted) setError(errors, reference.value, record);
 }
 
 ComparisonRecord recordOf(const PreparedScene& scene, OtherMethods& others,

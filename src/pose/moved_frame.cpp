@@ -21,7 +21,7 @@ GaussianDisplacement mapped(const GaussianDisplacement& displacement, const Eige
   return {map * displacement.mean(), covariance};
 }
 
-bool isExponential(PoseConvention convention) {
+bool movesByExponential(PoseConvention convention) {
   return convention == PoseConvention::world_exponential ||
          convention == PoseConvention::body_exponential;
 }
@@ -45,7 +45,7 @@ PoseError aboutOrigin(const PoseError& error, const fcl::Transform3d& frame) {
 MovedFrame::MovedFrame(const fcl::Transform3d& frame, const PoseError& error,
                        const std::string& name)
     : frame_(validated(frame, name)),
-      exponential_(isExponential(error.convention())),
+      exponential_(movesByExponential(error.convention())),
       conditional_(aboutOrigin(error, frame)) {}
 
 ConditionalMotion MovedFrame::at(const Eigen::VectorXd& z) const {
