@@ -99,6 +99,8 @@ double ObjectPairs::culledUpper() const {
 ObjectPairs::Side ObjectPairs::sideOf(const Objects& objects) {
   Side side;
   for (const fcl::CollisionObjectd* object : objects) {
+    // FCL's dynamic trees list an object that was registered twice once, and null for the other.
+    if (object == nullptr) continue;
     auto& known = known_[object];
     if (!known) known = std::make_unique<const DisplacedObject>(displaced(*object));
     side.places.emplace(known.get(), side.objects.size());

@@ -187,6 +187,22 @@ TEST_CASE("no kind of manager, in no state, makes a pair go missing", "[slow]") 
   CHECK(culled > 50);
 }
 
+TEST_CASE("an object that FCL's dynamic trees are given twice in one list counts once") {
+  RandomBodies random(7);
+  World world(random, 4, false);
+  const std::vector<Object*> once{world.objects[0].get(), world.objects[1].get(),
+                                  world.objects[2].get(), world.objects[3].get()};
+  fcl::DynamicAABBTreeCollisionManagerd tree;
+  fcl::DynamicAABBTreeCollisionManager_Arrayd array;
+  for (Manager* manager : {static_cast<Manager*>(&tree), static_cast<Manager*>(&array)}) {
+    manager->registerObjects({once[0], once[1], once[0], once[2], once[3], once[1]});
+    manager->setup();
+    BroadphaseResult result;
+    collisionProbability(manager, world.request, result);
+    checkAnswers(world, allPairs(once, once), result);
+  }
+}
+
 TEST_CASE("what is infinite is met in every manager") {
   const double truth = normalTailMass(2.0);
   for (const auto& manager : allManagers()) {
