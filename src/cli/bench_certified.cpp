@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench certified: what a certificate costs, measured in fcl::collide.
-#include <boost/crc.hpp>
-#include <iomanip>
-#include <sstream>
-
 #include "cli/bench_scenes.h"
 #include "cli/benchmark.h"
 #include "cli/fcl_loop.h"
 #include "cli/json_values.h"
 #include "cli/number_text.h"
+#include "cli/result_hash.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -45,24 +42,9 @@ const std::vector<Task>& growthTasks() {
 }
 
 std::string hashOf(const ProbabilityResult& result) {
-  boost::crc_32_type crc;
-  for (const auto& number : {result.lower, result.upper, result.estimate, result.standard_error}) {
-    const double value = number.value_or(0.0);
-    crc.process_bytes(&value, sizeof value);
-  }
-  std::ostringstream text;
-  text << std::hex << std::setw(8) << std::setfill('0') << crc.checksum();
-  return text.str();
-}
-
-/// Three runs, or one if it is long; the results are the same, and the quickest time counts.
-TimedResult quickestOfThree(const PreparedScene& scene, const ProbabilityRequest& request) {
-  constexpr double kLong_ms = 2000.0;
-  TimedResult best = scene.query(request);
-  for (int i = 1; i < 3 && best.time_ms < kLong_ms; ++i) {
-    best.time_ms = std::min(best.time_ms, scene.query(request).time_ms);
-  }
-  return best;
+  ResultHash hash;
+  hash.add(result);
+  return hash.text();
 }
 
 class CertifiedTable {
@@ -112,7 +94,7 @@ class CertifiedTable {
     request.absolute_tolerance = 0.0;
     request.threshold = task.threshold;
     request.seed = options_.seed;
-    const TimedResult timed = quickestOfThree(scene, request);
+    const TimedResult timed = scene.quickestOfThree(request);
     const ProbabilityResult& result = timed.result;
     const double p = result.probability();
     const double error = result.standard_error.value_or(

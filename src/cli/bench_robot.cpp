@@ -4,7 +4,6 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "cli/benchmark.h"
@@ -12,12 +11,17 @@
 #include "cli/number_text.h"
 #include "cli/random_frames.h"
 #include "cli/stopwatch.h"
+#include "cli/uniforms.h"
 #include "fcl_prob/batch.h"
 #include "fcl_prob/group.h"
 #include "fcl_prob/mesh_io.h"
 
 namespace fcl_prob::cli {
 namespace {
+
+// Standard deviations of errors, metres.
+constexpr double kLeastSigma = 0.005;
+constexpr double kMostSigma = 0.05;
 
 const std::vector<std::string>& linkNames() {
   static const std::vector<std::string> names{
@@ -28,28 +32,6 @@ const std::vector<std::string>& linkNames() {
       "l_gripper_finger_link",        "head_pan_link_collision"};
   return names;
 }
-
-/// Deterministic numbers in (0, 1).
-class Uniforms {
- public:
-  explicit Uniforms(std::uint64_t seed) : seed_(seed) {}
-
-  double next() {
-    const Eigen::Vector3d three = randomDisplacement(unit_, seed_, index_++);
-    return 0.5 * std::erfc(three.x() / std::sqrt(2.0));
-  }
-  double between(double lo, double hi) { return lo + (hi - lo) * next(); }
-  double logBetween(double lo, double hi) { return std::exp(between(std::log(lo), std::log(hi))); }
-  std::size_t below(std::size_t count) {
-    return std::min(count - 1, static_cast<std::size_t>(next() * static_cast<double>(count)));
-  }
-  Eigen::Matrix3d rotation() { return randomRotation(seed_, index_++); }
-
- private:
-  Whitening unit_{GaussianDisplacement::fromStandardDeviations({1.0, 1.0, 1.0})};
-  std::uint64_t seed_;
-  std::uint64_t index_ = 0;
-};
 
 struct Robot {
   std::vector<Geometry> links;
@@ -78,12 +60,6 @@ fcl::Transform3d poseNear(const TriangleMesh& arm, double reach, Uniforms& rando
   return pose;
 }
 
-GaussianDisplacement randomError(Uniforms& random) {
-  const Eigen::Vector3d sigma(random.logBetween(0.005, 0.05), random.logBetween(0.005, 0.05),
-                              random.logBetween(0.005, 0.05));
-  return GaussianDisplacement::fromStandardDeviations(sigma, Eigen::Quaterniond(random.rotation()));
-}
-
 /// The time of `count` calls of fcl::collide at displaced poses, milliseconds.
 double timeCollide(const Geometry& a, const fcl::Transform3d& pose_a, const Geometry& b,
                    const GaussianDisplacement& displacement, std::uint64_t seed, int count) {
@@ -100,12 +76,6 @@ double timeCollide(const Geometry& a, const fcl::Transform3d& pose_a, const Geom
     fcl::collide(a.get(), pose, b.get(), identity, request, result);
   }
   return watch.milliseconds();
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(
-      std::ceil(share * static_cast<double>(values.size() - 1)))];
 }
 
 class RobotTable {
@@ -136,7 +106,7 @@ class RobotTable {
     for (int i = 0; i < kScenes; ++i) {
       const std::size_t link = random.below(queries.size());
       const fcl::Transform3d pose = poseNear(robot_.arm_mesh, 0.3, random);
-      const GaussianDisplacement error = randomError(random);
+      const GaussianDisplacement error = randomError(random, kLeastSigma, kMostSigma);
       ProbabilityRequest request;
       request.threshold = 0.05;
       request.relative_tolerance = 1e-3;
@@ -174,7 +144,7 @@ class RobotTable {
       for (std::size_t i = 0; i < kLinks; ++i) {
         poses.push_back(poseNear(robot_.arm_mesh, 1.0, random));
       }
-      const GaussianDisplacement error = randomError(random);
+      const GaussianDisplacement error = randomError(random, kLeastSigma, kMostSigma);
       ProbabilityResult result;
       const Stopwatch watch;
       group.collisionProbability(poses, {fcl::Transform3d::Identity()}, error, request, result);
@@ -202,7 +172,7 @@ class RobotTable {
     std::vector<Waypoint> waypoints(kPoses);
     for (Waypoint& waypoint : waypoints) {
       waypoint.pose_a = poseNear(robot_.arm_mesh, 0.3, random);
-      waypoint.displacement = randomError(random);
+      waypoint.displacement = randomError(random, kLeastSigma, kMostSigma);
     }
     BatchRequest request;
     request.query.threshold = 0.05;

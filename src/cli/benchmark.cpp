@@ -13,6 +13,7 @@ const std::vector<Benchmark>& benchmarks() {
       {"certified",
        "intervals, estimates and decisions against 10,000 calls of fcl::collide, on six scenes",
        true, benchCertified},
+      {"parts", "100 random scenes of robot parts and a can beside a human arm", true, benchParts},
       {"robot", "decisions for robot links beside an arm, groups of links, batches of poses", true,
        benchRobot},
       {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,

@@ -18,6 +18,7 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
   std::size_t cases = 50;    ///< stability: scenes of each family
+  bool quick = false;        ///< parts: a few scenes only
 };
 
 /// A table for people and the same numbers, unrounded, for programs.
@@ -45,6 +46,7 @@ const std::vector<Benchmark>& benchmarks();
 
 /// The benchmarks, one a file.
 BenchReport benchCertified(const BenchOptions& options, const BenchProgress& progress);
+BenchReport benchParts(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchRobot(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);

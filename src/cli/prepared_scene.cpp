@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/prepared_scene.h"
 
+#include <algorithm>
+
 #include "cli/number_text.h"
 #include "cli/stopwatch.h"
 
@@ -112,6 +114,15 @@ ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& reque
   pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
   const GeneralPcdResult pcd = own_trees_->bound(a_.pose, b_.pose, displacement_, pcd_request);
   return resultOf(pcd, request);
+}
+
+TimedResult PreparedScene::quickestOfThree(const ProbabilityRequest& request) const {
+  constexpr double kLong_ms = 2000.0;
+  TimedResult best = query(request);
+  for (int i = 1; i < 3 && best.time_ms < kLong_ms; ++i) {
+    best.time_ms = std::min(best.time_ms, query(request).time_ms);
+  }
+  return best;
 }
 
 NominalAnswer PreparedScene::nominal() const {
