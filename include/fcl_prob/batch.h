@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/mixture.h"
 
 namespace fcl_prob {
 
@@ -17,7 +18,7 @@ namespace fcl_prob {
 struct Waypoint {
   fcl::Transform3d pose_a = fcl::Transform3d::Identity();
   fcl::Transform3d pose_b = fcl::Transform3d::Identity();
-  GaussianDisplacement displacement;
+  Displacement displacement;  ///< a Gaussian, a mixture or a truncated Gaussian
 };
 
 /// Stops a running batch from any thread; cannot be taken back.
@@ -37,7 +38,8 @@ struct BatchProgress {
 
 struct BatchRequest {
   /// Of every waypoint. Its `threads` are used for the waypoints, each of which is answered on one
-  /// thread; its `time_limit` is for one waypoint; its `on_progress` must not be set.
+  /// thread; its limits, `time_limit` included, are those of one waypoint, so that an answer does
+  /// not depend on how many others there are; its `on_progress` must not be set.
   ProbabilityRequest query;
 
   /// Called after every waypoint, from the thread that answered it, never from two at once;

@@ -13,12 +13,19 @@
 
 namespace fcl_prob {
 
+class GaussianMixture;
 class TruncatedGaussian;
 
 /// The probability that `a`, displaced by `displacement` (relative to `b`, world frame, metres),
 /// collides with `b`. Fills `result` and returns result.probability(). `result` is assigned only on
 /// success. \throws InvalidRequest, InvalidPose, InvalidGeometry, UnsupportedGeometry, OpenMesh
 /// before any work.
+///
+/// Contact is what fcl::collide finds, which leaves out a geometry that is not `isOccupied()`
+/// (cost_density >= threshold_occupied; by default all are): then P is 0, and `plan` says why. Of
+/// an octree only the cells count, not these fields; a shape or mesh that is also `isFree()`
+/// (cost_density <= threshold_free) meets none. Two octrees with a cell both occupied and free are
+/// refused by all but Monte Carlo (UnsupportedGeometry).
 double collisionProbability(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
                             const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result);
@@ -49,6 +56,10 @@ class PreparedQuery {
   friend double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
                                      const fcl::Transform3d& pose_b,
                                      const TruncatedGaussian& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+  friend double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
+                                     const fcl::Transform3d& pose_b,
+                                     const GaussianMixture& displacement,
                                      const ProbabilityRequest& request, ProbabilityResult& result);
 
   struct Implementation;

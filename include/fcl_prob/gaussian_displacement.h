@@ -73,7 +73,10 @@ class GaussianDisplacement {
   /// The displacement of B relative to A: the same distribution mirrored, so the mean changes sign.
   GaussianDisplacement reversed() const;
 
-  /// The same displacement seen from a world rotated by `rotation`.
+  /// The same displacement seen from a world rotated by `rotation`: that of the mean `R mean` and the
+  /// covariance `R Σ Rᵀ`. A matrix R that is a rotation only to 1e-9 is used as it is, so the
+  /// standard deviations may change by as much; axes() is a rotation all the same. With one that is a
+  /// rotation to rounding they are kept exactly. The rank never changes.
   /// \throws InvalidPose if that is not a rotation to 1e-9.
   GaussianDisplacement rotated(const Eigen::Matrix3d& rotation) const;
 

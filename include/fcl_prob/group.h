@@ -10,11 +10,14 @@
 
 namespace fcl_prob {
 
+class GaussianMixture;
+class TruncatedGaussian;
+
 /// Two groups of geometries, prepared once: the links of an arm against an obstacle, or an obstacle
 /// made of parts. All members of A are displaced by the same random translation relative to all
 /// members of B, so that P(any contact) is neither a sum nor a product over the pairs: one
 /// partition works on the union of their C-obstacles. (Obstacles whose displacements are
-/// independent: anyOfIndependent().)
+/// independent: anyOfIndependent(); mixtures and truncated displacements: fcl_prob/mixture.h.)
 ///
 /// Const and thread-safe after construction.
 class GroupQuery {
@@ -22,8 +25,11 @@ class GroupQuery {
   using Geometries = std::vector<std::shared_ptr<const fcl::CollisionGeometryd>>;
 
   /// Keeps references to the geometries, which must not change while the query lives. A Halfspace
-  /// or Plane may be in one of the groups.
-  /// \throws InvalidGeometry, UnsupportedGeometry; InvalidGeometry also for a group without members
+  /// or Plane may be in one of the groups. Members that are not occupied are left out.
+  /// \throws InvalidGeometry, UnsupportedGeometry; InvalidGeometry also for a group without
+  /// members,
+  ///         UnsupportedGeometry for a member both occupied and free where the other group has an
+  ///         octree, which alone would leave it out
   GroupQuery(Geometries group_a, Geometries group_b);
   ~GroupQuery();
   GroupQuery(GroupQuery&&) noexcept;
@@ -41,6 +47,18 @@ class GroupQuery {
                               const ProbabilityRequest& request, ProbabilityResult& result) const;
 
  private:
+  // Declared for callers in fcl_prob/mixture.h.
+  friend double collisionProbability(const GroupQuery& query,
+                                     const std::vector<fcl::Transform3d>& poses_a,
+                                     const std::vector<fcl::Transform3d>& poses_b,
+                                     const GaussianMixture& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+  friend double collisionProbability(const GroupQuery& query,
+                                     const std::vector<fcl::Transform3d>& poses_a,
+                                     const std::vector<fcl::Transform3d>& poses_b,
+                                     const TruncatedGaussian& displacement,
+                                     const ProbabilityRequest& request, ProbabilityResult& result);
+
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -3,10 +3,12 @@
 // Displacements that are not normal: mixtures of Gaussians, and Gaussians cut off at an ellipsoid.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/group.h"
 
 namespace fcl_prob {
 
@@ -45,12 +47,19 @@ class TruncatedGaussian {
   double deviations_;
 };
 
+/// Any kind of displacement.
+using Displacement = std::variant<GaussianDisplacement, GaussianMixture, TruncatedGaussian>;
+
 /// The probability that A, displaced by a mixture, collides with B: the weighted sum of those of
 /// its components, whose intervals carry through. The tolerance is that of the sum; components that
-/// matter little are answered coarsely, and a threshold may be decided by some of them. The
-/// estimate and the gradient are weighted sums too; the gradient is that of moving all components
-/// alike. result.status is `converged`, `decided` or `exact`, or that of a component that was
-/// stopped by a limit; statistics are sums (peaks: maxima).
+/// matter little are answered coarsely, and a threshold may be decided by some of them. Limits are
+/// those of the whole call too, shared evenly by what is left to be done (memory is that of one
+/// component at a time); of a component that was not reached nothing is known. The estimate and the
+/// gradient are weighted sums; the gradient is that of moving all components alike. Monte Carlo
+/// samples the mixture itself; rare_event samples each component (one sample at least), and its
+/// confidence interval is the sum of theirs, with their error probabilities adding up to that of
+/// the whole. result.status is `converged`, `decided` or `exact`, or says which limit came first;
+/// statistics are sums over all that was asked (peaks: maxima).
 /// \throws as PreparedQuery::collisionProbability()
 double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
                             const fcl::Transform3d& pose_b, const GaussianMixture& displacement,
@@ -63,6 +72,17 @@ double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& 
 /// neither automatic nor interval, InvalidRequest if a gradient is asked for
 double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
                             const fcl::Transform3d& pose_b, const TruncatedGaussian& displacement,
+                            const ProbabilityRequest& request, ProbabilityResult& result);
+
+/// The same for groups (fcl_prob/group.h), by their partition. \throws as
+/// GroupQuery::collisionProbability(), and as above
+double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,
+                            const std::vector<fcl::Transform3d>& poses_b,
+                            const GaussianMixture& displacement, const ProbabilityRequest& request,
+                            ProbabilityResult& result);
+double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,
+                            const std::vector<fcl::Transform3d>& poses_b,
+                            const TruncatedGaussian& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result);
 
 /// The same for collision objects, as single queries.

@@ -9,10 +9,13 @@
 
 #include "fcl_prob/bounds.h"
 #include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/pose_error.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 
 namespace fcl_prob {
+
+class GaussianMixture;
 
 /// Whether fcl::collide answers this pair. For meshes of different bounding volumes and for
 /// TriangleP FCL 0.7 prints a warning and returns "no collision"; on a Convex with a Plane it
@@ -40,6 +43,24 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
                                         const GaussianDisplacement& displacement,
                                         const ProbabilityRequest& request);
 
+/// The same for a mixture (fcl_prob/mixture.h): every sample first draws its component, so that the
+/// interval, the samples and the limits are those of the whole. The gradient, that of moving all
+/// components alike, needs all of them to have full rank.
+ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
+                                        const fcl::Transform3d& pose_a,
+                                        const fcl::CollisionGeometryd& b,
+                                        const fcl::Transform3d& pose_b,
+                                        const GaussianMixture& displacement,
+                                        const ProbabilityRequest& request);
+
+/// The same for an error of A's pose in all six dimensions; no gradient.
+/// \throws as above
+ProbabilityResult poseMonteCarloProbability(const fcl::CollisionGeometryd& a,
+                                            const fcl::Transform3d& pose_a,
+                                            const fcl::CollisionGeometryd& b,
+                                            const fcl::Transform3d& pose_b, const PoseError& error,
+                                            const ProbabilityRequest& request);
+
 /// The same for small probabilities, by importance sampling.
 ///
 /// Finds the nearest displacement that collides in the whitened frame (FCL's mesh distance of the
@@ -50,7 +71,8 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
 /// fits. request.absolute_tolerance is not used. statistics.effective_samples says how many equally
 /// weighted hits the hits are worth.
 ///
-/// \throws as monteCarloProbability(); InvalidRequest also if the covariance is 0.
+/// \throws as monteCarloProbability(); InvalidRequest also if the covariance is 0, or so small
+/// beside the objects that their size in standard deviations is above 1e150.
 ProbabilityResult rareEventProbability(const fcl::CollisionGeometryd& a,
                                        const fcl::Transform3d& pose_a,
                                        const fcl::CollisionGeometryd& b,

@@ -70,7 +70,8 @@ struct ProbabilityRequest {
   /// Threads to use, >= 1. Results do not depend on it.
   unsigned threads = 1;
 
-  /// Also compute the gradient of P with respect to the mean displacement.
+  /// Also compute the gradient of P with respect to the mean displacement (see
+  /// ProbabilityResult::gradient for where there is one).
   bool gradient = false;
 
   /// Called now and then from the calling thread; returning false cancels the query, whose result is

@@ -64,7 +64,10 @@ struct ProbabilityResult {
   std::optional<Bounds> confidence_interval;
 
   /// ∂P/∂mean, 1/metres, world frame, with certified component-wise bounds where the method has them
-  /// and a standard error where it samples.
+  /// and a standard error where it samples. With a covariance of rank below 3 set only for half-spaces
+  /// and planes, and for an octree with nothing in it: elsewhere P changes with the mean across the
+  /// directions in which A does not move by what the boundary of the reachable section sweeps, and it
+  /// need not be differentiable; `plan` says so.
   std::optional<Eigen::Vector3d> gradient;
   std::optional<Eigen::Vector3d> gradient_lower;
   std::optional<Eigen::Vector3d> gradient_upper;

@@ -6,11 +6,13 @@
 #include <fcl/geometry/collision_geometry.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/mesh_io.h"
+#include "fcl_prob/pose_error.h"
 #include "fcl_prob/probability_request.h"
 
 namespace fcl_prob {
@@ -33,8 +35,15 @@ struct Scene {
   SceneObject a;
   SceneObject b;
   GaussianDisplacement displacement;  ///< of A relative to B, metres, world frame
-  ProbabilityRequest request;         ///< defaults where the file says nothing
+
+  /// Of A's pose, instead of `displacement`, which then is its translation by itself.
+  std::optional<PoseError> pose_error;
+  ProbabilityRequest request;  ///< defaults where the file says nothing
 };
+
+/// Makes A's pose the one that is random: sets `pose_error` and, for what only knows translations,
+/// `displacement`. The pose of A must be set before.
+void setPoseError(const PoseError& error, Scene& scene);
 
 /// Reads a scene file. Mesh paths are relative to the folder of the scene file; the meshes
 /// themselves are not read. \throws FileError naming the file and the key: not JSON, a key that is

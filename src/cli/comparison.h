@@ -22,12 +22,20 @@ struct ComparisonRun {
   PartsUse parts = PartsUse::none;
 };
 
+enum class ReferenceKind {
+  certified,
+  counted,   ///< Monte Carlo, where no certified method can do the scene
+  estimated  ///< over rotations, with other samples than what is judged
+};
+
 /// What the errors are measured against.
 struct ComparisonReference {
   double value = 0.0;
-  Bounds interval;         ///< contains P: always if certified, else with its confidence
-  bool certified = false;  ///< false where no certified method can do the scene
+  Bounds interval;  ///< contains P: always if certified, else with its confidence
+  ReferenceKind kind = ReferenceKind::counted;
   double time_ms = 0.0;
+
+  bool certified() const { return kind == ReferenceKind::certified; }
 };
 
 /// What became of a run.

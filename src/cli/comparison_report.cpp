@@ -30,10 +30,20 @@ std::string rangeOf(const ProbabilityResult& result) {
   return "";
 }
 
+std::string describe(ReferenceKind kind) {
+  switch (kind) {
+    case ReferenceKind::certified:
+      return " (certified, ";
+    case ReferenceKind::estimated:
+      return " (estimate with other samples, not certified, ";
+    default:
+      return " (Monte Carlo, not certified, ";
+  }
+}
+
 std::string referenceText(const ComparisonReference& reference) {
   return number(reference.interval.lower, 8) + " <= P <= " + number(reference.interval.upper, 8) +
-         (reference.certified ? " (certified, " : " (Monte Carlo, not certified, ") +
-         number(reference.time_ms) + " ms)";
+         describe(reference.kind) + number(reference.time_ms) + " ms)";
 }
 
 std::string relativeText(const std::optional<double>& value) {
@@ -116,7 +126,7 @@ Json jsonOf(const Comparison& comparison) {
            {{"value", comparison.reference.value},
             {"lower", comparison.reference.interval.lower},
             {"upper", comparison.reference.interval.upper},
-            {"certified", comparison.reference.certified},
+            {"certified", comparison.reference.certified()},
             {"time_ms", comparison.reference.time_ms}}},
           {"fcl", jsonOf(comparison.nominal)},
           {"build_ms", comparison.build_ms},

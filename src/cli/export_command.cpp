@@ -5,6 +5,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "cli/drawn_shapes.h"
 #include "cli/gltf_file.h"
 #include "cli/output.h"
+#include "cli/random_frames.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
 #include "cli/touch_map.h"
@@ -54,11 +56,36 @@ ColouredMesh uniform(const std::string& name, TriangleMesh mesh, const Colour& c
   return {name, std::move(mesh), colours};
 }
 
+/// Copies of A where its pose may be, faint.
+void addDisplacedCopies(const Scene& scene, const LoadedObject& object, std::uint64_t seed,
+                        std::vector<ColouredMesh>& meshes) {
+  constexpr std::uint64_t kCopies = 12;
+  const PoseError& error = *scene.pose_error;
+  const Eigen::SelfAdjointEigenSolver<PoseError::Matrix6> solver(error.covariance());
+  const PoseError::Matrix6 root =
+      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Whitening unit(GaussianDisplacement::fromStandardDeviations({1.0, 1.0, 1.0}));
+  for (std::uint64_t i = 0; i < kCopies; ++i) {
+    PoseError::Vector6 normals;
+    normals << randomDisplacement(unit, seed, 2 * i), randomDisplacement(unit, seed, 2 * i + 1);
+    LoadedObject copy = object;
+    copy.pose = displacedPose(object.pose, error.convention(), error.mean() + root * normals);
+    meshes.push_back(uniform("A, sample " + std::to_string(i + 1), drawnMesh(copy),
+                             Colour(0.80F, 0.84F, 0.88F, 0.12F)));
+  }
+}
+
 /// A at its mean pose, B, and the ellipsoids around the place where they are closest.
 std::vector<ColouredMesh> picture(const ExportArguments& arguments) {
   const Scene scene = sceneFrom(arguments.scene);
-  LoadedObject object_a = loadObject(scene.a);
-  object_a.pose.pretranslate(scene.displacement.mean());
+  const LoadedObject nominal_a = loadObject(scene.a);
+  LoadedObject object_a = nominal_a;
+  if (scene.pose_error) {
+    object_a.pose =
+        displacedPose(object_a.pose, scene.pose_error->convention(), scene.pose_error->mean());
+  } else {
+    object_a.pose.pretranslate(scene.displacement.mean());
+  }
   const TriangleMesh a = drawnMesh(object_a);
   const TriangleMesh b = drawnMesh(loadObject(scene.b));
   const GaussianDisplacement around_mean = scene.displacement.withMean(Eigen::Vector3d::Zero());
@@ -77,6 +104,7 @@ std::vector<ColouredMesh> picture(const ExportArguments& arguments) {
                              drawnEllipsoid(around_mean, deviations, centre),
                              Colour(0.05F, 0.6F, 0.2F, opacity)));
   }
+  if (scene.pose_error) addDisplacedCopies(scene, nominal_a, arguments.seed, meshes);
   return meshes;
 }
 

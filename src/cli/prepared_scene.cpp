@@ -34,14 +34,28 @@ ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest
 
 PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume, PartsUse parts)
     : PreparedScene(loadObject(scene.a), loadObject(scene.b), scene.displacement, bounding_volume,
-                    parts) {}
+                    parts, scene.pose_error) {}
 
 PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
                              const GaussianDisplacement& displacement,
-                             const std::string& bounding_volume, PartsUse parts)
-    : a_(std::move(a)), b_(std::move(b)), displacement_(displacement), use_of_parts_(parts) {
+                             const std::string& bounding_volume, PartsUse parts,
+                             const std::optional<PoseError>& pose_error)
+    : a_(std::move(a)),
+      b_(std::move(b)),
+      displacement_(displacement),
+      pose_error_(pose_error),
+      use_of_parts_(parts) {
   const Stopwatch watch;
-  if (parts != PartsUse::none) {
+  if (pose_error) {
+    if (parts != PartsUse::none || isOwnVolume(bounding_volume)) {
+      throw InvalidRequest(
+          "--leaves parts, methods with parts and --bv sphere, kdop26 and convex are not for "
+          "errors "
+          "of poses");
+    }
+    pose_query_ = std::make_unique<PreparedPoseQuery>(buildGeometry(a_, bounding_volume),
+                                                      buildGeometry(b_, bounding_volume));
+  } else if (parts != PartsUse::none) {
     parts_ = std::make_unique<PartsScene>(a_, b_, displacement_, bounding_volume);
   } else if (isOwnVolume(bounding_volume)) {
     own_trees_ = makeTreePair(bounding_volume, requiredMesh(a_), requiredMesh(b_));
@@ -72,7 +86,9 @@ std::vector<std::string> PreparedScene::importNotes() const {
 TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   TimedResult timed;
   const Stopwatch watch;
-  if (parts_) {
+  if (pose_query_) {
+    pose_query_->collisionProbability(a_.pose, b_.pose, *pose_error_, request, timed.result);
+  } else if (parts_) {
     timed.result = parts_->answer(use_of_parts_, request);
   } else if (own_trees_) {
     timed.result = boundByOwnTrees(request);
@@ -100,8 +116,11 @@ ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& reque
 
 NominalAnswer PreparedScene::nominal() const {
   constexpr const char* kVolume = "obbrss";
-  return nominalAnswer(buildGeometry(a_, kVolume), a_.pose, buildGeometry(b_, kVolume), b_.pose,
-                       displacement_.mean());
+  const fcl::Transform3d pose =
+      pose_error_ ? displacedPose(a_.pose, pose_error_->convention(), pose_error_->mean())
+                  : a_.pose;
+  const Eigen::Vector3d mean = pose_error_ ? Eigen::Vector3d::Zero() : displacement_.mean();
+  return nominalAnswer(buildGeometry(a_, kVolume), pose, buildGeometry(b_, kVolume), b_.pose, mean);
 }
 
 bool stoppedByLimit(ProbabilityStatus status) {

@@ -11,6 +11,7 @@
 #include "cli/parts_scene.h"
 #include "cli/tree_pair.h"
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/pose_probability.h"
 
 namespace fcl_prob::cli {
 
@@ -31,7 +32,8 @@ class PreparedScene {
 
   /// The same for objects that are loaded already.
   PreparedScene(LoadedObject a, LoadedObject b, const GaussianDisplacement& displacement,
-                const std::string& bounding_volume, PartsUse parts = PartsUse::none);
+                const std::string& bounding_volume, PartsUse parts = PartsUse::none,
+                const std::optional<PoseError>& pose_error = std::nullopt);
 
   /// The query alone, without loading and building.
   /// \throws InvalidRequest if the bounding volume is not FCL's and the method not general-pcd
@@ -47,6 +49,9 @@ class PreparedScene {
   const LoadedObject& objectB() const { return b_; }
   const GaussianDisplacement& displacement() const { return displacement_; }
 
+  /// Of A's pose, where it is more than a displacement.
+  const std::optional<PoseError>& poseError() const { return pose_error_; }
+
  private:
   /// What the loader rounded, where that is not small beside the standard deviations.
   std::vector<std::string> importNotes() const;
@@ -56,9 +61,11 @@ class PreparedScene {
   LoadedObject a_;
   LoadedObject b_;
   GaussianDisplacement displacement_;
+  std::optional<PoseError> pose_error_;
   double build_ms_ = 0.0;
   std::unique_ptr<PreparedQuery> query_;
-  std::unique_ptr<TreePair> own_trees_;  ///< of bounding volumes that FCL does not have
+  std::unique_ptr<PreparedPoseQuery> pose_query_;  ///< instead, with a pose error
+  std::unique_ptr<TreePair> own_trees_;            ///< of bounding volumes that FCL does not have
   std::unique_ptr<PartsScene> parts_;
   PartsUse use_of_parts_;
 };

@@ -59,13 +59,40 @@ GaussianDisplacement displacementFrom(const SceneArguments& arguments) {
   });
 }
 
+PoseError poseErrorFrom(const SceneArguments& arguments) {
+  PoseConvention convention = PoseConvention::world_rotation_vector;
+  if (arguments.pose_convention) {
+    convention = detail::poseConventionFromString(*arguments.pose_convention).value();
+  }
+  if (!arguments.pose_covariance.empty()) {
+    return ofOption("--pose-covariance", [&] {
+      return PoseError(detail::poseCovarianceFrom(numbersFrom(arguments.pose_covariance)),
+                       convention);
+    });
+  }
+  return ofOption("--pose-sigma", [&] {
+    return detail::poseErrorFrom(detail::sixFrom(numbersFrom(arguments.pose_sigma), "it"),
+                                 convention, PoseError::Vector6::Zero());
+  });
+}
+
 void applyDisplacement(const SceneArguments& arguments, Scene& scene) {
-  if (!arguments.covariance.empty() || !arguments.sigma.empty()) {
-    scene.displacement = displacementFrom(arguments);
+  if (!arguments.pose_covariance.empty() || !arguments.pose_sigma.empty()) {
+    setPoseError(poseErrorFrom(arguments), scene);
     return;
   }
-  if (arguments.scene_file.empty()) throw InvalidRequest("needs --covariance or --sigma");
+  if (!arguments.covariance.empty() || !arguments.sigma.empty()) {
+    scene.displacement = displacementFrom(arguments);
+    scene.pose_error.reset();
+    return;
+  }
+  if (arguments.scene_file.empty()) {
+    throw InvalidRequest("needs --covariance or --sigma, or --pose-sigma or --pose-covariance");
+  }
+  // The pose of A may be another one than the file's.
+  if (scene.pose_error) setPoseError(*scene.pose_error, scene);
   if (!arguments.mean.empty()) {
+    if (scene.pose_error) throw InvalidRequest("--mean: the scene file has a pose_error");
     scene.displacement = ofOption("--mean", [&] {
       return scene.displacement.withMean(detail::vectorFrom(numbersFrom(arguments.mean), "a mean"));
     });
@@ -142,7 +169,20 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   sigma->excludes(covariance);
   command.add_option("--sigma-axes", arguments.sigma_axes, "Rotation of their axes: qw,qx,qy,qz")
       ->needs(sigma);
-  command.add_option("--mean", arguments.mean, "Mean displacement x,y,z in metres");
+  auto* mean = command.add_option("--mean", arguments.mean, "Mean displacement x,y,z in metres");
+  auto* pose_sigma =
+      command.add_option("--pose-sigma", arguments.pose_sigma,
+                         "Standard deviations x,y,z,rx,ry,rz of A's pose, metres and radians");
+  auto* pose_covariance = command.add_option(
+      "--pose-covariance", arguments.pose_covariance,
+      "Covariance of A's pose: 21 numbers, the upper triangle row by row, order x,y,z,rx,ry,rz");
+  pose_sigma->excludes(covariance)->excludes(sigma)->excludes(mean);
+  pose_covariance->excludes(covariance)->excludes(sigma)->excludes(mean)->excludes(pose_sigma);
+  command
+      .add_option("--pose-convention", arguments.pose_convention,
+                  "Their meaning: rotation vectors in the world's or the body's frame, or "
+                  "exponentials of SE(3); default world")
+      ->check(CLI::IsMember({"world", "body", "world-exponential", "body-exponential"}));
 }
 
 void addRequestOptions(CLI::App& command, SceneArguments& arguments) {

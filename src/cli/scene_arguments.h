@@ -29,6 +29,9 @@ struct SceneArguments {
   std::string sigma;
   std::string sigma_axes;
   std::string mean;
+  std::string pose_sigma;
+  std::string pose_covariance;
+  std::optional<std::string> pose_convention;
 
   std::optional<std::string> method;
   std::string bounding_volume = "obbrss";

@@ -73,7 +73,7 @@ ZonotopeObstacle::ZonotopeObstacle(const PairFrame& frame, const RoundedZonotope
                                    const RoundedZonotope& b)
     : CObstacle(frame),
       core_(frame.rotation_b * b.core.centre() - frame.rotation_a * a.core.centre() + frame.offset),
-      radius_(a.radius + b.radius) {
+      radius_((a.radius + b.radius) * (1.0 + frame.ball_stretch)) {
   for (int i = 0; i < b.core.generatorCount(); ++i) {
     core_.addGenerator(frame.rotation_b * b.core.generator(i));
   }

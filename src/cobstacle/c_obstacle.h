@@ -33,7 +33,7 @@ struct EnclosingFaces {
 /// The image of a ball under the whitening.
 struct Ellipsoid {
   Eigen::Vector3d centre;
-  double radius;  ///< of the ball, metres
+  double radius;  ///< of the ball, metres, with PairFrame::ball_stretch
 
   /// The point nearest to the mean, as a direction in the whitened frame: one-dimensional search
   /// for the Lagrange multiplier. Zero if the mean is inside.

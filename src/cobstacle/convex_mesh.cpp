@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -68,10 +69,15 @@ ConvexMesh makeFlat(const Points& extreme_points) {
     if (extreme_points.size() == 2) mesh.edges = {{0, 1, -1, -1}};
     return mesh;
   }
+  double largest = 0.0;
+  for (const Eigen::Vector3d& p : extreme_points) {
+    largest = std::max(largest, (p - extreme_points[0]).cwiseAbs().maxCoeff());
+  }
+  const double unit = powerOfTwoAt(largest);
   Eigen::Vector3d area = Eigen::Vector3d::Zero();
   for (std::size_t i = 1; i + 1 < extreme_points.size(); ++i) {
-    area +=
-        (extreme_points[i] - extreme_points[0]).cross(extreme_points[i + 1] - extreme_points[0]);
+    const Eigen::Vector3d p = (extreme_points[i] - extreme_points[0]) / unit;
+    area += p.cross((extreme_points[i + 1] - extreme_points[0]) / unit);
   }
   return makePolygon(extreme_points, area.normalized());
 }
@@ -121,8 +127,12 @@ ConvexMesh makeConvexMesh(const Points& points) {
 
 ConvexMesh makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c) {
-  const Eigen::Vector3d area = (b - a).cross(c - a);
-  const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+  // In a unit in which squares of areas neither overflow nor underflow.
+  const double unit =
+      powerOfTwoAt(std::max((b - a).cwiseAbs().maxCoeff(), (c - a).cwiseAbs().maxCoeff()));
+  const Eigen::Vector3d ab = (b - a) / unit, ac = (c - a) / unit, bc = (c - b) / unit;
+  const Eigen::Vector3d area = ab.cross(ac);
+  const double longest = std::max({ab.norm(), ac.norm(), bc.norm()});
   if (area.norm() <= kFlat * longest * longest) return makeFlat(convexHull({a, b, c}).vertices);
   return makePolygon({a, b, c}, area.normalized());
 }

@@ -2,7 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cobstacle/pair_frame.h"
 
+#include <algorithm>
 #include <limits>
+
+#include "gaussian/power_of_two.h"
+#include "geometry/exact_sum.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -12,11 +16,37 @@ namespace {
 /// doubled.
 constexpr double kRoundings = 128.0;
 
+/// Sums and products below the smallest normal double.
+constexpr double kTiny = 1e-300;
+
 /// The cube of this, and what a sum of many of them has, is finite.
 constexpr double kLargestWhitened = 1e100;
 
-/// The coordinates that do not move are in metres.
-constexpr double kLengthUnit = 1.0;
+/// The coordinates that do not move are in about the largest length that there is, so that nothing
+/// depends on the scale; a power of two, of which the square is finite.
+double lengthUnit(double largest) { return powerOfTwoAt(std::clamp(largest, 1e-150, 1e150)); }
+
+/// Also of vectors so short that their squares underflow.
+double lengthOf(const Eigen::Vector3d& v) { return std::max(v.norm(), v.cwiseAbs().maxCoeff()); }
+
+/// From the origin of A, displaced by the mean, to that of B. Exact but for one rounding: far
+/// positions may cancel.
+Eigen::Vector3d offsetBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                              const Eigen::Vector3d& mean) {
+  ExactPosition offset;
+  offset.add(b);
+  offset.add(a, -1.0);
+  offset.add(mean, -1.0);
+  return offset.value().cast<double>();
+}
+
+/// A bound on the share by which a matrix that is a rotation only to 1e-9 changes lengths; 0 if it
+/// is one to rounding, which kRoundings counts.
+double stretchOf(const Eigen::Matrix3d& rotation) {
+  const double defect =
+      (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return defect > 16.0 * std::numeric_limits<double>::epsilon() ? 2.0 * defect : 0.0;
+}
 
 }  // namespace
 
@@ -27,15 +57,17 @@ PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transf
       rotation_a(pose_a.linear()),
       rotation_b(pose_b.linear()),
       same_rotation(rotation_a == rotation_b),
-      offset((pose_b.translation() - pose_a.translation()) - displacement.mean()) {
-  whitening = Whitening(displacement, kLengthUnit).matrix();
+      ball_stretch(std::max(stretchOf(rotation_a), stretchOf(rotation_b))),
+      offset(offsetBetween(pose_a.translation(), pose_b.translation(), displacement.mean())) {
+  const double largest = size_a + size_b + lengthOf(offset);
+  const double unit = lengthUnit(largest);
+  whitening = Whitening(displacement, unit).matrix();
   for (int k = 0; k < 3; ++k) {
-    const double scale = k < rank ? displacement.standardDeviations()[k] : kLengthUnit;
+    const double scale = k < rank ? displacement.standardDeviations()[k] : unit;
     inverse_variances[k] = 1.0 / (scale * scale);
   }
-  const double largest = size_a + size_b + pose_a.translation().norm() +
-                         pose_b.translation().norm() + displacement.mean().norm();
-  error = kRoundings * std::numeric_limits<double>::epsilon() * largest;
+  error =
+      largest > 0.0 ? kRoundings * std::numeric_limits<double>::epsilon() * largest + kTiny : 0.0;
   fits = largest * whitening.cwiseAbs().maxCoeff() <= kLargestWhitened;
 }
 

@@ -32,6 +32,11 @@ struct PairFrame {
   Eigen::Matrix3d rotation_a;
   Eigen::Matrix3d rotation_b;
   bool same_rotation;
+
+  /// By at most this share of its radius a ball differs from its image under the rotations, which
+  /// are some only to 1e-9; 0 where they are to rounding.
+  double ball_stretch;
+
   Eigen::Vector3d offset;
 
   /// No computed point x is farther from the true one than this (metres), padding of FCL's bounding

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "cobstacle/perturbation.h"
+#include "gaussian/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -18,9 +19,25 @@ constexpr double kParallel = 1e-14;
 /// Determinants below this times the lengths of their columns may have either sign.
 constexpr double kCoplanar = 4e-15;
 
-bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double limit = kParallel * a.norm() * b.norm();
+/// Of a product of two lengths, so that its square is neither lost nor infinite.
+constexpr double kLeastProduct = 1e-100;
+constexpr double kLargestProduct = 1e100;
+
+Eigen::Vector3d aboutOne(const Eigen::Vector3d& v) {
+  return v / powerOfTwoAt(v.cwiseAbs().maxCoeff());
+}
+
+bool parallelWithin(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit) {
   return a.cross(b).squaredNorm() <= limit * limit;
+}
+
+bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const double product = a.norm() * b.norm();
+  if (product > kLeastProduct && product < kLargestProduct) {
+    return parallelWithin(a, b, kParallel * product);
+  }
+  const Eigen::Vector3d p = aboutOne(a), q = aboutOne(b);
+  return parallelWithin(p, q, kParallel * p.norm() * q.norm());
 }
 
 }  // namespace
@@ -79,11 +96,14 @@ std::optional<double> Zonotope::faces(FaceSet& faces) const {
 
 std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) const {
   faces.clear();
-  std::array<Eigen::Vector3d, kMaxGenerators> moved;
+  const double unit = lengthUnit();
+  Generators scaled;
+  Generators moved;
   std::array<double, kMaxGenerators> norms;
   for (int i = 0; i < count_; ++i) {
-    norms[i] = generators_[i].norm();
-    moved[i] = generators_[i] + norms[i] * perturbation(i, attempt);
+    scaled[i] = generators_[i] / unit;
+    norms[i] = scaled[i].norm();
+    moved[i] = scaled[i] + norms[i] * perturbation(i, attempt);
   }
   std::array<int, 1u << kMaxGenerators> indices;
   std::fill_n(indices.begin(), 1u << count_, -1);
@@ -101,7 +121,7 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
         if (std::abs(height) <= kCoplanar * norms[i] * norms[j] * norms[k]) return std::nullopt;
         if (height > 0.0) upper |= 1u << k;
       }
-      if (attempt > 0) defect = std::max(defect, defectOf(i, j, upper));
+      if (attempt > 0) defect = std::max(defect, defectOf(scaled, count_, i, j, upper));
       const unsigned gi = 1u << i;
       const unsigned gj = 1u << j;
       const unsigned lower = all & ~upper & ~gi & ~gj;
@@ -116,15 +136,23 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
   // Both the moved zonotope and the surface, whose vertices are not moved, are within one
   // perturbation of the zonotope's boundary.
   const double size = std::accumulate(norms.begin(), norms.begin() + count_, 0.0);
-  return std::min(defect, 2.0 * kLargestPerturbation * size);
+  return unit * std::min(defect, 2.0 * kLargestPerturbation * size);
 }
 
-double Zonotope::defectOf(int i, int j, unsigned upper) const {
-  const Eigen::Vector3d normal = generators_[i].cross(generators_[j]).normalized();
+double Zonotope::lengthUnit() const {
+  double largest = 0.0;
+  for (int i = 0; i < count_; ++i) {
+    largest = std::max(largest, generators_[i].cwiseAbs().maxCoeff());
+  }
+  return powerOfTwoAt(largest);
+}
+
+double Zonotope::defectOf(const Generators& generators, int count, int i, int j, unsigned upper) {
+  const Eigen::Vector3d normal = generators[i].cross(generators[j]).normalized();
   double defect = 0.0;
-  for (int k = 0; k < count_; ++k) {
+  for (int k = 0; k < count; ++k) {
     if (k == i || k == j) continue;
-    const double height = normal.dot(generators_[k]);
+    const double height = normal.dot(generators[k]);
     if ((height > 0.0) != (((upper >> k) & 1u) != 0)) defect += 2.0 * std::abs(height);
   }
   return defect;

@@ -46,13 +46,16 @@ class Zonotope {
   std::optional<double> faces(FaceSet& faces) const;
 
  private:
+  using Generators = std::array<Eigen::Vector3d, kMaxGenerators>;
+
   int vertexIndex(unsigned signs, std::array<int, 1u << kMaxGenerators>& indices,
                   FaceSet& faces) const;
   std::optional<double> facesPerturbed(int attempt, FaceSet& faces) const;
-  double defectOf(int i, int j, unsigned upper) const;
+  static double defectOf(const Generators& generators, int count, int i, int j, unsigned upper);
+  double lengthUnit() const;
 
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, kMaxGenerators> generators_;
+  Generators generators_;
   int count_ = 0;
 };
 

@@ -2,29 +2,31 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/gaussian_displacement.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
+#include "gaussian/covariance_limits.h"
 #include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
+#include "gaussian/rotation.h"
 
 namespace fcl_prob {
 namespace {
 
+using detail::kDefinitenessTolerance;
+using detail::kLargestCovariance;
+using detail::kSymmetryTolerance;
 using detail::numberText;
 
-constexpr double kSymmetryTolerance = 1e-9;
-constexpr double kDefinitenessTolerance = 1e-12;
 constexpr double kIsotropyTolerance = 1e-12;
-constexpr double kRotationTolerance = 1e-9;
+
+// Of products of axes that are inverted by transposing, which all bounds on rounding allow for.
+constexpr double kAxesRounding = 8 * detail::kEpsilon;
 
 // Both 1/sigma and sigma² stay finite.
 constexpr double kLeastStandardDeviation = 1e-300;
 constexpr double kLargestStandardDeviation = 1e150;
-
-// An eigenvalue is at most three times the largest entry.
-constexpr double kLargestCovariance = 1e300;
 
 std::string entryName(const std::string& matrix, Eigen::Index row, Eigen::Index column) {
   return matrix + "(" + std::to_string(row) + ", " + std::to_string(column) + ")";
@@ -103,17 +105,9 @@ Eigen::Matrix3d covarianceOf(const detail::PrincipalAxes& axes) {
   return symmetricPart(factor * factor.transpose());
 }
 
-void requireRotation(const Eigen::Matrix3d& rotation) {
-  const double defect =
-      (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(defect <= kRotationTolerance)) {
-    throw InvalidPose("matrix is not a rotation: R Rᵀ differs from the identity by " +
-                      numberText(defect));
-  }
-  if (rotation.determinant() < 0) {
-    throw InvalidPose("matrix is a reflection, not a rotation: determinant " +
-                      numberText(rotation.determinant()));
-  }
+// Of columns that should be orthonormal.
+double orthonormalityDefect(const Eigen::Matrix3d& matrix) {
+  return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -177,11 +171,17 @@ GaussianDisplacement GaussianDisplacement::withMean(const Eigen::Vector3d& mean)
 GaussianDisplacement GaussianDisplacement::reversed() const { return withMean(-mean_); }
 
 GaussianDisplacement GaussianDisplacement::rotated(const Eigen::Matrix3d& rotation) const {
-  requireRotation(rotation);
+  detail::requireRotation(rotation);
+  const Eigen::Matrix3d covariance = symmetricPart(rotation * covariance_ * rotation.transpose());
+  const Eigen::Matrix3d axes = rotation * axes_;
+  if (orthonormalityDefect(axes) > kAxesRounding) {
+    return {rotation * mean_, detail::principalAxesOfOblique(standard_deviations_, axes),
+            covariance};
+  }
   GaussianDisplacement result = *this;
   result.mean_ = requireFiniteMean(rotation * mean_);
-  result.axes_ = rotation * axes_;
-  result.covariance_ = symmetricPart(rotation * covariance_ * rotation.transpose());
+  result.axes_ = axes;
+  result.covariance_ = covariance;
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "gaussian/constants.h"
+#include "gaussian/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -100,14 +101,55 @@ Eigen::Matrix3d oneSidedJacobi(Eigen::Matrix<double, 3, 6>& factor) {
   return axes;
 }
 
-// 2^k next to the largest entry, so that squares neither overflow nor underflow.
-double powerOfTwoScale(double largest) {
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return std::ldexp(1.0, exponent);
+// Makes the columns p < q of `axes`, each times its deviation, orthogonal by the rotation of the
+// two (Hestenes); returns false if they are. Nothing is multiplied by a deviation, so that the
+// smaller one may be as small as doubles go.
+bool separateColumns(const Eigen::Vector3d& deviations, int p, int q, Eigen::Matrix3d& axes) {
+  const Eigen::Vector3d first = axes.col(p);
+  const Eigen::Vector3d second = axes.col(q);
+  const double product = first.dot(second);
+  if (std::abs(product) <= kEpsilon) return false;
+  const double ratio = deviations[q] / deviations[p];
+  const double difference = ratio * ratio * second.squaredNorm() - first.squaredNorm();
+  const double root = std::hypot(difference, 2.0 * ratio * product);
+  // tan / ratio
+  const double share =
+      2.0 * product * (difference < 0.0 ? -1.0 : 1.0) / (std::abs(difference) + root);
+  const double tangent = ratio * share;
+  const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
+  axes.col(p) = cosine * (first - tangent * ratio * second);
+  axes.col(q) = cosine * (second + share * first);
+  return true;
+}
+
+// Makes the columns from `rank` on orthogonal to all before.
+void completeAxes(int rank, Eigen::Matrix3d& axes) {
+  for (int k = rank; k < 3; ++k) {
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int j = 0; j < k; ++j) axes.col(k) -= axes.col(j) * axes.col(j).dot(axes.col(k));
+    }
+    axes.col(k).normalize();
+  }
 }
 
 }  // namespace
+
+PrincipalAxes principalAxesOfOblique(Eigen::Vector3d standard_deviations, Eigen::Matrix3d axes) {
+  const int rank = static_cast<int>((standard_deviations.array() > 0).count());
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    bool converged = true;
+    for (const auto& [p, q] : kPairs) {
+      if (q < rank && separateColumns(standard_deviations, p, q, axes)) converged = false;
+    }
+    if (converged) break;
+  }
+  for (int k = 0; k < rank; ++k) {
+    standard_deviations[k] *= axes.col(k).norm();
+    axes.col(k).normalize();
+  }
+  completeAxes(rank, axes);
+  return orderedAxes(standard_deviations, axes);
+}
 
 PrincipalAxes orderedAxes(const Eigen::Vector3d& standard_deviations, const Eigen::Matrix3d& axes) {
   std::array<int, 3> order{};
@@ -145,7 +187,7 @@ PrincipalAxes principalAxesOfCovariance(const Eigen::Matrix3d& covariance) {
 PrincipalAxes principalAxesOfFactor(const Eigen::Matrix<double, 3, 6>& factor) {
   const double largest = factor.cwiseAbs().maxCoeff();
   if (largest == 0) return orderedAxes(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
-  const double scale = powerOfTwoScale(largest);
+  const double scale = powerOfTwoAt(largest);  // squares neither overflow nor underflow
   Eigen::Matrix<double, 3, 6> rows = factor / scale;
   const Eigen::Vector3d entry_scale = rows.rowwise().norm();
   const Eigen::Matrix3d axes = oneSidedJacobi(rows);

@@ -26,6 +26,10 @@ PrincipalAxes principalAxesOfCovariance(const Eigen::Matrix3d& covariance);
 /// Of `factor factorᵀ`, without forming it: squaring would lose what is below 1e-8 of the largest.
 PrincipalAxes principalAxesOfFactor(const Eigen::Matrix<double, 3, 6>& factor);
 
+/// Of Σ σ_k² a_k a_kᵀ where the axes a_k are orthonormal only to about 1e-9. Keeps the rank, and
+/// every standard deviation its relative accuracy.
+PrincipalAxes principalAxesOfOblique(Eigen::Vector3d standard_deviations, Eigen::Matrix3d axes);
+
 /// Standard deviations along given orthonormal axes, put in order. Keeps every one, however small.
 PrincipalAxes orderedAxes(const Eigen::Vector3d& standard_deviations, const Eigen::Matrix3d& axes);
 

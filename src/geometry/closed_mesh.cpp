@@ -8,7 +8,6 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
-#include "geometry/disjoint_sets.h"
 #include "geometry/ray_crossing.h"
 #include "geometry/surface_caps.h"
 
@@ -27,8 +26,7 @@ struct Surface {
 };
 
 /// Triangles with two equal corners have no inside to bound and cancel out of the pairing.
-Surface surfaceOf(const MeshView& mesh) {
-  const std::vector<int> welded = weldVertices(mesh);
+Surface surfaceOf(const MeshView& mesh, const std::vector<int>& welded) {
   Surface surface;
   std::vector<DirectedEdge> edges;
   for (int t = 0; t < mesh.triangle_count; ++t) {
@@ -43,15 +41,12 @@ Surface surfaceOf(const MeshView& mesh) {
   return surface;
 }
 
-/// The first corner of one triangle of every part that hangs together by edges.
-std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh, const Surface& surface) {
-  DisjointSets parts(mesh.triangle_count);
-  for (const EdgeMatch& match : surface.pairing.matches) {
-    parts.union_set(match.forward.polygon, match.backward.polygon);
-  }
-  std::vector<Eigen::Vector3d> points;
-  for (int t : surface.triangles) {
-    if (static_cast<int>(parts.find_set(t)) == t) points.push_back(mesh.vertex(t, 0));
+/// The first vertex of every part that hangs together by corners.
+std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh,
+                                           const SurfaceComponents& components) {
+  std::vector<Eigen::Vector3d> points(components.count);
+  for (int v = mesh.vertex_count; v-- > 0;) {
+    if (components.of_vertex[v] >= 0) points[components.of_vertex[v]] = mesh.vertices[v];
   }
   return points;
 }
@@ -59,15 +54,18 @@ std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh, const Surface& 
 }  // namespace
 
 std::optional<std::string> opennessOf(const MeshView& mesh) {
-  return surfaceOf(mesh).pairing.fault;
+  return surfaceOf(mesh, weldVertices(mesh)).pairing.fault;
 }
 
 ClosedMesh::ClosedMesh(const MeshView& mesh, const std::string& name) {
-  const Surface surface = surfaceOf(mesh);
+  const std::vector<int> welded = weldVertices(mesh);
+  const Surface surface = surfaceOf(mesh, welded);
   if (surface.pairing.fault) {
     throw OpenMesh(name + " is not a closed mesh: " + *surface.pairing.fault);
   }
-  part_points_ = onePointAPart(mesh, surface);
+  SurfaceComponents components = componentsOf(mesh, welded);
+  part_points_ = onePointAPart(mesh, components);
+  part_of_vertex_ = std::move(components.of_vertex);
 
   BoxTree::Box bounds;
   for (int t : surface.triangles) {
@@ -109,15 +107,16 @@ std::optional<int> ClosedMesh::windingAlong(int axis, const Eigen::Vector3d& poi
   return certain ? std::optional<int>(winding) : std::nullopt;
 }
 
-Containment ClosedMesh::contains(const Eigen::Vector3d& point) const {
+Containment ClosedMesh::contains(const Eigen::Vector3d& point, double error) const {
   const Eigen::Vector3d relative = point - centre_;
   const double reach = relative.cwiseAbs().maxCoeff();
-  if (!(reach <= 2 * radius_)) {
+  if (!(reach <= 2 * radius_ + 2 * error)) {
     return std::isfinite(reach) ? Containment::outside : Containment::unknown;
   }
   const double largest =
       std::max({radius_, centre_.cwiseAbs().maxCoeff(), point.cwiseAbs().maxCoeff()});
-  const double margin = 16 * std::numeric_limits<double>::epsilon() * largest;
+  // Rotated, an error in three coordinates is one of up to √3 in each.
+  const double margin = 16 * std::numeric_limits<double>::epsilon() * largest + 2 * error;
   const Eigen::Vector3d rotated = genericRotation() * relative;
   for (int axis = 0; axis < 3; ++axis) {
     if (const auto winding = windingAlong(axis, rotated, margin)) {

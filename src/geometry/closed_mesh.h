@@ -20,22 +20,27 @@ enum class Containment { inside, outside, unknown };
 /// exactly two triangles that walk it in opposite directions. It bounds the solid of all points
 /// with a winding number other than zero: shells that overlap are united, a shell of the opposite
 /// orientation inside another one is a cavity, and a mesh that is inside out as a whole is the same
-/// solid. Immutable; keeps copies of what it needs.
+/// solid. Triangles with equal corners bound nothing: they are points and segments beside the
+/// solid, which another solid may contain. Immutable; keeps copies of what it needs.
 class ClosedMesh {
  public:
   /// \throws OpenMesh naming an edge at which the surface is open, branches or changes its
   /// orientation.
   ClosedMesh(const MeshView& mesh, const std::string& name);
 
-  /// Whether the solid contains `point` (metres, frame of the mesh). Never wrong: signs of
-  /// determinants are used only where they exceed their rounding error, else the answer is
-  /// `unknown`.
-  Containment contains(const Eigen::Vector3d& point) const;
+  /// Whether the solid contains `point` (metres, frame of the mesh), no coordinate of which is
+  /// wrong by more than `error`. Never wrong: signs of determinants are used only where they exceed
+  /// their rounding error, else the answer is `unknown`.
+  Containment contains(const Eigen::Vector3d& point, double error = 0.0) const;
 
-  /// One vertex of every connected part of the surface (metres, frame of the mesh). Where the
-  /// surfaces of two solids do not meet, the solids overlap if and only if one of these points of
-  /// either is in the other.
+  /// One vertex of every connected part of the surface (metres, frame of the mesh), triangles with
+  /// equal corners included. Where the surfaces of two solids do not meet, the solids overlap if
+  /// and only if one of these points of either is in the other.
   const std::vector<Eigen::Vector3d>& partPoints() const { return part_points_; }
+
+  /// Of every vertex of the mesh the connected part of the surface that it is in, an index of
+  /// partPoints(); -1 of a vertex in no triangle.
+  const std::vector<int>& partOfVertex() const { return part_of_vertex_; }
 
  private:
   struct Triangle {
@@ -49,6 +54,7 @@ class ClosedMesh {
   std::vector<Triangle> triangles_;  // rotated, relative to centre_
   BoxTree tree_;
   std::vector<Eigen::Vector3d> part_points_;
+  std::vector<int> part_of_vertex_;
 };
 
 /// What keeps the mesh from being closed, in words; nothing if it is closed.

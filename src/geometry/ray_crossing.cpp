@@ -4,12 +4,19 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 namespace fcl_prob::detail {
 namespace {
 
+/// What products below the smallest normal number lose, absolutely.
+constexpr double kLostBelowNormal = 32 * std::numeric_limits<double>::denorm_min();
+
 /// Sign of `value` if it exceeds its error, else 0.
-int certainSign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
+int certainSign(double value, double error) {
+  error += kLostBelowNormal;
+  return value > error ? 1 : value < -error ? -1 : 0;
+}
 
 }  // namespace
 

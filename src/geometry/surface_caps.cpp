@@ -33,25 +33,6 @@ std::vector<Edge> oddEdges(const MeshView& mesh, const std::vector<int>& welded)
   return odd;
 }
 
-void labelComponents(const MeshView& mesh, const std::vector<int>& welded, SurfaceCaps& result) {
-  DisjointSets sets(mesh.vertex_count);
-  for (int t = 0; t < mesh.triangle_count; ++t) {
-    for (int k = 1; k < 3; ++k) {
-      sets.union_set(welded[mesh.triangles[t][0]], welded[mesh.triangles[t][k]]);
-    }
-  }
-  result.component_of_vertex.assign(mesh.vertex_count, -1);
-  std::vector<int> label(mesh.vertex_count, -1);
-  for (int t = 0; t < mesh.triangle_count; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int vertex = static_cast<int>(mesh.triangles[t][k]);
-      int& component = label[sets.find_set(welded[vertex])];
-      if (component < 0) component = result.component_count++;
-      result.component_of_vertex[vertex] = component;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<int> weldVertices(const MeshView& mesh) {
@@ -71,10 +52,31 @@ std::vector<int> weldVertices(const MeshView& mesh) {
   return welded;
 }
 
+SurfaceComponents componentsOf(const MeshView& mesh, const std::vector<int>& welded) {
+  DisjointSets sets(mesh.vertex_count);
+  for (int t = 0; t < mesh.triangle_count; ++t) {
+    for (int k = 1; k < 3; ++k) {
+      sets.union_set(welded[mesh.triangles[t][0]], welded[mesh.triangles[t][k]]);
+    }
+  }
+  SurfaceComponents result;
+  result.of_vertex.assign(mesh.vertex_count, -1);
+  std::vector<int> label(mesh.vertex_count, -1);
+  for (int t = 0; t < mesh.triangle_count; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = static_cast<int>(mesh.triangles[t][k]);
+      int& component = label[sets.find_set(welded[vertex])];
+      if (component < 0) component = result.count++;
+      result.of_vertex[vertex] = component;
+    }
+  }
+  return result;
+}
+
 SurfaceCaps capsOf(const MeshView& mesh) {
   SurfaceCaps result;
   const std::vector<int> welded = weldVertices(mesh);
-  labelComponents(mesh, welded, result);
+  result.components = componentsOf(mesh, welded);
   const std::vector<Edge> odd = oddEdges(mesh, welded);
   DisjointSets rims(mesh.vertex_count);
   for (const auto& [i, j] : odd) rims.union_set(i, j);

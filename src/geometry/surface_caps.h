@@ -13,6 +13,14 @@ namespace fcl_prob::detail {
 /// For every vertex the first vertex with the same coordinates (-0 equals 0).
 std::vector<int> weldVertices(const MeshView& mesh);
 
+/// Which vertices hang together by triangles, those without area included.
+struct SurfaceComponents {
+  std::vector<int> of_vertex;  ///< -1 in no triangle
+  int count = 0;
+};
+
+SurfaceComponents componentsOf(const MeshView& mesh, const std::vector<int>& welded);
+
 /// A mesh and its caps together have an even number of triangles at every edge, whatever the mesh
 /// is like: then a path between two points crosses them an odd number of times if and only if the
 /// rays from the two points do in sum.
@@ -23,9 +31,7 @@ struct SurfaceCaps {
   };
   std::vector<Cap> caps;  ///< one for every connected part of the edges with an odd number
 
-  /// Of every vertex: vertices of the same component are connected by triangles. -1 in no triangle.
-  std::vector<int> component_of_vertex;
-  int component_count = 0;
+  SurfaceComponents components;
 };
 
 SurfaceCaps capsOf(const MeshView& mesh);

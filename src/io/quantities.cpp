@@ -62,6 +62,46 @@ Eigen::Matrix3d covarianceFrom(const Numbers& numbers) {
   return covariance;
 }
 
+PoseError::Vector6 sixFrom(const Numbers& numbers, const std::string& name) {
+  if (numbers.size() != 6) {
+    throw InvalidRequest(name + " needs 6 numbers x,y,z,rx,ry,rz, not " +
+                         std::to_string(numbers.size()));
+  }
+  return Eigen::Map<const PoseError::Vector6>(numbers.data());
+}
+
+PoseError::Matrix6 poseCovarianceFrom(const Numbers& numbers) {
+  if (numbers.size() != 21) {
+    throw InvalidDistribution(
+        "a pose covariance needs 21 numbers, its upper triangle row by row, not " +
+        std::to_string(numbers.size()));
+  }
+  PoseError::Matrix6 covariance;
+  std::size_t next = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      covariance(row, column) = covariance(column, row) = numbers[next++];
+    }
+  }
+  return covariance;
+}
+
+PoseError poseErrorFrom(const PoseError::Vector6& sigma, PoseConvention convention,
+                        const PoseError::Vector6& mean) {
+  const PoseError centred =
+      PoseError::fromStandardDeviations(sigma.head<3>(), sigma.tail<3>(), convention);
+  if (mean.isZero(0)) return centred;
+  return PoseError(centred.covariance(), convention, mean);
+}
+
+std::optional<PoseConvention> poseConventionFromString(const std::string& name) {
+  if (name == "world") return PoseConvention::world_rotation_vector;
+  if (name == "body") return PoseConvention::body_rotation_vector;
+  if (name == "world-exponential") return PoseConvention::world_exponential;
+  if (name == "body-exponential") return PoseConvention::body_exponential;
+  return std::nullopt;
+}
+
 std::optional<ContactMeaning> contactFromString(const std::string& name) {
   if (name == "fcl") return ContactMeaning::fcl;
   if (name == "solid") return ContactMeaning::solid;

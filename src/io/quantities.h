@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_prob/pose_error.h"
 #include "fcl_prob/probability_request.h"
 
 namespace fcl_prob::detail {
@@ -27,6 +28,21 @@ Eigen::Vector3d vectorFrom(const Numbers& numbers, const std::string& name);
 
 /// xx, xy, xz, yy, yz, zz. \throws InvalidDistribution if there are not six numbers.
 Eigen::Matrix3d covarianceFrom(const Numbers& numbers);
+
+/// Six standard deviations or means x, y, z, rx, ry, rz. \throws InvalidRequest that begins with
+/// `name`.
+PoseError::Vector6 sixFrom(const Numbers& numbers, const std::string& name);
+
+/// The upper triangle of a 6 x 6 covariance, row by row.
+/// \throws InvalidDistribution if there are not 21 numbers.
+PoseError::Matrix6 poseCovarianceFrom(const Numbers& numbers);
+
+/// Independent standard deviations x, y, z, rx, ry, rz around a mean. \throws InvalidDistribution
+PoseError poseErrorFrom(const PoseError::Vector6& sigma, PoseConvention convention,
+                        const PoseError::Vector6& mean);
+
+/// "world", "body", "world-exponential" and "body-exponential".
+std::optional<PoseConvention> poseConventionFromString(const std::string& name);
 
 /// "fcl" and "solid".
 std::optional<ContactMeaning> contactFromString(const std::string& name);

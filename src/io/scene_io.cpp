@@ -78,6 +78,30 @@ GaussianDisplacement readDisplacement(StrictObject object) {
   });
 }
 
+PoseError readPoseError(StrictObject object) {
+  PoseConvention convention = PoseConvention::world_rotation_vector;
+  if (object.has("convention")) {
+    const auto named = detail::poseConventionFromString(object.text("convention"));
+    if (!named)
+      object.fail("convention", "none of world, body, world-exponential, body-exponential");
+    convention = *named;
+  }
+  PoseError::Vector6 mean = PoseError::Vector6::Zero();
+  if (object.has("mean")) {
+    const std::vector<double> numbers = object.numbers("mean");
+    mean = located(object, "mean", [&] { return detail::sixFrom(numbers, "it"); });
+  }
+  const std::string kind = object.oneOf({"covariance", "sigma"});
+  const std::vector<double> numbers = object.numbers(kind);
+  object.finish();
+  return located(object, kind, [&] {
+    if (kind == "covariance") {
+      return PoseError(detail::poseCovarianceFrom(numbers), convention, mean);
+    }
+    return detail::poseErrorFrom(detail::sixFrom(numbers, "it"), convention, mean);
+  });
+}
+
 ProbabilityRequest readRequest(StrictObject object) {
   ProbabilityRequest request;
   if (object.has("method")) {
@@ -106,6 +130,11 @@ ProbabilityRequest readRequest(StrictObject object) {
 
 }  // namespace
 
+void setPoseError(const PoseError& error, Scene& scene) {
+  scene.pose_error = error;
+  scene.displacement = error.inWorldFrame(scene.a.pose).translation();
+}
+
 Scene loadScene(const std::string& path) {
   const nlohmann::json document = detail::parseJsonFile(path);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -114,7 +143,11 @@ Scene loadScene(const std::string& path) {
   Scene scene;
   scene.a = readObject(root.object("a"), folder);
   scene.b = readObject(root.object("b"), folder);
-  scene.displacement = readDisplacement(root.object("displacement"));
+  if (root.oneOf({"displacement", "pose_error"}) == "displacement") {
+    scene.displacement = readDisplacement(root.object("displacement"));
+  } else {
+    setPoseError(readPoseError(root.object("pose_error")), scene);
+  }
   if (root.has("request")) scene.request = readRequest(root.object("request"));
   root.finish();
   return scene;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
+#include <limits>
 #include <string>
 
 #include "fcl_prob/exceptions.h"
@@ -38,10 +39,18 @@ constexpr std::size_t kFirstLook = 1024;
 /// Share of the error probability that the looks before the last one have among them.
 constexpr double kEarlyShare = 0.2;
 
+/// Rounding leaves it between 0 and 1, both excluded.
+double confidenceOf(double error) {
+  return std::clamp(1.0 - error, std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
+}
+
 }  // namespace
 
 LookSchedule::LookSchedule(std::size_t samples, double confidence) : error_(1.0 - confidence) {
-  for (std::size_t look = kFirstLook; look < samples; look *= 2) looks_.push_back(look);
+  for (std::size_t look = kFirstLook; look < samples; look *= 2) {
+    looks_.push_back(look);
+    if (look > samples / 2) break;  // the next one may not be a number any more
+  }
   looks_.push_back(samples);
 }
 
@@ -51,11 +60,11 @@ std::size_t LookSchedule::next(std::size_t done) const {
 
 double LookSchedule::confidenceAt(std::size_t samples) const {
   if (samples >= looks_.back()) return finalConfidence();
-  return 1.0 - error_ * kEarlyShare / static_cast<double>(looks_.size() - 1);
+  return confidenceOf(error_ * kEarlyShare / static_cast<double>(looks_.size() - 1));
 }
 
 double LookSchedule::finalConfidence() const {
-  return looks_.size() == 1 ? 1.0 - error_ : 1.0 - error_ * (1.0 - kEarlyShare);
+  return confidenceOf(looks_.size() == 1 ? error_ : error_ * (1.0 - kEarlyShare));
 }
 
 Bounds gammaInterval(const WeightedHits& hits, double largest_weight, double confidence) {

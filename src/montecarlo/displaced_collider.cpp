@@ -5,11 +5,14 @@
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/narrowphase/collision.h>
 
+#include <Eigen/LU>
+
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/triangle_mesh.h"
 #include "geometry/convex_vertices.h"
 #include "geometry/mesh_visitor.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
 
 namespace fcl_prob {
@@ -89,6 +92,7 @@ DisplacedCollider::DisplacedCollider(const fcl::CollisionGeometryd& a,
         "fcl::collide does not support the pair " + nodeTypeName(a.getNodeType()) + " and " +
         nodeTypeName(b.getNodeType()) + " (it would answer \"no collision\", or crash)");
   }
+  never_ = whyNeverInContact(a, b).has_value();
   a_ = makeSide(a, pose_a, "object A", contact);
   b_ = makeSide(b, pose_b, "object B", contact);
   // Both meshes are rebuilt or none, since both have the same bounding volume; an octree's
@@ -123,27 +127,33 @@ DisplacedCollider::Side DisplacedCollider::makeSide(const fcl::CollisionGeometry
 
 /// For surfaces that do not meet. A point within rounding of the surface counts as contained: it
 /// touches.
-bool DisplacedCollider::contains(const Side& outer, const Side& inner,
-                                 const Eigen::Vector3d& move_of_inner) {
+bool DisplacedCollider::contains(const Side& outer, const fcl::Transform3d& pose_of_outer,
+                                 const Side& inner, const fcl::Transform3d& pose_of_inner) {
   if (!outer.solid) return false;
-  const Eigen::Matrix3d to_outer = outer.pose.linear().transpose();
-  const Eigen::Vector3d offset =
-      inner.pose.translation() + move_of_inner - outer.pose.translation();
+  // Not the transpose: poses are rotations to 1e-9 only.
+  const Eigen::Matrix3d to_outer = pose_of_outer.linear().inverse();
+  const Eigen::Vector3d offset = pose_of_inner.translation() - pose_of_outer.translation();
   for (const Eigen::Vector3d& point : inner.points) {
-    const Eigen::Vector3d seen = to_outer * (inner.pose.linear() * point + offset);
+    const Eigen::Vector3d seen = to_outer * (pose_of_inner.linear() * point + offset);
     if (outer.solid->contains(seen) != Containment::outside) return true;
   }
   return false;
 }
 
 bool DisplacedCollider::collides(const Eigen::Vector3d& displacement) const {
+  if (never_) return false;
   fcl::Transform3d displaced = a_.pose;
   displaced.translation() += displacement;
+  return collidesAt(displaced, b_.pose);
+}
+
+bool DisplacedCollider::collidesAt(const fcl::Transform3d& pose_a,
+                                   const fcl::Transform3d& pose_b) const {
   const fcl::CollisionRequestd request;
   fcl::CollisionResultd result;
-  fcl::collide(a_.geometry.get(), displaced, b_.geometry.get(), b_.pose, request, result);
+  fcl::collide(a_.geometry.get(), pose_a, b_.geometry.get(), pose_b, request, result);
   if (result.isCollision()) return true;
-  return contains(b_, a_, displacement) || contains(a_, b_, -displacement);
+  return contains(b_, pose_b, a_, pose_a) || contains(a_, pose_a, b_, pose_b);
 }
 
 }  // namespace detail

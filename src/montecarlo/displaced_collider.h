@@ -28,6 +28,9 @@ class DisplacedCollider {
   /// \param displacement  of A, metres, world frame
   bool collides(const Eigen::Vector3d& displacement) const;
 
+  /// The same for other poses of both (rigid, metres, world frame).
+  bool collidesAt(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b) const;
+
   /// What was done to make FCL's answers quick, for ProbabilityResult::plan.
   const std::vector<std::string>& plan() const { return plan_; }
 
@@ -42,9 +45,11 @@ class DisplacedCollider {
 
   Side makeSide(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose,
                 const std::string& name, ContactMeaning contact);
-  static bool contains(const Side& outer, const Side& inner, const Eigen::Vector3d& move_of_inner);
+  static bool contains(const Side& outer, const fcl::Transform3d& pose_of_outer, const Side& inner,
+                       const fcl::Transform3d& pose_of_inner);
 
   std::vector<std::string> plan_;
+  bool never_;  ///< fcl::collide leaves out one of the two; so does containment
   Side a_;
   Side b_;
 };

@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <limits>
 
 #include "fcl_prob/normal_mass.h"
 
@@ -37,6 +38,7 @@ double truncatedNormal(double lo, double hi, double uniform) {
   if (hi < 0.0) return -truncatedNormal(-hi, -lo, uniform);
   const double above_hi = normalTailMass(hi);
   const double tail = above_hi + uniform * (normalTailMass(lo) - above_hi);
+  if (!(tail > 0.0)) return lo;  // rounded to nothing: most of it is there
   const double y = std::sqrt(2.0) * boost::math::erfc_inv(2.0 * tail);
   return std::clamp(y, lo, hi);
 }
@@ -72,7 +74,8 @@ Eigen::Vector3d ImportanceDensity::sampleShell(RandomStream stream, std::uint64_
                                                double uniform) const {
   Eigen::Vector3d direction = standardNormalFrom(randomWords(stream, index, 0));
   for (int k = rank_; k < 3; ++k) direction[k] = 0.0;
-  const double half_square = boost::math::gamma_q_inv(0.5 * rank_, uniform * cover_.mass);
+  const double beyond = std::max(uniform * cover_.mass, std::numeric_limits<double>::min());
+  const double half_square = boost::math::gamma_q_inv(0.5 * rank_, beyond);
   const double radius = std::max(cover_.shell_radius, std::sqrt(2.0 * half_square));
   return direction * (radius / direction.norm());
 }
@@ -128,7 +131,8 @@ double ImportanceDensity::ratio(const Eigen::Vector3d& y) const {
              std::exp(component.log_scale - exponent * std::log1p(distance / kDegreesOfFreedom) -
                       log_normal);
   }
-  return ratio;
+  // What collides is within the cover, up to rounding.
+  return std::max(ratio, cover_share_ / cover_.mass);
 }
 
 }  // namespace fcl_prob::detail

@@ -34,7 +34,8 @@ class ImportanceDensity {
 
   Eigen::Vector3d sample(RandomStream stream, std::uint64_t index) const;
 
-  /// q(y) / φ(y), φ being the standard normal density: a hit at `y` counts for its inverse.
+  /// q(y) / φ(y) at a point that collides, φ being the standard normal density: it counts for its
+  /// inverse, which is at most largestWeight().
   double ratio(const Eigen::Vector3d& y) const;
 
   /// The largest weight 1 / ratio(y) that a point of the cover can have.

@@ -2,69 +2,108 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/monte_carlo.h"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
+#include "fcl_prob/mixture.h"
+#include "montecarlo/counting_run.h"
 #include "montecarlo/displaced_collider.h"
 #include "montecarlo/random_samples.h"
-#include "montecarlo/sampling_run.h"
 
 namespace fcl_prob {
 namespace {
 
-class MonteCarloRun : public detail::SamplingRun {
+/// Of which a sample draws one. A single one takes nothing from the random numbers.
+class SampledDisplacements {
  public:
-  MonteCarloRun(const detail::DisplacedCollider& collider, const GaussianDisplacement& displacement,
-                const ProbabilityRequest& request)
-      : SamplingRun(request, request.samples, request.absolute_tolerance),
-        collider_(collider),
-        whitening_(displacement),
-        request_(request),
-        collided_(kSlots) {}
+  explicit SampledDisplacements(const GaussianDisplacement& displacement) {
+    whitenings_.emplace_back(displacement);
+  }
+  explicit SampledDisplacements(const GaussianMixture& mixture) {
+    double cumulated = 0.0;
+    for (const GaussianMixture::Component& component : mixture.components()) {
+      if (!(component.weight > 0.0)) continue;
+      whitenings_.emplace_back(component.displacement);
+      cumulated += component.weight;
+      cumulated_.push_back(cumulated);
+    }
+  }
 
-  ProbabilityResult result() {
-    const detail::Stopwatch watch;
-    ProbabilityResult result = run(watch);
-    result.method = ProbabilityMethod::monte_carlo;
-    const auto n = static_cast<double>(counted());
-    const auto hits = static_cast<double>(hits_);
-    const double smoothed = (hits + 0.5) / (n + 1.0);
-    result.estimate = hits / n;
-    result.standard_error = std::sqrt(smoothed * (1.0 - smoothed) / n);
-    result.statistics.hits = hits_;
-    result.statistics.seconds.emplace_back("sampling", watch.seconds());
-    if (request_.gradient) gradient_.report(whitening_, counted(), result);
-    return result;
+  const Whitening& chosen(detail::RandomStream stream, std::size_t index) const {
+    if (whitenings_.size() == 1) return whitenings_[0];
+    const double u = cumulated_.back() * detail::uniformFrom(randomWords(stream, index, 1)[0]);
+    const auto at = std::upper_bound(cumulated_.begin(), cumulated_.end() - 1, u);
+    return whitenings_[static_cast<std::size_t>(at - cumulated_.begin())];
+  }
+
+  bool haveFullRank() const {
+    return std::all_of(whitenings_.begin(), whitenings_.end(),
+                       [](const Whitening& whitening) { return whitening.rank() == 3; });
   }
 
  private:
-  Eigen::Vector3d normals(std::size_t index) const {
+  std::vector<Whitening> whitenings_;
+  std::vector<double> cumulated_;  ///< weights up to each, of several
+};
+
+class MonteCarloRun : public detail::CountingRun {
+ public:
+  MonteCarloRun(const detail::DisplacedCollider& collider, SampledDisplacements displacements,
+                const ProbabilityRequest& request)
+      : CountingRun(request),
+        collider_(collider),
+        displacements_(std::move(displacements)),
+        request_(request) {}
+
+  ProbabilityResult resultWithGradient(const detail::Stopwatch& watch) {
+    ProbabilityResult answer = result(watch);
+    if (request_.gradient) gradient_.report(displacements_.haveFullRank(), counted(), answer);
+    return answer;
+  }
+
+ private:
+  const Whitening& whiteningOf(std::size_t index) const {
+    return displacements_.chosen({request_.seed}, index);
+  }
+
+  Eigen::Vector3d normals(std::size_t index, int rank) const {
     Eigen::Vector3d y = detail::standardNormalFrom(detail::randomWords({request_.seed}, index));
-    for (int k = whitening_.rank(); k < 3; ++k) y[k] = 0.0;
+    for (int k = rank; k < 3; ++k) y[k] = 0.0;
     return y;
   }
 
-  void evaluate(std::size_t index, std::size_t slot) override {
-    collided_[slot] = collider_.collides(whitening_.unapply(normals(index)));
+  bool collides(std::size_t index) const override {
+    const Whitening& whitening = whiteningOf(index);
+    return collider_.collides(whitening.unapply(normals(index, whitening.rank())));
   }
 
-  void count(std::size_t index, std::size_t slot) override {
-    if (!collided_[slot]) return;
-    ++hits_;
-    if (request_.gradient) gradient_.add(normals(index), 1.0);
-  }
-
-  Bounds interval(double confidence) const override {
-    return clopperPearsonInterval(hits_, counted(), confidence);
+  void countHit(std::size_t index) override {
+    if (!request_.gradient) return;
+    const Whitening& whitening = whiteningOf(index);
+    gradient_.add(whitening, normals(index, whitening.rank()), 1.0);
   }
 
   const detail::DisplacedCollider& collider_;
-  Whitening whitening_;
+  SampledDisplacements displacements_;
   const ProbabilityRequest& request_;
-  std::vector<unsigned char> collided_;
-  std::size_t hits_ = 0;
   detail::GradientSum gradient_;
 };
+
+template <typename Displacement>
+ProbabilityResult sampled(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
+                          const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
+                          const Displacement& displacement, const ProbabilityRequest& request) {
+  validateRequest(request);
+  const detail::Stopwatch watch;
+  const detail::DisplacedCollider collider(a, pose_a, b, pose_b, request.contact);
+  ProbabilityResult result = MonteCarloRun(collider, SampledDisplacements(displacement), request)
+                                 .resultWithGradient(watch);
+  result.plan.insert(result.plan.begin(), collider.plan().begin(), collider.plan().end());
+  result.plan.push_back("Monte Carlo: displaced fcl::collide; the interval has confidence " +
+                        std::to_string(request.confidence) + ", nothing is certified");
+  return result;
+}
 
 }  // namespace
 
@@ -74,13 +113,16 @@ ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
                                         const fcl::Transform3d& pose_b,
                                         const GaussianDisplacement& displacement,
                                         const ProbabilityRequest& request) {
-  validateRequest(request);
-  const detail::DisplacedCollider collider(a, pose_a, b, pose_b, request.contact);
-  ProbabilityResult result = MonteCarloRun(collider, displacement, request).result();
-  result.plan.insert(result.plan.begin(), collider.plan().begin(), collider.plan().end());
-  result.plan.push_back("Monte Carlo: displaced fcl::collide; the interval has confidence " +
-                        std::to_string(request.confidence) + ", nothing is certified");
-  return result;
+  return sampled(a, pose_a, b, pose_b, displacement, request);
+}
+
+ProbabilityResult monteCarloProbability(const fcl::CollisionGeometryd& a,
+                                        const fcl::Transform3d& pose_a,
+                                        const fcl::CollisionGeometryd& b,
+                                        const fcl::Transform3d& pose_b,
+                                        const GaussianMixture& displacement,
+                                        const ProbabilityRequest& request) {
+  return sampled(a, pose_a, b, pose_b, displacement, request);
 }
 
 }  // namespace fcl_prob

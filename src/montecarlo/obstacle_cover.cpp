@@ -28,10 +28,10 @@ class CoverBuilder {
 
   /// Opens the heaviest pair again and again. The sum may rise before it falls, so all steps are
   /// taken and the best state among them is returned.
-  ObstacleCover build() {
+  ObstacleCover build(const Interruption& interruption) {
     add(0, 0);
     ObstacleCover best = state();
-    while (!heap_.empty() && heap_.size() + closed_.size() < kMostBoxes) {
+    while (!heap_.empty() && heap_.size() + closed_.size() < kMostBoxes && !isDue(interruption)) {
       std::pop_heap(heap_.begin(), heap_.end(), lighter);
       const NodePair pair = heap_.back();
       heap_.pop_back();
@@ -100,8 +100,8 @@ class CoverBuilder {
 }  // namespace
 
 ObstacleCover coverByBoxes(const CoverSide& a, const CoverSide& b, int rank,
-                           const Eigen::Vector3d& margin) {
-  return CoverBuilder(a, b, rank, margin).build();
+                           const Eigen::Vector3d& margin, const Interruption& interruption) {
+  return CoverBuilder(a, b, rank, margin).build(interruption);
 }
 
 // |y|² is chi-squared with `rank` degrees of freedom.

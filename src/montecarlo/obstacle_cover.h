@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "gaussian/interruption.h"
+
 namespace fcl_prob::detail {
 
 /// A box of the whitened frame, with its mass under N(0, I) of the coordinates that move.
@@ -36,10 +38,10 @@ struct CoverSide {
 
 /// Covers the displacements y at which side A, moved by y, meets side B. The total mass of the
 /// boxes, a union bound on P, is made small by opening the pairs of nodes of largest mass, as long
-/// as that helps. Boxes that no displacement reaches are left out. \param margin  added to every
-/// box on every side
+/// as that helps and is not interrupted. Boxes that no displacement reaches are left out. \param
+/// margin  added to every box on every side
 ObstacleCover coverByBoxes(const CoverSide& a, const CoverSide& b, int rank,
-                           const Eigen::Vector3d& margin);
+                           const Eigen::Vector3d& margin, const Interruption& interruption);
 
 /// Covers an obstacle no point of which is closer to the mean than `radius`.
 ObstacleCover coverByShell(double radius, int rank);

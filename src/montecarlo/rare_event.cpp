@@ -55,15 +55,17 @@ std::vector<MixtureComponent> firstGuess(const WhitenedObstacle& obstacle) {
 class DensityAdaptation {
  public:
   DensityAdaptation(const WhitenedCollider& collider, const WhitenedObstacle& obstacle,
-                    const ProbabilityRequest& request, const Stopwatch& watch)
+                    const ProbabilityRequest& request, const Stopwatch& watch,
+                    std::optional<ProbabilityStatus> interruption)
       : collider_(collider),
         obstacle_(obstacle),
         request_(request),
         watch_(watch),
         loop_(request.threads),
-        samples_of_pilot_(std::min(
-            kMostPilotSamples,
-            static_cast<std::size_t>(kPilotShare * static_cast<double>(request.samples)))) {}
+        samples_of_pilot_(
+            std::min(kMostPilotSamples,
+                     static_cast<std::size_t>(kPilotShare * static_cast<double>(request.samples)))),
+        interruption_(interruption) {}
 
   ImportanceDensity adapt() {
     std::vector<MixtureComponent> mixture = firstGuess(obstacle_);
@@ -130,7 +132,7 @@ class DensityAdaptation {
   SampleLoop loop_;
   std::size_t samples_of_pilot_;
   std::size_t used_ = 0;
-  std::optional<ProbabilityStatus> interruption_;
+  std::optional<ProbabilityStatus> interruption_;  ///< once a limit was met
   std::vector<ImportanceDensity> densities_;
   std::vector<Eigen::Vector3d> hits_;
 };
@@ -152,14 +154,16 @@ class RareEventRun : public SamplingRun {
     ProbabilityResult result = run(watch);
     const auto n = static_cast<double>(counted());
     const double mean = hits_.sum / n;
-    // Without hits the standard error is that of half a hit of the largest weight.
-    const double second = hits_.hits > 0 ? hits_.sum_squares : 0.5;
+    // With half a hit added, so that it is not 0 where all samples agree: of the largest weight
+    // without hits, else one like the others.
+    const double second =
+        hits_.hits > 0 ? hits_.sum_squares * (1.0 + 0.5 / static_cast<double>(hits_.hits)) : 0.5;
     result.estimate = unit_ * mean;
     result.standard_error = unit_ * std::sqrt(std::max(0.0, second / n - mean * mean) / n);
     result.statistics.hits = hits_.hits;
     result.statistics.effective_samples =
         hits_.sum_squares > 0.0 ? hits_.sum * hits_.sum / hits_.sum_squares : 0.0;
-    if (request_.gradient) gradient_.report(whitening_, counted(), result);
+    if (request_.gradient) gradient_.report(whitening_.rank() == 3, counted(), result);
     return result;
   }
 
@@ -172,7 +176,7 @@ class RareEventRun : public SamplingRun {
   void count(std::size_t, std::size_t slot) override {
     if (weights_[slot] == 0.0) return;
     hits_.add(weights_[slot] / unit_);
-    if (request_.gradient) gradient_.add(points_[slot], weights_[slot]);
+    if (request_.gradient) gradient_.add(whitening_, points_[slot], weights_[slot]);
   }
 
   Bounds interval(double confidence) const override {
@@ -209,9 +213,10 @@ ProbabilityResult certainlyFree(const ProbabilityRequest& request) {
 
 ProbabilityResult sampleRareEvent(const DisplacedCollider& displaced,
                                   const WhitenedObstacle& obstacle,
-                                  const ProbabilityRequest& request, const Stopwatch& watch) {
+                                  const ProbabilityRequest& request, const Stopwatch& watch,
+                                  std::optional<ProbabilityStatus> interruption) {
   const WhitenedCollider collider(displaced, obstacle.whitening);
-  DensityAdaptation adaptation(collider, obstacle, request, watch);
+  DensityAdaptation adaptation(collider, obstacle, request, watch, interruption);
   const ImportanceDensity density = adaptation.adapt();
   RareEventRun run(collider, density, obstacle.whitening, request,
                    request.samples - adaptation.samplesUsed());
@@ -242,12 +247,18 @@ ProbabilityResult rareEventProbability(const fcl::CollisionGeometryd& a,
   if (displacement.rank() == 0) {
     throw InvalidRequest("rare-event sampling needs a displacement that is random");
   }
-  const WhitenedObstacle obstacle = whitenedObstacle(
-      a, pose_a, b, pose_b, displacement, request.contact, displaced.collides(displacement.mean()));
+  std::optional<ProbabilityStatus> interruption;
+  const auto interrupted = [&] {
+    if (!interruption) interruption = interruptionOf(request, {{0.0, 1.0}, 0.0, watch.seconds()});
+    return interruption.has_value();
+  };
+  const WhitenedObstacle obstacle =
+      whitenedObstacle(a, pose_a, b, pose_b, displacement, request.contact,
+                       displaced.collides(displacement.mean()), interrupted);
   const double obstacle_seconds = watch.seconds();
-  ProbabilityResult result = obstacle.cover.empty()
-                                 ? certainlyFree(request)
-                                 : sampleRareEvent(displaced, obstacle, request, watch);
+  ProbabilityResult result =
+      obstacle.cover.empty() ? certainlyFree(request)
+                             : sampleRareEvent(displaced, obstacle, request, watch, interruption);
   result.method = ProbabilityMethod::rare_event;
   result.statistics.seconds.emplace_back("nearest contact and cover", obstacle_seconds);
   result.statistics.seconds.emplace_back("sampling", watch.seconds() - obstacle_seconds);

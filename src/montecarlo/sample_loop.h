@@ -24,9 +24,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Runs samples in chunks that take a fraction of a second each; between two chunks the calling
-/// thread may look at the clock and report progress. What a sample evaluates to must depend on its
-/// index only.
+/// Runs samples in chunks, of one sample at first, that take a fraction of a second each; between
+/// two chunks the calling thread may look at the clock and report progress. What a sample evaluates
+/// to must depend on its index only.
 class SampleLoop {
  public:
   static constexpr std::size_t kLargestChunk = 1 << 14;
@@ -70,7 +70,7 @@ class SampleLoop {
 
   unsigned threads_;
   tbb::task_arena arena_;
-  std::size_t chunk_ = 64;
+  std::size_t chunk_ = 1;
 };
 
 }  // namespace fcl_prob::detail

@@ -83,24 +83,21 @@ Decision SamplingRun::decisionOf(const Bounds& interval) const {
   return Decision::undecided;
 }
 
-void GradientSum::add(const Eigen::Vector3d& y, double weight) {
-  const Eigen::Vector3d weighted = weight * y;
+void GradientSum::add(const Whitening& whitening, const Eigen::Vector3d& y, double weight) {
+  const Eigen::Vector3d weighted = whitening.matrix().transpose() * (weight * y);
   sum_ += weighted;
-  sum_outer_ += weighted * weighted.transpose();
+  sum_squares_ += weighted.cwiseAbs2();
 }
 
-void GradientSum::report(const Whitening& whitening, std::size_t samples,
-                         ProbabilityResult& result) const {
-  if (whitening.rank() < 3) {
+void GradientSum::report(bool full_rank, std::size_t samples, ProbabilityResult& result) const {
+  if (!full_rank) {
     result.plan.push_back("no gradient: P need not be differentiable where A does not move");
     return;
   }
   const auto n = static_cast<double>(samples);
   const Eigen::Vector3d mean = sum_ / n;
-  const Eigen::Matrix3d covariance = sum_outer_ / n - mean * mean.transpose();
-  const Eigen::Matrix3d unwhiten = whitening.matrix().transpose();
-  const Eigen::Vector3d variance = (unwhiten * covariance * unwhiten.transpose()).diagonal();
-  result.gradient = unwhiten * mean;
+  const Eigen::Vector3d variance = sum_squares_ / n - mean.cwiseAbs2();
+  result.gradient = mean;
   result.gradient_standard_error = (variance.cwiseMax(0.0) / n).cwiseSqrt();
 }
 

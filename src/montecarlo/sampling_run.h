@@ -69,14 +69,15 @@ class GradientSum {
  public:
   /// Adds a hit at `y` (standard normal coordinates along the axes of the displacement) of this
   /// weight.
-  void add(const Eigen::Vector3d& y, double weight);
+  void add(const Whitening& whitening, const Eigen::Vector3d& y, double weight);
 
   /// Sets the gradient and its standard error after `samples` samples, or says in the plan why not.
-  void report(const Whitening& whitening, std::size_t samples, ProbabilityResult& result) const;
+  /// \param full_rank  of all displacements
+  void report(bool full_rank, std::size_t samples, ProbabilityResult& result) const;
 
  private:
-  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d sum_outer_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();  ///< 1/metres, world frame
+  Eigen::Vector3d sum_squares_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace fcl_prob::detail

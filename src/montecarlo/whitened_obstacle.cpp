@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "fcl_prob/exceptions.h"
 #include "geometry/geometry_kind.h"
+#include "geometry/length_limit.h"
 #include "geometry/outer_mesh.h"
 
 namespace fcl_prob::detail {
@@ -42,6 +44,13 @@ Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh) {
 
 void transform(TriangleMesh& mesh, const Eigen::Matrix3d& matrix) {
   for (Eigen::Vector3d& v : mesh.vertices) v = matrix * v;
+}
+
+void requirePositions(const TriangleMesh& mesh) {
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    if (isPosition(v)) continue;
+    throw InvalidRequest("rare-event sampling: the objects are too many standard deviations large");
+  }
 }
 
 /// Both objects as triangles relative to a common origin (world frame), A moved by the mean. An
@@ -115,14 +124,17 @@ Eigen::Vector3d marginOf(const Meshes& meshes, const Whitening& whitening) {
 WhitenedObstacle whitenedObstacle(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
                                   const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
                                   const GaussianDisplacement& displacement, ContactMeaning contact,
-                                  bool collides_at_mean) {
+                                  bool collides_at_mean, const Interruption& interruption) {
   const int rank = displacement.rank();
   const double unit = displacement.standardDeviations()[rank - 1] / kStiffness;
   WhitenedObstacle obstacle{Whitening(displacement, unit), std::nullopt, {}};
   Meshes meshes = placedMeshes({a, pose_a}, {b, pose_b}, displacement);
   transform(meshes.a, obstacle.whitening.matrix());
   transform(meshes.b, obstacle.whitening.matrix());
-  const auto nearest = collides_at_mean ? std::nullopt : nearestDisplacement(meshes);
+  requirePositions(meshes.a);
+  requirePositions(meshes.b);
+  const bool approach = !collides_at_mean && !isDue(interruption);
+  const auto nearest = approach ? nearestDisplacement(meshes) : std::nullopt;
   if (nearest) {
     const Whitening rotated = obstacle.whitening.rotatedTo(*nearest);
     const Eigen::Matrix3d rotation = rotated.matrix() * obstacle.whitening.inverse();
@@ -138,7 +150,7 @@ WhitenedObstacle whitenedObstacle(const fcl::CollisionGeometryd& a, const fcl::T
   const auto tree_a = buildModel<fcl::AABBd>(meshes.a);
   const auto tree_b = buildModel<fcl::AABBd>(meshes.b);
   obstacle.cover = coverByBoxes({*tree_a, surface(a)}, {*tree_b, surface(b)}, rank,
-                                marginOf(meshes, obstacle.whitening));
+                                marginOf(meshes, obstacle.whitening), interruption);
   if (nearest && !obstacle.cover.empty()) {
     const ObstacleCover shell = coverByShell(distanceBound(nearest->norm(), displacement), rank);
     if (shell.mass < obstacle.cover.mass && shell.shell_radius > 0.0) obstacle.cover = shell;

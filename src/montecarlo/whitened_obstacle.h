@@ -10,6 +10,7 @@
 
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/whitening.h"
+#include "gaussian/interruption.h"
 #include "montecarlo/obstacle_cover.h"
 
 namespace fcl_prob::detail {
@@ -27,10 +28,12 @@ struct WhitenedObstacle {
 };
 
 /// The distance between two whitened shapes is that of the obstacle from the mean displacement, so
-/// FCL's mesh distance finds it; curved shapes stand in as polyhedra around them.
+/// FCL's mesh distance finds it; curved shapes stand in as polyhedra around them. Once interrupted
+/// it looks for no nearest point any more, and leaves the cover as it is. \throws InvalidRequest if
+/// the whitened shapes are not finite
 WhitenedObstacle whitenedObstacle(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
                                   const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
                                   const GaussianDisplacement& displacement, ContactMeaning contact,
-                                  bool collides_at_mean);
+                                  bool collides_at_mean, const Interruption& interruption);
 
 }  // namespace fcl_prob::detail

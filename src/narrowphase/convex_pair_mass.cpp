@@ -38,7 +38,8 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   if (obstacle->isPolytope()) return pair.mass(*obstacle, {0.0, interruption});
   const auto ball = obstacle->ellipsoid();
   if (ball && displacement.isotropic()) {
-    return ballMass(*ball, frame.error, displacement.standardDeviations());
+    const double error = frame.error + 2.0 * frame.ball_stretch * ball->radius;
+    return ballMass(*ball, error, displacement.standardDeviations());
   }
   using Faces = ConvexSetObstacle::Faces;
   const ConvexSetObstacle outer(frame, a.data().set(), b.data().set(), Faces::outer);

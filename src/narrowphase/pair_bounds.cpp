@@ -109,8 +109,8 @@ Eigen::Matrix3d PairBounds::prepareFaces(const CObstacle& obstacle) {
   const PairFrame& frame = obstacle.frame();
   const double error_in_metres = obstacle.outerFaces(scratch_).error;
   if (frame.rank == 3) return error_in_metres * frame.whitening;
-  const Eigen::Vector3d error = frame.whitened(error_in_metres);
-  replaceBySection(frame.rank, error, scratch_.faces);
+  const Eigen::Vector3d error = frame.whitened(std::max(error_in_metres, frame.error));
+  replaceBySection(frame.rank, error, SectionSide::outer, scratch_.faces);
   return errorOfMoving(frame.rank, error) * Eigen::Matrix3d::Identity();
 }
 

@@ -3,9 +3,10 @@
 // Certified masses of C-obstacles.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <utility>
 
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
@@ -21,13 +22,12 @@ constexpr double kDotRounding = 8.0 * std::numeric_limits<double>::epsilon();
 /// A face whose corners leave its normal more uncertain than this (radians) says nothing.
 constexpr double kMostTilt = 1e-3;
 
-/// What one face says about how far the boundary is from a point inside.
-struct FaceClearance {
-  double distance;  ///< of its plane, from below, whatever rounding made of its normal
-  double width;
-};
+/// Below the smallest normal double, absolutely.
+constexpr double kUnderflow = 1e-300;
 
-FaceClearance clearanceOf(const FaceSet& faces, std::size_t f, const Eigen::Vector3d& centre) {
+/// Distance from a point inside to the plane of a face, from below, whatever rounding made of the
+/// face's normal.
+double clearanceOf(const FaceSet& faces, std::size_t f, const Eigen::Vector3d& centre) {
   const Eigen::Vector3d area = faces.vectorArea(f);
   const Eigen::Vector3d normal = area.stableNormalized();
   Eigen::Vector3d longest = Eigen::Vector3d::Zero();
@@ -43,66 +43,122 @@ FaceClearance clearanceOf(const FaceSet& faces, std::size_t f, const Eigen::Vect
   const double length = longest.stableNorm();
   const double width = length > 0.0 ? 2.0 * area.stableNorm() / length : 0.0;
   const double uneven = farthest - nearest + 2.0 * rounding;
-  if (!(uneven < kMostTilt * width)) return {-std::numeric_limits<double>::infinity(), width};
+  if (!(uneven < kMostTilt * width)) return -std::numeric_limits<double>::infinity();
   // A plane through the corners may be tilted by this much along the face and across it.
   const Eigen::Vector3d way = faces.position(f, 0) - centre;
   const double along = std::abs(longest.dot(way)) / length;
   const double across = std::abs(normal.cross(longest).dot(way)) / length;
-  return {nearest - rounding - uneven * (1.0 + 2.0 * along / length + 2.0 * across / width), width};
+  return nearest - rounding - uneven * (1.0 + 2.0 * along / length + 2.0 * across / width);
 }
 
-/// Distance from `centre` to the boundary, from below. The normal of a narrow face is noise; where
-/// such a face seems near, it is still no farther than its width from one that is not.
-double clearance(const FaceSet& faces, const Eigen::Vector3d& centre) {
-  std::vector<FaceClearance> each;
+struct Ball {
+  Eigen::Vector3d centre;
+  double radius;
+};
+
+/// A ball within a body; of no radius if the normals of its faces are noise.
+Ball ballAround(const Eigen::Vector3d& centre, const FaceSet& faces) {
+  double radius = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < faces.faceCount(); ++f) {
-    each.push_back(clearanceOf(faces, f, centre));
+    radius = std::min(radius, clearanceOf(faces, f, centre));
   }
-  std::sort(each.begin(), each.end(),
-            [](const FaceClearance& f, const FaceClearance& g) { return f.distance < g.distance; });
-  double best = 0.0;
-  double widths = 0.0;  // of the faces that are passed over
-  for (const FaceClearance& face : each) {
-    best = std::max(best, face.distance - 2.0 * widths);
-    widths += face.width;
+  return {centre, faces.faceCount() > 0 ? std::max(radius, 0.0) : 0.0};
+}
+
+/// The point that `measure` is largest of.
+template <typename Measure>
+Eigen::Vector3d farthest(const FaceSet& faces, const Measure& measure) {
+  const auto& points = faces.vertices();
+  return *std::max_element(
+      points.begin(), points.end(),
+      [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return measure(p) < measure(q); });
+}
+
+/// The ball within a tetrahedron whose corners are some of a body's, about as thick as the body.
+Ball ballInTetrahedron(const FaceSet& faces, const Eigen::Vector3d& start) {
+  std::array<Eigen::Vector3d, 4> corner;
+  const auto from = [](const Eigen::Vector3d& o) {
+    return [o](const Eigen::Vector3d& p) { return (p - o).stableNorm(); };
+  };
+  corner[0] = farthest(faces, from(start));
+  corner[1] = farthest(faces, from(corner[0]));
+  const Eigen::Vector3d along = (corner[1] - corner[0]).stableNormalized();
+  corner[2] = farthest(
+      faces, [&](const Eigen::Vector3d& p) { return along.cross(p - corner[0]).stableNorm(); });
+  const Eigen::Vector3d normal = along.cross(corner[2] - corner[0]).stableNormalized();
+  corner[3] = farthest(
+      faces, [&](const Eigen::Vector3d& p) { return std::abs(normal.dot(p - corner[0])); });
+  if (normal.dot(corner[3] - corner[0]) > 0.0) std::swap(corner[1], corner[2]);
+  FaceSet tetrahedron;
+  for (const Eigen::Vector3d& p : corner) tetrahedron.addVertex(p);
+  // Each is across from the corner of its number.
+  tetrahedron.addFace({1, 3, 2});
+  tetrahedron.addFace({0, 2, 3});
+  tetrahedron.addFace({0, 3, 1});
+  tetrahedron.addFace({0, 1, 2});
+  Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+  double sum = 0.0;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const double area = tetrahedron.vectorArea(f).stableNorm();
+    weighted += area * corner[f];
+    sum += area;
   }
-  return best;
+  if (!(sum > 0.0)) return {start, 0.0};
+  return ballAround(weighted / sum, tetrahedron);
+}
+
+/// Normals of narrow faces may be noise, and such a face cannot be passed over: nothing says how
+/// far the boundary is behind it. The corners are points of the body all the same.
+Ball ballWithin(const FaceSet& faces) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& v : faces.vertices()) middle += v;
+  middle /= static_cast<double>(faces.vertices().size());
+  const Ball by_faces = ballAround(middle, faces);
+  const Ball by_corners = ballInTetrahedron(faces, middle);
+  return by_faces.radius >= by_corners.radius ? by_faces : by_corners;
 }
 
 /// Moves the faces inwards (by scaling about a point inside) by at least `error`, so that the true
 /// body contains them. Leaves nothing of a body that is not thicker than that.
 void shrink(double error, FaceSet& faces) {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : faces.vertices()) centre += v;
-  centre /= static_cast<double>(faces.vertices().size());
-  const double inradius = clearance(faces, centre);
-  if (!(inradius > 2.0 * error)) {
+  const Ball ball = ballWithin(faces);
+  if (!(ball.radius > 2.0 * error)) {
     faces.clear();
     return;
   }
-  const double scale = 1.0 - 2.0 * error / inradius;
-  for (Eigen::Vector3d& v : faces.vertices()) v = centre + scale * (v - centre);
+  const double scale = 1.0 - 2.0 * error / ball.radius;
+  for (Eigen::Vector3d& v : faces.vertices()) v = ball.centre + scale * (v - ball.centre);
 }
 
-Bounds massOfPrism(int rank, double error, const FaceSet& faces, const MassEffort& effort) {
+/// What the faces of a section, which contain it or are within it, weigh.
+Bounds massOfPrism(int rank, const FaceSet& faces, const MassEffort& effort) {
   if (faces.vertices().empty()) return {0.0, 0.0};
   if (rank == 0) return {1.0, 1.0};
-  Bounds mass = polytopeMass(toClosedPolytope(faces), error, effort);
+  if (rank == 1) {
+    const auto [first, last] = std::minmax_element(
+        faces.vertices().begin(), faces.vertices().end(),
+        [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return p.x() < q.x(); });
+    const double mass = normalIntervalMass(first->x(), last->x());
+    const double rounding = 2.0 * kIntervalMassRelativeError * mass + kUnderflow;
+    return {mass - rounding, mass + rounding};
+  }
+  Bounds mass = polytopeMass(toClosedPolytope(faces), 0.0, effort);
   mass.lower /= prismMass(rank) * (1.0 + 8.0 * kIntervalMassRelativeError);
-  mass.upper /= prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError);
+  mass.upper = mass.upper / (prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError)) + kUnderflow;
   return mass;
 }
 
 }  // namespace
 
 Bounds PairBounds::massOfSection(int rank, const Eigen::Vector3d& error, const MassEffort& effort) {
-  const double moving_error = errorOfMoving(rank, error);
+  const Eigen::Vector3d units = errorUnits(error);
   FaceSet inner = scratch_.faces;
-  shrink(error.norm(), inner);
-  replaceBySection(rank, Eigen::Vector3d::Zero(), inner);
-  replaceBySection(rank, error, scratch_.faces);
-  return {massOfPrism(rank, moving_error, inner, effort).lower,
-          massOfPrism(rank, moving_error, scratch_.faces, effort).upper};
+  scaleCoordinates(units.cwiseInverse(), inner);
+  shrink(error.cwiseQuotient(units).norm(), inner);
+  scaleCoordinates(units, inner);
+  replaceBySection(rank, error, SectionSide::inner, inner);
+  replaceBySection(rank, error, SectionSide::outer, scratch_.faces);
+  return {massOfPrism(rank, inner, effort).lower, massOfPrism(rank, scratch_.faces, effort).upper};
 }
 
 Bounds PairBounds::mass(const CObstacle& obstacle, const MassEffort& effort) {
@@ -110,10 +166,11 @@ Bounds PairBounds::mass(const CObstacle& obstacle, const MassEffort& effort) {
   if (!frame.fits) return {0.0, 1.0};
   setInterruption(effort.interruption);
   const EnclosingFaces enclosing = obstacle.outerFaces(scratch_);
-  const Eigen::Vector3d error = frame.whitened(enclosing.error);
   Bounds mass = frame.rank < 3
-                    ? massOfSection(frame.rank, error, effort)
-                    : polytopeMass(toClosedPolytope(scratch_.faces), error.norm(), effort);
+                    ? massOfSection(frame.rank,
+                                    frame.whitened(std::max(enclosing.error, frame.error)), effort)
+                    : polytopeMass(toClosedPolytope(scratch_.faces),
+                                   frame.whitened(enclosing.error).norm(), effort);
   mass.lower = enclosing.only_box ? 0.0 : std::max(mass.lower, 0.0);
   mass.upper = std::min(mass.upper, 1.0);
   return mass;

@@ -24,7 +24,7 @@ inline DisplacementBall obstacleOf(const PairFrame& frame, const Eigen::Vector3d
                                    double radius_a, const Eigen::Vector3d& centre_b,
                                    double radius_b) {
   return {frame.rotation_b * centre_b - frame.rotation_a * centre_a + frame.offset,
-          radius_a + radius_b};
+          (radius_a + radius_b) * (1.0 + frame.ball_stretch)};
 }
 
 /// Density at the centre times volume.

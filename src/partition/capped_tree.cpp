@@ -23,10 +23,12 @@ NodeBox CappedTree::boxOfCapTriangles(int first, int last) const {
   NodeBox box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   for (int t = first; t < last; ++t) {
     for (int corner = 0; corner < 3; ++corner) {
-      const Eigen::Vector3d& v = mesh_->vertices[caps().triangles[t][corner]];
+      const int vertex = caps().triangles[t][corner];
+      const Eigen::Vector3d& v = mesh_->vertices[vertex];
+      const Eigen::Vector3d pad = mesh_->error + mesh_->motionOf(vertex);
       for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(box.lo[k], v[k] - mesh_->error[k]);
-        box.hi[k] = std::max(box.hi[k], v[k] + mesh_->error[k]);
+        box.lo[k] = std::min(box.lo[k], v[k] - pad[k]);
+        box.hi[k] = std::max(box.hi[k], v[k] + pad[k]);
       }
     }
   }

@@ -323,8 +323,8 @@ double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
   const double a = support_a_.along(m, nodes.a);
   const double b = -support_b_.along(-m, nodes.b);
-  const double error =
-      4 * (pair_.a.errorAlong(m) + pair_.b.errorAlong(m)) + 1e-15 * (std::fabs(a) + std::fabs(b));
+  const double error = 4 * (pair_.a.errorAlong(m, nodes.a) + pair_.b.errorAlong(m, nodes.b)) +
+                       1e-15 * (std::fabs(a) + std::fabs(b));
   return b - a - error;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <limits>
 
 #include "fcl_prob/normal_mass.h"
 
@@ -29,11 +30,22 @@ double truncatedNormal(double lo, double hi, double u) {
   return std::clamp(y, lo, hi);
 }
 
-// Sets of samples a cell: their differences give the variance.
-constexpr int kSets = 8;
+// Sets of samples a cell: their differences give the variance. A few cells have more, so that the
+// variance of all of them together is known well enough.
+constexpr int kLeastSets = 8;
+constexpr int kMostSets = 32;
+constexpr int kSetsInAll = 256;
+
+int setsFor(std::size_t cells) {
+  const int of_each = kSetsInAll / static_cast<int>(std::clamp<std::size_t>(cells, 1, kSetsInAll));
+  return std::clamp(of_each, kLeastSets, kMostSets);
+}
 
 // No cell gets more samples than this in one set.
 constexpr double kMostInSet = 4096;
+
+// Cells between two looks at the clock.
+constexpr std::size_t kCellsBetweenPolls = 16;
 
 // A point of the unit cube for one set of samples of a cell.
 Eigen::Vector3d uniformPoint(std::uint64_t seed, std::uint64_t cell, std::uint64_t set) {
@@ -61,16 +73,50 @@ Eigen::Vector3d evenPoint(const Eigen::Vector3d& shift, int index) {
   return point;
 }
 
-// Of the mean of samples that all collide, or none of which does: as if the next two were one of
-// each kind (Laplace's rule of succession), and no more than the open mass can vary.
-double varianceWhereAllAgree(const OpenCell& cell, int samples) {
-  if (!(cell.drawn > 0.0)) return 0.0;
-  const double open_share = std::clamp(cell.gap() / cell.drawn, 0.0, 1.0);
-  const double other = std::min(1.0 / (samples + 2.0), open_share);
-  return cell.drawn * cell.drawn * other * (1.0 - other) / samples;
+// How much farther out than four deviations Student's t with so many degrees of freedom has the
+// tail of the normal distribution there (expansion of Fisher and Cornish 1960, with z = 4).
+double tailFactor(double freedom) { return 1.0 + (4.25 + 16.0 / freedom) / freedom; }
+
+// The differences between sets tell the variance without bias, but nothing where all samples agree,
+// and little where few do not. After k hits the mean of a Poisson variable is above k + 4 sqrt(k +
+// 4) about as rarely as a normal one is above its four deviations (k = 0: 10, k = 10: 25), so four
+// squares of what one sample changes are added to the variance of all cells. Where that differs
+// between cells it is their mean by variance, as in the third cumulant, ...
+constexpr double kMissingJumps = 4.0;
+
+// ... to which a cell whose samples agree adds as if half of the next one did not (Jeffreys'
+// prior).
+constexpr double kUnseenHits = 0.5;
+
+SampledVariance average(const SampledVariance& a, double share_a, const SampledVariance& b,
+                        double share_b) {
+  const double square_a = share_a * share_a, square_b = share_b * share_b;
+  return {a.unit, square_a * a.variance + square_b * b.variance,
+          square_a * square_a * a.uncertainty + square_b * square_b * b.uncertainty,
+          square_a * a.weight + square_b * b.weight,
+          square_a * share_a * a.jumps + square_b * share_b * b.jumps};
+}
+
+// Adds a cell's mean of so many sets with this sum of squares.
+void addCell(double sum_squares, int sets, double jump, SampledVariance& total) {
+  const double of_mean = sum_squares / (sets * (sets - 1.0));
+  total.variance += of_mean;
+  total.uncertainty += of_mean * of_mean / (sets - 1.0);
+  const double likely = of_mean + kUnseenHits * jump * jump;
+  total.weight += likely;
+  total.jumps += likely * jump;
 }
 
 }  // namespace
+
+double SampledVariance::standardError() const {
+  if (!(weight > 0.0)) return 0.0;
+  const double jump = jumps / weight;
+  // Degrees of freedom by Welch (1947) and Satterthwaite.
+  const double inverse_freedom = variance > 0.0 ? uncertainty / variance / variance : 0.0;
+  const double factor = tailFactor(1.0 / std::max(inverse_freedom, 1e-300));
+  return unit * std::sqrt(factor * factor * variance + kMissingJumps * jump * jump);
+}
 
 SampledMass average(const SampledMass& a, const SampledMass& b) {
   SampledMass sum;
@@ -78,11 +124,12 @@ SampledMass average(const SampledMass& a, const SampledMass& b) {
   const double share_a = static_cast<double>(a.samples) / static_cast<double>(sum.samples);
   const double share_b = 1.0 - share_a;
   sum.mass = share_a * a.mass + share_b * b.mass;
-  sum.variance = share_a * share_a * a.variance + share_b * share_b * b.variance;
+  sum.spread = average(a.spread, share_a, b.spread, share_b);
   sum.doubt = share_a * a.doubt + share_b * b.doubt;
   sum.moment = share_a * a.moment + share_b * b.moment;
-  sum.moment_variance =
-      share_a * share_a * a.moment_variance + share_b * share_b * b.moment_variance;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum.moment_spread[k] = average(a.moment_spread[k], share_a, b.moment_spread[k], share_b);
+  }
   sum.moment_doubt = share_a * a.moment_doubt + share_b * b.moment_doubt;
   return sum;
 }
@@ -125,30 +172,28 @@ CellSampler::Draw CellSampler::draw(const OpenCell& open, const Eigen::Vector3d&
 
 // Means and spreads are updated set by set (Welford): a difference of sums of squares may come out
 // negative where all sets agree.
-CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index,
+CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index, int sets,
                                                int in_set) {
   points_.clear();
   weights_.clear();
   const PartMeasure measure(cell.cell);
-  for (int set = 0; set < kSets; ++set) {
-    const std::uint64_t number = kSets * calls_ + static_cast<std::uint64_t>(set);
+  for (int set = 0; set < sets; ++set) {
+    const std::uint64_t number = sets_drawn_ + static_cast<std::uint64_t>(set);
     const Eigen::Vector3d shift = uniformPoint(seed_, index, number);
     for (int i = 0; i < in_set; ++i) {
       const Draw drawn = draw(cell, evenPoint(shift, i));
       const bool counted = drawn.weight > 0.0 && !measure.counts(cell.part, drawn.point);
       points_.push_back({drawn.point, !counted, false});
-      weights_.push_back(counted ? drawn.weight / in_set : 0.0);
+      weights_.push_back(counted ? drawn.weight / unit_ / in_set : 0.0);
     }
   }
   tester_.test(cell.front, points_);
   CellMeans means;
-  std::size_t hits = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    hits += points_[i].collides && weights_[i] > 0.0;
-    if (points_[i].doubtful) means.doubt += weights_[i] / kSets;
+    if (points_[i].doubtful) means.doubt += weights_[i] / sets;
+    means.largest_weight = std::max(means.largest_weight, weights_[i]);
   }
-  means.agree = hits == 0 || hits == points_.size();
-  for (int set = 0; set < kSets; ++set) {
+  for (int set = 0; set < sets; ++set) {
     double mass = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     for (int i = set * in_set; i < (set + 1) * in_set; ++i) {
@@ -167,27 +212,49 @@ CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64
   return means;
 }
 
-SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count) {
+void CellSampler::add(const CellMeans& means, const OpenCell& cell, int sets, int in_set,
+                      SampledMass& total) const {
+  const Eigen::Vector3d reach = cell.cell.largestCoordinates();
+  // No sample changes more than all of the gap.
+  const double jump = std::min(std::max(means.largest_weight, cell.drawn / unit_ / in_set) / sets,
+                               cell.gap() / unit_);
+  total.mass += unit_ * means.mass;
+  addCell(means.mass_spread, sets, jump, total.spread);
+  total.doubt += unit_ * means.doubt;
+  total.moment += unit_ * means.moment;
+  for (int k = 0; k < 3; ++k) {
+    addCell(means.moment_spread[k], sets, jump * reach[k],
+            total.moment_spread[static_cast<std::size_t>(k)]);
+  }
+  total.moment_doubt += unit_ * means.doubt * reach;
+  total.samples += static_cast<std::size_t>(sets) * static_cast<std::size_t>(in_set);
+}
+
+SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count,
+                                const Interruption& interruption) {
+  const int sets = setsFor(cells.size());
   double deviation = 0.0;
   for (const OpenCell& cell : cells) deviation += cell.samplingDeviation();
-  const double sets_per_deviation = deviation > 0.0 ? count / kSets / deviation : 0.0;
-  constexpr double kVariance = 1.0 / (kSets * (kSets - 1.0));
+  const double sets_per_deviation = deviation > 0.0 ? count / sets / deviation : 0.0;
+  double drawn = 0.0;
+  for (const OpenCell& cell : cells) drawn += cell.drawn;
+  unit_ = std::max(drawn, std::numeric_limits<double>::min());
   SampledMass total;
+  total.spread.unit = unit_;
+  for (SampledVariance& spread : total.moment_spread) spread.unit = unit_;
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i % kCellsBetweenPolls == 0 && !total.interrupted) total.interrupted = isDue(interruption);
+    if (total.interrupted) {
+      total.mass += 0.5 * cells[i].gap();
+      total.doubt += 0.5 * cells[i].gap();
+      total.moment_doubt += cells[i].gap() * cells[i].cell.largestCoordinates();
+      continue;
+    }
     const double in_set = sets_per_deviation * cells[i].samplingDeviation();
     const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
-    const CellMeans means = sampleCell(cells[i], i, n);
-    total.mass += means.mass;
-    const double least = means.agree ? varianceWhereAllAgree(cells[i], kSets * n) : 0.0;
-    total.variance += std::max(least, kVariance * means.mass_spread);
-    total.moment += means.moment;
-    const Eigen::Vector3d least_moment = least * cells[i].cell.largestCoordinates().cwiseAbs2();
-    total.moment_variance += (kVariance * means.moment_spread).cwiseMax(least_moment);
-    total.doubt += means.doubt;
-    total.moment_doubt += means.doubt * cells[i].cell.largestCoordinates();
-    total.samples += kSets * static_cast<std::size_t>(n);
+    add(sampleCell(cells[i], i, sets, n), cells[i], sets, n, total);
   }
-  ++calls_;
+  sets_drawn_ += static_cast<std::uint64_t>(sets);
   return total;
 }
 

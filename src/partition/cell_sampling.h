@@ -3,25 +3,42 @@
 // The estimate: stratified sampling of what the partition leaves open.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "gaussian/interruption.h"
 #include "partition/point_tester.h"
 
 namespace fcl_prob::detail {
 
+/// Of one sampled quantity: what its standard error is made of.
+struct SampledVariance {
+  double unit = 1.0;  ///< of the mass, so that squares of small ones do not underflow
+  double variance = 0.0;
+  double uncertainty = 0.0;  ///< Σ v²/ν over the cells: variances v with ν degrees of freedom
+  double weight = 0.0;       ///< Σ u over the cells: what their variances may well be
+  double jumps = 0.0;        ///< Σ u d, with what one sample of another kind would have changed, d
+
+  /// Such that a few of it are as rarely exceeded as of a normal distribution, however few samples
+  /// and cells there are.
+  double standardError() const;
+};
+
 struct SampledMass {
   double mass = 0.0;
-  double variance = 0.0;
-  double doubt = 0.0;  ///< of `mass`: samples that may collide or not, within rounding
+  SampledVariance spread;
+  double doubt = 0.0;  ///< of `mass`: samples that may collide or not within rounding, and what was
+                       ///< not sampled for lack of time
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  Eigen::Vector3d moment_variance = Eigen::Vector3d::Zero();
+  std::array<SampledVariance, 3> moment_spread;
   Eigen::Vector3d moment_doubt = Eigen::Vector3d::Zero();
   std::size_t samples = 0;
+  bool interrupted = false;  ///< not all cells were sampled
 
   /// Of chance and of doubt, which does not average out.
-  double standardError() const { return std::sqrt(variance + doubt * doubt); }
+  double standardError() const { return std::hypot(spread.standardError(), doubt); }
 };
 
 /// Of two sets of samples of the same cells, each counted by its size.
@@ -36,29 +53,35 @@ class CellSampler {
   CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
               std::uint64_t seed);
 
-  /// About `count` samples, at least a few a cell. Every call draws others.
-  SampledMass sample(const std::vector<OpenCell>& cells, double count);
+  /// About `count` samples, at least a few a cell. Every call draws others. Once interrupted it
+  /// takes half the gap of the cells that are left, and doubts it.
+  SampledMass sample(const std::vector<OpenCell>& cells, double count,
+                     const Interruption& interruption);
 
  private:
-  /// Means over the sets, and the sums of the squares of what the sets are off them.
+  /// Means over the sets (masses in `unit_`), and the sums of the squares of what the sets are off
+  /// them.
   struct CellMeans {
     double mass = 0.0;
     double mass_spread = 0.0;
     double doubt = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     Eigen::Vector3d moment_spread = Eigen::Vector3d::Zero();
-    bool agree = false;  ///< all samples collide, or none does
+    double largest_weight = 0.0;  ///< of one sample
   };
   struct Draw {
     Eigen::Vector3d point;
     double weight;
   };
-  CellMeans sampleCell(const OpenCell& cell, std::uint64_t index, int in_set);
+  CellMeans sampleCell(const OpenCell& cell, std::uint64_t index, int sets, int in_set);
+  void add(const CellMeans& means, const OpenCell& cell, int sets, int in_set,
+           SampledMass& total) const;
   Draw draw(const OpenCell& cell, const Eigen::Vector3d& uniform) const;
 
   PointTester tester_;
   std::uint64_t seed_;
-  std::uint64_t calls_ = 0;
+  std::uint64_t sets_drawn_ = 0;  ///< of each cell, by earlier calls
+  double unit_ = 1.0;
   std::vector<TestedPoint> points_;
   std::vector<double> weights_;
 };

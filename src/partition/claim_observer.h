@@ -11,9 +11,9 @@
 namespace fcl_prob::detail {
 
 /// One verdict on all of cell ∩ within, a set of points of the whitened frame (its inside: what is
-/// on the planes weighs nothing). It holds for the displacements ε = mean + axes diag(σ) z with
-/// y = W (ε - mean) in that set, in exact arithmetic over the doubles that W, the mean, the axes
-/// and the standard deviations are; axes of the cell that do not move are left out.
+/// on the planes weighs nothing). It holds for the displacements ε = mean + A Rᵀ y with y in that
+/// set, in exact arithmetic: A the displacement's axes that move, each times its standard
+/// deviation, and R the rotation nearest to W A. Coordinates that do not move are left out.
 struct Claim {
   const char* method;  ///< what proves it
   bool collides;       ///< every displacement of the set leads to contact, or none does

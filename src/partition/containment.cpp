@@ -5,98 +5,125 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "gaussian/constants.h"
+#include "geometry/exact_sum.h"
+
 namespace fcl_prob::detail {
 
 namespace {
 
-// Points, one in every connected part of the surface of object.parts[i], geometry's frame.
-std::vector<Eigen::Vector3d> surfacePoints(const PartitionObject& object, std::size_t i) {
-  if (object.parts[i].solid) return object.parts[i].solid->partPoints();
-  const PieceTree& tree = *object.tree;
-  const PieceTree::Part& part = tree.parts[i];
-  std::vector<Eigen::Vector3d> points;
-  if (part.vertices.begin < part.vertices.end) {
-    points.push_back(part.origin + tree.vertices[part.vertices.begin]);
+// Roundings of a point's way to the frame of the outer solid, relative to the sum of the
+// coordinates on it: nine of the inverse of its rotation, three of each product; doubled.
+constexpr double kRoundings = 32.0;
+
+BoxesWithin boxesOf(const std::vector<SurfacePart>& parts) {
+  std::vector<NodeBox> boxes;
+  boxes.reserve(parts.size());
+  for (const SurfacePart& part : parts) boxes.push_back(part.box);
+  return BoxesWithin(boxes);
+}
+
+// From the outer solid's origin to those of the inner object's parts, displaced by the mean, in the
+// axes of the world.
+std::vector<Eigen::Vector3d> offsetsTo(const PartitionObject& inner, const fcl::Transform3d& outer,
+                                       const Eigen::Vector3d& mean) {
+  std::vector<Eigen::Vector3d> offsets;
+  for (std::size_t i = 0; i < inner.parts.size(); ++i) {
+    ExactPosition offset;
+    offset.add(mean);
+    offset.add(outer.translation(), -1.0);
+    offset.add(inner.parts[i].pose, inner.tree->parts[i].origin);
+    offsets.push_back(offset.value().cast<double>());
   }
-  for (int j = part.bodies.begin; j < part.bodies.end; ++j) {
-    const PieceTree::Body& body = tree.bodies[j];
-    points.push_back(part.origin + body.position + tree.shapes[body.shape].body.points.front());
-  }
-  return points;
+  return offsets;
 }
 
 }  // namespace
 
 SolidContact::SolidContact(const PartitionObject& a, const PartitionObject& b,
                            const Whitening& whitening, const WhitenedPair& pair)
-    : whitening_(whitening) {
-  addDirections(a, pair.a, b, pair.b, 1.0);
-  addDirections(b, pair.b, a, pair.a, -1.0);
+    : unwhitening_(whitening.inverse()) {
+  const std::vector<SurfacePart> parts_of_a = surfaceParts(a, pair.a);
+  const std::vector<SurfacePart> parts_of_b = surfaceParts(b, pair.b);
+  parts_of_a_ = boxesOf(parts_of_a);
+  parts_of_b_ = boxesOf(parts_of_b);
+  Eigen::Vector3d rounding = 4 * (pair.a.error + pair.b.error);
+  // The boxes may contain motions, on either side.
+  for (const WhitenedTree* tree : {&pair.a, &pair.b}) {
+    if (!tree->node_motions.empty()) rounding += 2 * tree->node_motions[0];
+  }
+  addDirections(a, parts_of_a, b, pair.b, {1.0, whitening.mean(), rounding});
+  addDirections(b, parts_of_b, a, pair.a, {-1.0, -whitening.mean(), rounding});
 }
 
-void SolidContact::addDirections(const PartitionObject& inner, const WhitenedTree& of_inner,
+void SolidContact::addDirections(const PartitionObject& inner,
+                                 const std::vector<SurfacePart>& parts,
                                  const PartitionObject& outer, const WhitenedTree& of_outer,
-                                 double sign) {
+                                 const Motion& motion) {
   for (std::size_t j = 0; j < outer.parts.size(); ++j) {
     const PlacedPart& around = outer.parts[j];
     if (!around.solid) continue;
-    for (std::size_t i = 0; i < inner.parts.size(); ++i) {
-      if (inner.tree->parts[i].root < 0) continue;
-      Direction direction;
-      direction.outer = around.solid;
-      // Not the transpose: the matrix need not be a rotation to the last bit.
-      const Eigen::Matrix3d unrotate = around.pose.linear().inverse();
-      const Eigen::Matrix3d rotation = unrotate * inner.parts[i].pose.linear();
-      const Eigen::Vector3d translation =
-          unrotate * (inner.parts[i].pose.translation() - around.pose.translation());
-      for (const Eigen::Vector3d& point : surfacePoints(inner, i)) {
-        direction.points.push_back(rotation * point + translation);
-      }
-      direction.shift = sign * unrotate;
-      direction.outer_box = of_outer.boxes[outer.tree->parts[j].root];
-      direction.inner_box = of_inner.boxes[inner.tree->parts[i].root];
-      direction.sign = sign;
-      direction.rounding = 4 * (of_inner.error + of_outer.error);
-      directions_.push_back(std::move(direction));
+    Direction direction;
+    direction.outer = around.solid;
+    direction.sign = motion.sign;
+    // Not the transpose: the matrix need not be a rotation to the last bit.
+    const Eigen::Matrix3d unrotate = around.pose.linear().inverse();
+    direction.shift = motion.sign * unrotate;
+    const auto offsets = offsetsTo(inner, around.pose, motion.mean);
+    for (const SurfacePart& part : parts) {
+      const Eigen::Matrix3d& linear = inner.parts[part.part].pose.linear();
+      const Eigen::Vector3d& offset = offsets[part.part];
+      const double reach = offset.lpNorm<1>() + (linear.cwiseAbs() * part.point.cwiseAbs()).sum();
+      direction.points.push_back(
+          {unrotate * (offset + linear * part.point),
+           kRoundings * kEpsilon * reach + 2 * inner.tree->parts[part.part].error});
     }
+    direction.outer_box = of_outer.boxes[outer.tree->parts[j].root];
+    for (int k = 0; k < 3; ++k) {
+      direction.outer_box.lo[k] -= motion.rounding[k];
+      direction.outer_box.hi[k] += motion.rounding[k];
+    }
+    directions_.push_back(std::move(direction));
   }
 }
 
-// The inner object's box, moved, can be within the outer one's for some displacement of the cell.
-bool SolidContact::fits(const Direction& direction, const Cell& cell) {
-  for (int k = 0; k < 3; ++k) {
-    const double lo = direction.sign > 0 ? cell.lo[k] : -cell.hi[k];
-    const double hi = direction.sign > 0 ? cell.hi[k] : -cell.lo[k];
-    if (direction.inner_box.lo[k] + hi < direction.outer_box.lo[k] - direction.rounding[k])
-      return false;
-    if (direction.inner_box.hi[k] + lo > direction.outer_box.hi[k] + direction.rounding[k])
-      return false;
+// Calls `function(index)` for the parts of the inner object whose boxes fit into the outer solid's
+// for some displacement of the cell, until it returns false.
+template <typename Function>
+bool SolidContact::visitFitting(const Direction& direction, const Cell& cell,
+                                Function&& function) const {
+  if (direction.sign > 0) {
+    return parts_of_a_.visit(cell.lo, cell.hi, direction.outer_box, function);
   }
-  return true;
+  return parts_of_b_.visit(-cell.hi, -cell.lo, direction.outer_box, function);
 }
 
 bool SolidContact::possible(const Cell& cell) const {
-  return std::any_of(directions_.begin(), directions_.end(),
-                     [&cell](const Direction& direction) { return fits(direction, cell); });
+  const auto stop = [](int) { return false; };
+  return std::any_of(directions_.begin(), directions_.end(), [&](const Direction& direction) {
+    return !visitFitting(direction, cell, stop);
+  });
 }
 
-Containment SolidContact::decide(const Direction& direction,
-                                 const Eigen::Vector3d& displacement) const {
-  const Eigen::Vector3d shift = direction.shift * displacement;
-  bool unknown = false;
-  for (const Eigen::Vector3d& point : direction.points) {
-    const Containment containment = direction.outer->contains(point + shift);
-    if (containment == Containment::inside) return containment;
-    unknown = unknown || containment == Containment::unknown;
-  }
-  return unknown ? Containment::unknown : Containment::outside;
+Containment SolidContact::decide(const Direction& direction, const Eigen::Vector3d& y) const {
+  const Eigen::Vector3d moved = unwhitening_ * y;
+  const Eigen::Vector3d shift = direction.shift * moved;
+  const double error = kRoundings * kEpsilon * (unwhitening_.cwiseAbs() * y.cwiseAbs()).sum();
+  Containment result = Containment::outside;
+  visitFitting(direction, {y, y, 3}, [&](int i) {
+    const PartPoint& point = direction.points[i];
+    const Containment containment =
+        direction.outer->contains(point.position + shift, point.error + error);
+    if (containment != Containment::outside) result = containment;
+    return containment != Containment::inside;
+  });
+  return result;
 }
 
 Containment SolidContact::at(const Eigen::Vector3d& y) const {
-  const Eigen::Vector3d displacement = whitening_.unapply(y);
   bool unknown = false;
   for (const Direction& direction : directions_) {
-    const Containment containment = decide(direction, displacement);
+    const Containment containment = decide(direction, y);
     if (containment == Containment::inside) return containment;
     unknown = unknown || containment == Containment::unknown;
   }

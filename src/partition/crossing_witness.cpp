@@ -55,11 +55,11 @@ std::vector<int> spreadVertices(const PieceTree& tree, std::size_t count) {
 }
 
 std::vector<std::array<int, 6>> extremesOfComponents(const WhitenedTree& mesh) {
-  const MeshCaps& caps = *mesh.tree->caps;
-  std::vector<std::array<int, 6>> extremes(caps.component_count);
+  const SurfaceComponents& components = mesh.tree->caps->components;
+  std::vector<std::array<int, 6>> extremes(components.count);
   for (auto& six : extremes) six.fill(-1);
-  for (int v = 0; v < static_cast<int>(caps.component_of_vertex.size()); ++v) {
-    const int component = caps.component_of_vertex[v];
+  for (int v = 0; v < static_cast<int>(components.of_vertex.size()); ++v) {
+    const int component = components.of_vertex[v];
     if (component < 0) continue;
     for (int k = 0; k < 3; ++k) {
       int& lowest = extremes[component][2 * k];
@@ -113,10 +113,11 @@ CrossingWitness::SweptVertex CrossingWitness::sweep(const Side& side, int vertex
                                                     const Cell& cell) {
   SweptVertex swept;
   const Eigen::Vector3d& p = side.inner.mesh().vertices[vertex];
+  const Eigen::Vector3d moved = side.inner.mesh().error + side.inner.mesh().motionOf(vertex);
   for (int k = 0; k < 3; ++k) {
     const double lo = side.sign > 0 ? cell.lo[k] : -cell.hi[k];
     const double hi = side.sign > 0 ? cell.hi[k] : -cell.lo[k];
-    const double pad = side.inner.mesh().error[k] + 4 * kEpsilon * (std::fabs(p[k]) + kReach);
+    const double pad = moved[k] + 4 * kEpsilon * (std::fabs(p[k]) + kReach);
     swept.lo[k] = p[k] + lo - pad;
     swept.hi[k] = p[k] + hi + pad;
   }
@@ -168,7 +169,7 @@ std::optional<bool> CrossingWitness::isInside(Side& side, const SweptVertex& swe
 // Whether a vertex inside means contact, for all displacements of the cell.
 bool CrossingWitness::crosses(Side& side, int vertex, const Cell& cell) {
   if (solid_) return true;
-  return leaves(side, side.inner.mesh().tree->caps->component_of_vertex[vertex], cell) &&
+  return leaves(side, side.inner.mesh().tree->caps->components.of_vertex[vertex], cell) &&
          avoidsCaps(side, cell);
 }
 
@@ -288,21 +289,26 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
     double of_vertices = -kInfinity;
     Eigen::Vector3d lo = outer.vertices[t[0]];
     Eigen::Vector3d hi = lo;
+    Eigen::Vector3d motion = Eigen::Vector3d::Zero();
     for (int corner = 0; corner < 3; ++corner) {
       const Eigen::Vector3d& v = outer.vertices[t[corner]];
+      motion = motion.cwiseMax(outer.motionOf(t[corner]));
       of_vertices = std::max(of_vertices, side.sign * m.dot(v - p));
       lo = lo.cwiseMin(v);
       hi = hi.cwiseMax(v);
     }
+    of_vertices += m.cwiseAbs().dot(motion);
     double of_box = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const double from = std::max(lo[k] - outer.error[k], swept.lo[k]) - p[k];
-      const double to = std::min(hi[k] + outer.error[k], swept.hi[k]) - p[k];
+      const double pad = outer.error[k] + motion[k];
+      const double from = std::max(lo[k] - pad, swept.lo[k]) - p[k];
+      const double to = std::min(hi[k] + pad, swept.hi[k]) - p[k];
       of_box += std::max(side.sign * m[k] * from, side.sign * m[k] * to);
     }
     highest = std::max(highest, std::min(of_vertices, of_box));
   }
   return highest + 4 * (side.inner.mesh().errorAlong(m) + outer.errorAlong(m)) +
+         m.cwiseAbs().dot(side.inner.mesh().motionOf(vertex)) +
          64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
 }
 

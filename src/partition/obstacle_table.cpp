@@ -116,16 +116,14 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
 SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
   const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
-  const Eigen::Vector3d error = pair_.a.error + pair_.b.error;
+  const Eigen::Vector3d error = pair_.a.errorOf(leaves.a) + pair_.b.errorOf(leaves.b);
   slabKernels().triangleSlabs(a.data(), b.data(), error.data(), data);
   return {data, kTriangleSlabs};
 }
 
 SlabArrays ObstacleTable::buildPieces(NodePair leaves) {
   const bool few = hasFewSlabs(leaves);
-  const PieceSlabs slabs = few ? pieceSlabs(pair_.a, pair_.a.tree->nodes[leaves.a].piece, pair_.b,
-                                            pair_.b.tree->nodes[leaves.b].piece)
-                               : supportSlabs(support(leaves));
+  const PieceSlabs slabs = few ? pieceSlabs(pair_, leaves) : supportSlabs(support(leaves));
   double* data = allocate(slabs.count);
   std::copy(slabs.data.begin(), slabs.data.end(), data);
   return {data, slabs.count, !few};
@@ -153,7 +151,7 @@ Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
   const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
                                 largestCoordinates(pair_.b.boxes[leaves.b]) +
                                 Eigen::Vector3d::Constant(kReach);
-  return 4 * (pair_.a.error + pair_.b.error) + 32 * kEpsilon * reach;
+  return 4 * (pair_.a.errorOf(leaves.a) + pair_.b.errorOf(leaves.b)) + 32 * kEpsilon * reach;
 }
 
 SupportObstacle ObstacleTable::support(NodePair leaves) const {

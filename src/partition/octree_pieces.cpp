@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gaussian/constants.h"
+
 namespace fcl_prob::detail {
 
 namespace {
@@ -54,7 +56,11 @@ class OcTreeReader {
   };
 
   Subtree read(const OcTreeNode* node, const Box& box, int depth) {
-    if (!octree_.nodeHasChildren(node)) return {octree_.isNodeOccupied(node), -1};
+    if (!octree_.nodeHasChildren(node)) {
+      const bool occupied = octree_.isNodeOccupied(node);
+      tree_.any_cell_also_free |= occupied && octree_.isNodeFree(node);
+      return {occupied, -1};
+    }
     if (octree_.isNodeFree(node) || !octree_.isNodeOccupied(node)) return {};
     std::array<Box, 8> boxes;
     std::array<Subtree, 8> children;
@@ -106,6 +112,11 @@ class OcTreeReader {
 
 }  // namespace
 
-void fillOcTree(const fcl::OcTreed& octree, PieceTree& tree) { OcTreeReader(octree, tree).run(); }
+double fillOcTree(const fcl::OcTreed& octree, PieceTree& tree) {
+  OcTreeReader(octree, tree).run();
+  const Box root = octree.getRootBV();
+  // A cell's middle, and its own side beside that of the first one of its depth.
+  return 4 * kEpsilon * std::max(root.min_.cwiseAbs().maxCoeff(), root.max_.cwiseAbs().maxCoeff());
+}
 
 }  // namespace fcl_prob::detail

@@ -6,12 +6,15 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "partition/cell_sampling.h"
 #include "partition/claim_observer.h"
 #include "partition/closest_approach.h"
 #include "partition/partition_engine.h"
+#include "partition/without_contact.h"
 
 namespace fcl_prob::detail {
 
@@ -57,10 +60,14 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   return {rotated, std::move(pair)};
 }
 
-// ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative), W the rows that move.
+constexpr const char* kNoGradient =
+    "no gradient: what the mean changes where A does not move is no moment of the section";
+
+// ∂P/∂mean = Wᵀ E[y 1_V] (the log density's derivative). Only with a density: where A does not
+// move, P still changes with the mean, by what the boundary of the section sweeps, which no moment
+// of the section tells.
 void fillGradient(const QueryFrame& frame, const MomentBounds& moment, ProbabilityResult& result) {
-  Eigen::Matrix3d moving = frame.whitening.matrix();
-  for (int k = frame.whitening.rank(); k < 3; ++k) moving.row(k).setZero();
+  const Eigen::Matrix3d moving = frame.whitening.matrix();
   const Eigen::Vector3d middle = 0.5 * (moment.lower + moment.upper);
   const Eigen::Vector3d half = 0.5 * (moment.upper - moment.lower);
   const Eigen::Vector3d gradient = moving.transpose() * middle;
@@ -73,18 +80,22 @@ void fillGradient(const QueryFrame& frame, const MomentBounds& moment, Probabili
 
 void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
                   const SampledMass& sampled, bool with_gradient, ProbabilityResult& result) {
-  result.estimate = engine.estimate(sampled);
-  result.standard_error = sampled.standardError();
+  const EngineEstimate estimate = engine.estimate(sampled);
+  result.estimate = estimate.value;
+  result.standard_error = estimate.standard_error;
   result.statistics.samples = sampled.samples;
   if (!with_gradient) return;
-  Eigen::Matrix3d moving = frame.whitening.matrix();
-  for (int k = frame.whitening.rank(); k < 3; ++k) moving.row(k).setZero();
+  const Eigen::Matrix3d moving = frame.whitening.matrix();
   Eigen::Vector3d moment = engine.settled().moment + sampled.moment;
   for (const OpenCell& cell : engine.openCells()) moment += engine.coveredPart(cell).moment;
   result.gradient = moving.transpose() * moment;
   const Eigen::Vector3d doubt = moving.cwiseAbs().transpose() * sampled.moment_doubt;
+  Eigen::Vector3d of_moment;
+  for (int k = 0; k < 3; ++k) {
+    of_moment[k] = sampled.moment_spread[static_cast<std::size_t>(k)].standardError();
+  }
   const Eigen::Vector3d variance =
-      moving.cwiseAbs2().transpose() * sampled.moment_variance + doubt.cwiseAbs2();
+      moving.cwiseAbs2().transpose() * of_moment.cwiseAbs2() + doubt.cwiseAbs2();
   result.gradient_standard_error = variance.cwiseSqrt();
 }
 
@@ -95,7 +106,8 @@ void decide(const ProbabilityRequest& request, ProbabilityResult& result) {
                                                          : Decision::undecided;
 }
 
-void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
+void describe(const QueryFrame& frame, bool solids, const ProbabilityRequest& request,
+              ProbabilityResult& result) {
   const int rank = frame.whitening.rank();
   result.plan.push_back("partition of the displacement space into " +
                         std::to_string(result.statistics.cells) + " cells, " +
@@ -104,26 +116,8 @@ void describe(const QueryFrame& frame, bool solids, ProbabilityResult& result) {
     result.plan.push_back("covariance of rank " + std::to_string(rank) + ": " +
                           std::to_string(3 - rank) + " axes left out of the cells");
   }
+  if (request.gradient && rank < 3) result.plan.push_back(kNoGradient);
   if (solids) result.plan.push_back("containment decided once for every free cell");
-}
-
-ProbabilityResult withoutContact(const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  const bool estimate = request.method == ProbabilityMethod::estimate;
-  result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
-  result.status = ProbabilityStatus::exact;
-  result.lower = 0.0;
-  result.upper = 0.0;
-  if (estimate) {
-    result.estimate = 0.0;
-    result.standard_error = 0.0;
-  }
-  if (request.gradient) {
-    result.gradient = result.gradient_lower = result.gradient_upper = Eigen::Vector3d::Zero();
-  }
-  decide(request, result);
-  result.plan.push_back("an octree without occupied cells collides with nothing");
-  return result;
 }
 
 // A standard error that is larger than asked for by no more than this factor is made smaller by
@@ -131,32 +125,52 @@ ProbabilityResult withoutContact(const ProbabilityRequest& request) {
 constexpr double kMostDrawnAgain = 1.6;
 
 // Samples what the engine leaves open. Where that varies more than expected, more samples are drawn
-// or more cells are divided.
+// or more cells are divided: until the standard error is what was asked for, or a limit is reached.
 SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
-                            ProbabilityStatus& status) {
-  constexpr int kMostRounds = 4;
+                            const ProbabilityStatistics& statistics, ProbabilityStatus& status) {
+  constexpr int kMostTimesDrawnAgain = 2;
   constexpr double kReserve = 1.1;
+  std::optional<ProbabilityStatus> interrupted;
+  if (status == ProbabilityStatus::cancelled) interrupted = status;  // and not asked again
+  const auto draw = [&](double count) {
+    return sampler.sample(engine.openCells(), count, [&] {
+      if (!interrupted) interrupted = engine.interruption();
+      return interrupted.has_value();
+    });
+  };
   double drawn = engine.samplesToDraw(status);
-  SampledMass sampled = sampler.sample(engine.openCells(), drawn);
-  for (int round = 1; round < kMostRounds && status == ProbabilityStatus::converged; ++round) {
-    const double target = engine.targetError(engine.estimate(sampled));
+  SampledMass sampled = draw(drawn);
+  int times_again = 0;
+  while (status == ProbabilityStatus::converged && !interrupted) {
+    const EngineEstimate estimate = engine.estimate(sampled);
+    const double target = engine.targetError(estimate.value);
+    if (!(estimate.standard_error > target)) return sampled;
     if (sampled.doubt > target) {
       status = ProbabilityStatus::resolution_limit;
-      break;
+      return sampled;
     }
-    const double ratio = sampled.standardError() / target;
-    if (!(ratio > 1.0)) break;
-    if (ratio <= kMostDrawnAgain) {
+    const double ratio = estimate.standard_error / target;
+    if (ratio <= kMostDrawnAgain && ++times_again <= kMostTimesDrawnAgain) {
       const double more = (kReserve * ratio * ratio - 1.0) * drawn;
-      sampled = average(sampled, sampler.sample(engine.openCells(), more));
+      const SampledMass again = draw(more);
+      if (!again.interrupted) sampled = average(sampled, again);
       drawn += more;
       continue;
     }
-    engine.expectDeviation(kReserve * ratio);
+    times_again = 0;
+    const std::size_t cells = statistics.cells;
+    const double drawn_before = std::exchange(drawn, 0.0);
+    engine.expectDeviation(kReserve * std::max(ratio, kReserve));
     status = engine.run(true);
     drawn = engine.samplesToDraw(status);
-    sampled = sampler.sample(engine.openCells(), drawn);
+    sampled = draw(drawn);
+    // Numbers so small that neither cells nor samples make a difference.
+    const bool stands_still = statistics.cells == cells && !(drawn > drawn_before);
+    if (stands_still && status == ProbabilityStatus::converged) {
+      status = ProbabilityStatus::resolution_limit;
+    }
   }
+  if (interrupted && status == ProbabilityStatus::converged) status = *interrupted;
   return sampled;
 }
 
@@ -171,7 +185,9 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request,
                                        const BallTruncation* ball) {
-  if (a.tree->isEmpty() || b.tree->isEmpty()) return withoutContact(request);
+  if (a.tree->isEmpty() || b.tree->isEmpty()) {
+    return withoutContact(request, "an octree without occupied cells collides with nothing");
+  }
   ProbabilityResult result;
   StageClock clock(result.statistics);
   const QueryFrame frame = queryFrame(a, b, displacement);
@@ -191,16 +207,17 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   SampledMass sampled;
   if (estimate) {
     CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), request.seed);
-    sampled = sampleOpenCells(engine, sampler, result.status);
+    sampled = sampleOpenCells(engine, sampler, result.statistics, result.status);
     clock.finish("sampling");
   }
   const Bounds interval = engine.interval();
   result.lower = interval.lower;
   result.upper = interval.upper;
-  if (request.gradient) fillGradient(frame, engine.moment(), result);
-  if (estimate) fillEstimate(frame, engine, sampled, request.gradient, result);
+  const bool with_gradient = request.gradient && frame.whitening.rank() == 3;
+  if (with_gradient) fillGradient(frame, engine.moment(), result);
+  if (estimate) fillEstimate(frame, engine, sampled, with_gradient, result);
   decide(request, result);
-  describe(frame, solids != nullptr, result);
+  describe(frame, solids != nullptr, request, result);
   return result;
 }
 

@@ -96,12 +96,12 @@ void PartitionEngine::divideLargest() {
   const OpenCell largest = std::move(queue_.back());
   queue_.pop_back();
   remove(largest);
-  divide(largest, kSoon * largest.gap(), kSoonLevels);
+  divide(largest, kSoon * largest.gap(), kSoonLevels, 0);
 }
 
 // Children whose gap is not much smaller would soon be taken from the queue: dividing them at once,
 // as long as the data of their front are at hand, saves most of the memory traffic.
-void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
+void PartitionEngine::divide(const OpenCell& parent, double soon, int levels, std::size_t awaited) {
   const CellSplit split = chooseSplit(parent, scales_);
   if (split.axis < 0) {
     // Its gap stays for good.
@@ -115,11 +115,13 @@ void PartitionEngine::divide(const OpenCell& parent, double soon, int levels) {
     Cell half = parent.cell;
     (upper ? half.lo : half.hi)[split.axis] = split.at;
     Examination examination = examine(half, parent.front);
-    if (examination.open && levels > 0 && examination.open->gap() > soon) {
+    // The other half is still to be examined.
+    const std::size_t then = upper ? awaited : awaited + 1;
+    if (examination.open && levels > 0 && examination.open->gap() > soon && hasCellsLeft(then)) {
       const OpenCell child = std::move(*examination.open);
       examination.open.reset();
       add(std::move(examination));
-      divide(child, soon, levels - 1);
+      divide(child, soon, levels - 1, then);
     } else {
       add(std::move(examination));
     }
@@ -185,11 +187,13 @@ double PartitionEngine::targetError(double probability) const {
   return std::max(request_.absolute_tolerance, request_.relative_tolerance * probability);
 }
 
-double PartitionEngine::estimate(const SampledMass& sampled) const {
+EngineEstimate PartitionEngine::estimate(const SampledMass& sampled) const {
+  const Bounds bounds = interval();
+  const double error = std::hypot(sampled.standardError(), 0.5 * settled_.mass.width());
+  if (!(error < 0.5 * bounds.width())) return {bounds.middle(), 0.5 * bounds.width()};
   double mass = settled_.mass.middle() + sampled.mass;
   for (const OpenCell& cell : queue_) mass += cell.lower;
-  const Bounds bounds = interval();
-  return std::clamp(mass, bounds.lower, bounds.upper);
+  return {std::clamp(mass, bounds.lower, bounds.upper), error};
 }
 
 // With n_i samples in cell i in proportion to the deviations s_i, the variance is (Σ s_i)² / Σ n_i
@@ -226,13 +230,25 @@ bool PartitionEngine::cancelled(const Bounds& now) const {
   return !request_.on_progress(progress);
 }
 
+bool PartitionEngine::timeIsUp(double share) const {
+  return request_.time_limit && secondsSoFar() >= share * *request_.time_limit;
+}
+
+std::optional<ProbabilityStatus> PartitionEngine::interruption() const {
+  if (timeIsUp(1.0)) return ProbabilityStatus::time_limit;
+  if (cancelled(interval())) return ProbabilityStatus::cancelled;
+  return std::nullopt;
+}
+
+// Dividing a cell examines two.
+bool PartitionEngine::hasCellsLeft(std::size_t awaited) const {
+  return statistics_.cells < request_.max_cells &&
+         request_.max_cells - statistics_.cells >= awaited + 2;
+}
+
 std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
-  if (statistics_.cells >= request_.max_cells) return ProbabilityStatus::cell_limit;
   if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
-  const double share = estimate ? kShareForDividing : 1.0;
-  if (request_.time_limit && secondsSoFar() >= share * *request_.time_limit) {
-    return ProbabilityStatus::time_limit;
-  }
+  if (timeIsUp(estimate ? kShareForDividing : 1.0)) return ProbabilityStatus::time_limit;
   if (cancelled(interval())) return ProbabilityStatus::cancelled;
   return std::nullopt;
 }
@@ -246,6 +262,7 @@ ProbabilityStatus PartitionEngine::run(bool estimate) {
       recount();
       status = satisfied(estimate);
     }
+    if (!status && !hasCellsLeft(0)) status = ProbabilityStatus::cell_limit;
     if (!status && step % kPollEvery == 0) status = limited(estimate);
     if (!status) divideLargest();
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory());

@@ -20,6 +20,11 @@ struct MomentBounds {
   Eigen::Vector3d upper;
 };
 
+struct EngineEstimate {
+  double value;
+  double standard_error;
+};
+
 class PartitionEngine {
  public:
   /// Keeps references to all arguments. \param ball  null: the displacement is not truncated
@@ -40,8 +45,12 @@ class PartitionEngine {
   /// The standard error asked for where P is about `probability`.
   double targetError(double probability) const;
 
-  /// The certain part of P and what was sampled of the rest.
-  double estimate(const SampledMass& sampled) const;
+  /// The certain part of P and what was sampled of the rest; where the interval says more than
+  /// that, its middle and half its width.
+  EngineEstimate estimate(const SampledMass& sampled) const;
+
+  /// Whether all of the time is up, or the caller cancels.
+  std::optional<ProbabilityStatus> interruption() const;
 
   /// How many samples of the open cells give about that error, or as many as are in proportion to
   /// the cells examined; none beyond the least if there is no time left.
@@ -59,7 +68,7 @@ class PartitionEngine {
  private:
   Examination examine(const Cell& cell, const std::vector<FrontPair>& inherited);
   void divideLargest();
-  void divide(const OpenCell& parent, double soon, int levels);
+  void divide(const OpenCell& parent, double soon, int levels, std::size_t awaited);
   void add(Examination&& examination);
   void remove(const OpenCell& cell);
   void recount();
@@ -68,6 +77,8 @@ class PartitionEngine {
   double samplesAffordable() const;
   std::optional<ProbabilityStatus> limited(bool estimate) const;
   bool cancelled(const Bounds& now) const;
+  bool timeIsUp(double share) const;
+  bool hasCellsLeft(std::size_t awaited) const;  ///< beyond those that will be examined anyway
   double secondsSoFar() const;
   std::size_t memory() const;
 

@@ -9,6 +9,7 @@
 
 #include "geometry/closed_mesh.h"
 #include "partition/piece_tree.h"
+#include "partition/point_motion.h"
 
 namespace fcl_prob::detail {
 
@@ -24,6 +25,10 @@ struct PlacedPart {
 struct PartitionObject {
   const PieceTree* tree;
   std::vector<PlacedPart> parts;  ///< as many as tree->parts
+
+  /// Null: it is where the poses say. Otherwise what is settled holds for all motions in the set;
+  /// no estimate may then be asked for.
+  const PointMotion* motion = nullptr;
 };
 
 }  // namespace fcl_prob::detail

@@ -156,9 +156,9 @@ SlabExtent extentOf(const WhitenedPiece& a, const WhitenedPiece& b, const Eigen:
 
 }  // namespace
 
-PieceSlabs pieceSlabs(const WhitenedTree& a, int piece_a, const WhitenedTree& b, int piece_b) {
-  const WhitenedPiece first = whitenedPiece(a, piece_a);
-  const WhitenedPiece second = whitenedPiece(b, piece_b);
+PieceSlabs pieceSlabs(const WhitenedPair& pair, NodePair leaves) {
+  const WhitenedPiece first = whitenedPiece(pair.a, pair.a.tree->nodes[leaves.a].piece);
+  const WhitenedPiece second = whitenedPiece(pair.b, pair.b.tree->nodes[leaves.b].piece);
   Factors factors(first.faces.size() + second.faces.size() +
                   first.edges.size() * second.edges.size());
   for (const auto& [p, q] : first.faces) factors.add(p, q);
@@ -166,7 +166,8 @@ PieceSlabs pieceSlabs(const WhitenedTree& a, int piece_a, const WhitenedTree& b,
   for (const Edge& p : first.edges) {
     for (const Edge& q : second.edges) factors.add(p, q);
   }
-  PieceSlabs slabs = factors.planes(extentOf(first, second, a.error + b.error));
+  PieceSlabs slabs =
+      factors.planes(extentOf(first, second, pair.a.errorOf(leaves.a) + pair.b.errorOf(leaves.b)));
   mergeEqualNormals(slabs);
   double* out = slabs.data.data();
   for (int i = 0; i < slabs.count; ++i) {

@@ -15,6 +15,6 @@ struct PieceSlabs {
 };
 
 /// One slab per face of either piece and per pair of edges.
-PieceSlabs pieceSlabs(const WhitenedTree& a, int piece_a, const WhitenedTree& b, int piece_b);
+PieceSlabs pieceSlabs(const WhitenedPair& pair, NodePair leaves);
 
 }  // namespace fcl_prob::detail

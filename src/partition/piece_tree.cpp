@@ -3,6 +3,7 @@
 #include "partition/piece_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fcl_prob/convex_polytope.h"
@@ -43,8 +44,9 @@ void moveOrigin(PieceTree& tree, PieceTree::Part& part) {
 
 // Makes one part of everything. Its origin moves to the middle of the vertices, so that a geometry
 // far from its own frame's origin loses nothing to rounding in the products that follow.
-void makePart(PieceTree& tree) {
+void makePart(double error, PieceTree& tree) {
   PieceTree::Part part;
+  part.error = error;
   part.vertices.end = static_cast<int>(tree.vertices.size());
   part.bodies.end = static_cast<int>(tree.bodies.size());
   part.shapes.end = static_cast<int>(tree.shapes.size());
@@ -77,10 +79,9 @@ std::vector<PieceTree::Node> copyTopology(const fcl::BVHModel<BV>& model) {
 
 // The apexes become vertices of the tree, so that they move with it.
 void fillCaps(const MeshView& view, PieceTree& tree) {
-  const SurfaceCaps surface = capsOf(view);
+  SurfaceCaps surface = capsOf(view);
   MeshCaps caps;
-  caps.component_of_vertex = surface.component_of_vertex;
-  caps.component_count = surface.component_count;
+  caps.components = std::move(surface.components);
   for (const SurfaceCaps::Cap& cap : surface.caps) {
     const int apex = static_cast<int>(tree.vertices.size());
     tree.vertices.push_back(cap.apex);
@@ -104,14 +105,42 @@ void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
   if (view.triangle_count >= kFewestForCaps) fillCaps(view, tree);
 }
 
-// Faces and edges of the hull; parallel ones once, since a slab has two sides.
+// Exact but for components below 1e-308 of the largest.
+Eigen::Vector3d scaledToOne(const Eigen::Vector3d& v) {
+  int exponent = 0;
+  std::frexp(v.cwiseAbs().maxCoeff(), &exponent);
+  return v.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+}
+
+// Whether two vectors are parallel but for one rounding of each component. That stays so however a
+// linear map stretches them, and counts as what edges are rounded by.
+bool areParallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  for (int k = 0; k < 3; ++k) {
+    const int u = (k + 1) % 3, v = (k + 2) % 3;
+    if (a[u] * b[v] != a[v] * b[u]) return false;
+  }
+  return true;
+}
+
+// Adds the direction unless one that is known is parallel to it; says whether it did.
+bool addDirection(const Eigen::Vector3d& along, std::vector<Eigen::Vector3d>& known) {
+  const Eigen::Vector3d direction = scaledToOne(along);
+  const bool old = std::any_of(known.begin(), known.end(), [&](const Eigen::Vector3d& other) {
+    return areParallel(direction, other);
+  });
+  if (!old) known.push_back(direction);
+  return !old;
+}
+
+// Whether p × q keeps nearly all of its digits.
+bool isWellShaped(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  return p.cross(q).norm() > 0.25 * p.norm() * q.norm();
+}
+
+// Faces and edges of the hull; parallel ones once, since a slab has two sides. Nearly parallel ones
+// all stay: what is near before whitening need not be after it.
 PieceShape shapeOfHull(const ConvexPolytope& hull) {
   PieceShape piece{{hull.vertices, 0}, {}, {}};
-  const auto isNew = [](const std::vector<Eigen::Vector3d>& known, const Eigen::Vector3d& unit) {
-    return std::none_of(known.begin(), known.end(), [&unit](const Eigen::Vector3d& other) {
-      return other.cross(unit).norm() < 1e-14;
-    });
-  };
   std::vector<Eigen::Vector3d> normals;
   std::vector<Eigen::Vector3d> directions;
   for (const ConvexPolytope::Face& face : hull.faces) {
@@ -119,15 +148,13 @@ PieceShape shapeOfHull(const ConvexPolytope& hull) {
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d edge =
           hull.vertices[face.vertices[(i + 1) % count]] - hull.vertices[face.vertices[i]];
-      if (!isNew(directions, edge.normalized())) continue;
-      directions.push_back(edge.normalized());
-      piece.edges.push_back(edge);
+      if (addDirection(edge, directions)) piece.edges.push_back(edge);
     }
-    if (!isNew(normals, face.normal)) continue;
-    normals.push_back(face.normal);
     const Eigen::Vector3d& corner = hull.vertices[face.vertices[0]];
-    piece.faces.emplace_back(hull.vertices[face.vertices[1]] - corner,
-                             hull.vertices[face.vertices[count - 1]] - corner);
+    const Eigen::Vector3d p = hull.vertices[face.vertices[1]] - corner;
+    const Eigen::Vector3d q = hull.vertices[face.vertices[count - 1]] - corner;
+    if (isWellShaped(p, q) && !addDirection(p.cross(q), normals)) continue;
+    piece.faces.emplace_back(p, q);
   }
   return piece;
 }
@@ -168,23 +195,30 @@ void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
 
 std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry) {
   auto tree = std::make_shared<PieceTree>();
+  double error = 0.0;
   switch (kindOf(geometry)) {
     case GeometryKind::mesh:
       fillMesh(geometry, *tree);
       break;
     case GeometryKind::octree:
-      fillOcTree(static_cast<const fcl::OcTreed&>(geometry), *tree);
+      error = fillOcTree(static_cast<const fcl::OcTreed&>(geometry), *tree);
       break;
     default:
       fillConvex(geometry, *tree);
   }
-  makePart(*tree);
+  makePart(error, *tree);
   return tree;
 }
 
 double PieceTree::radius() const {
   double largest = 0.0;
   for (const Part& part : parts) largest = std::max(largest, part.radius);
+  return largest;
+}
+
+double PieceTree::error() const {
+  double largest = 0.0;
+  for (const Part& part : parts) largest = std::max(largest, part.error);
   return largest;
 }
 

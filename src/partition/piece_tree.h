@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cobstacle/support_shape.h"
+#include "geometry/surface_caps.h"
 
 namespace fcl_prob::detail {
 
@@ -31,8 +32,7 @@ struct MeshCaps {
   };
   std::vector<Cap> caps;
   std::vector<Eigen::Vector3i> triangles;  ///< indices into the tree's vertices
-  std::vector<int> component_of_vertex;    ///< as SurfaceCaps; of the mesh's own vertices only
-  int component_count = 0;
+  SurfaceComponents components;            ///< of the mesh's own vertices only
 };
 
 /// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
@@ -64,6 +64,7 @@ struct PieceTree {
   struct Part {
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, geometry's frame
     double radius = 0.0;  ///< metres: of a ball around `origin` with everything
+    double error = 0.0;   ///< metres: by how much coordinates differ from those of the geometry
     int root = -1;        ///< its topmost node, -1 if it has none
     Range vertices;
     Range bodies;
@@ -78,6 +79,9 @@ struct PieceTree {
   std::vector<PieceShape> shapes;  ///< in the axes of their part
   std::optional<MeshCaps> caps;    ///< of a single mesh of many triangles
 
+  /// Of an octree: a cell is both occupied and free.
+  bool any_cell_also_free = false;
+
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }
   bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
@@ -85,6 +89,9 @@ struct PieceTree {
 
   /// Of the largest part, metres.
   double radius() const;
+
+  /// The largest of those of the parts, metres.
+  double error() const;
 };
 
 /// A tree of one part. \throws UnsupportedGeometry for unbounded shapes, InvalidGeometry for broken

@@ -7,19 +7,26 @@
 #include <limits>
 
 #include "gaussian/constants.h"
+#include "geometry/exact_sum.h"
 
 namespace fcl_prob::detail {
 
 namespace {
 
-using LongVector = Eigen::Matrix<long double, 3, 1>;
 using LongMatrix = Eigen::Matrix<long double, 3, 3>;
 
-// The middle of a part in the world frame, in extended precision: poses and origins may be large
-// and nearly cancel.
-LongVector worldOrigin(const PieceTree::Part& part, const fcl::Transform3d& pose) {
-  return pose.linear().cast<long double>() * part.origin.cast<long double>() +
-         pose.translation().cast<long double>();
+// Of the products that an exact sum of positions is made of, what they lose below the smallest
+// number.
+constexpr double kLostInProducts = 32 * std::numeric_limits<double>::denorm_min();
+
+NodeBox triangleBox(const WhitenedTree& whitened, const Eigen::Vector3i& triangle) {
+  Eigen::Vector3d lo = whitened.vertices[triangle[0]];
+  Eigen::Vector3d hi = lo;
+  for (int corner = 1; corner < 3; ++corner) {
+    lo = lo.cwiseMin(whitened.vertices[triangle[corner]]);
+    hi = hi.cwiseMax(whitened.vertices[triangle[corner]]);
+  }
+  return paddedBox(lo, hi, whitened.error);
 }
 
 // Boxes of the leaves from their vertices, then of the inner nodes from their children, which stand
@@ -39,23 +46,12 @@ void fitBoxes(WhitenedTree& whitened) {
       }
       continue;
     }
-    Eigen::Vector3d lo = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Vector3d hi = -lo;
-    const auto include = [&](int vertex) {
-      lo = lo.cwiseMin(whitened.vertices[vertex]);
-      hi = hi.cwiseMax(whitened.vertices[vertex]);
-    };
-    if (tree.isTriangle(node.piece)) {
-      for (int corner = 0; corner < 3; ++corner) include(tree.triangles[node.piece][corner]);
-    } else {
-      const int body = tree.bodyOf(node.piece);
-      const WhitenedShape& shape = whitened.shapes[tree.bodies[body].shape];
-      lo = whitened.positions[body] + shape.lo;
-      hi = whitened.positions[body] + shape.hi;
-    }
+    box = tree.isTriangle(node.piece) ? triangleBox(whitened, tree.triangles[node.piece])
+                                      : bodyBox(whitened, tree.bodyOf(node.piece));
+    if (whitened.node_motions.empty()) continue;
     for (int k = 0; k < 3; ++k) {
-      box.lo[k] = lo[k] - whitened.error[k];
-      box.hi[k] = hi[k] + whitened.error[k];
+      box.lo[k] -= whitened.node_motions[i][k];
+      box.hi[k] += whitened.node_motions[i][k];
     }
   }
 }
@@ -88,9 +84,12 @@ struct PartOffset {
   Eigen::Vector3d reach;  ///< bound on the terms that the coordinates are sums of: they may cancel
 };
 
+// The difference of far positions is exact, so that no bound need know how far they are.
 PartOffset partOffset(const PieceTree::Part& part, const fcl::Transform3d& pose,
-                      const Whitening& whitening, const LongVector& reference) {
-  const LongVector offset = worldOrigin(part, pose) - reference;
+                      const Whitening& whitening, const ExactPosition& minus_origin) {
+  ExactPosition position = minus_origin;
+  position.add(pose, part.origin);
+  const LongVector offset = position.value();
   const LongMatrix matrix = whitening.matrix().cast<long double>();
   return {(matrix * offset).cast<double>(), (matrix.cwiseAbs() * offset.cwiseAbs()).cast<double>()};
 }
@@ -112,8 +111,65 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
   }
 }
 
+// The largest motion of the corners of a box around a body.
+Eigen::Vector3d motionOfBody(const PointMotion& motion, const Eigen::Matrix3d& whitening,
+                             const fcl::Transform3d& pose, const Eigen::Vector3d& position,
+                             const SupportShape& body) {
+  Eigen::Vector3d lo, hi;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    lo[k] = position[k] - body.supportValue(-axis);
+    hi[k] = position[k] + body.supportValue(axis);
+  }
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d point;
+    for (int k = 0; k < 3; ++k) point[k] = (corner >> k) % 2 == 0 ? lo[k] : hi[k];
+    largest = largest.cwiseMax(motion.bound(whitening, pose * point));
+  }
+  return largest;
+}
+
+// Of every vertex, and of the pieces of every node.
+void boundMotions(const PartitionObject& object, const Eigen::Matrix3d& whitening,
+                  WhitenedTree& result) {
+  result.vertex_motions.clear();
+  result.node_motions.clear();
+  if (!object.motion) return;
+  const PieceTree& tree = *object.tree;
+  std::vector<Eigen::Vector3d> of_bodies;
+  for (std::size_t i = 0; i < object.parts.size(); ++i) {
+    const PieceTree::Part& part = tree.parts[i];
+    const fcl::Transform3d& pose = object.parts[i].pose;
+    for (int v = part.vertices.begin; v < part.vertices.end; ++v) {
+      result.vertex_motions.push_back(
+          object.motion->bound(whitening, pose * Eigen::Vector3d(part.origin + tree.vertices[v])));
+    }
+    for (int b = part.bodies.begin; b < part.bodies.end; ++b) {
+      const PieceTree::Body& body = tree.bodies[b];
+      of_bodies.push_back(motionOfBody(*object.motion, whitening, pose, part.origin + body.position,
+                                       tree.shapes[body.shape].body));
+    }
+  }
+  result.node_motions.resize(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const PieceTree::Node& node = tree.nodes[i];
+    Eigen::Vector3d& motion = result.node_motions[i];
+    if (!node.isLeaf()) {
+      motion = result.node_motions[node.left].cwiseMax(result.node_motions[node.right]);
+    } else if (tree.isTriangle(node.piece)) {
+      const Eigen::Vector3i& t = tree.triangles[node.piece];
+      motion = result.vertex_motions[t[0]]
+                   .cwiseMax(result.vertex_motions[t[1]])
+                   .cwiseMax(result.vertex_motions[t[2]]);
+    } else {
+      motion = of_bodies[tree.bodyOf(node.piece)];
+    }
+  }
+}
+
 void whitenOne(const PartitionObject& object, const Whitening& whitening,
-               const LongVector& reference, WhitenedTree& result) {
+               const ExactPosition& minus_origin, WhitenedTree& result) {
   result.tree = object.tree;
   result.vertices.clear();
   result.positions.clear();
@@ -123,23 +179,34 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     const PieceTree::Part& part = object.tree->parts[i];
     const fcl::Transform3d& pose = object.parts[i].pose;
-    const PartOffset offset = partOffset(part, pose, whitening, reference);
+    const PartOffset offset = partOffset(part, pose, whitening, minus_origin);
     whitenPart(part, whitening.matrix(), pose.linear(), offset.whitened, result);
     farthest = farthest.cwiseMax(offset.reach);
   }
-  const Eigen::Vector3d size =
-      1.8 * object.tree->radius() * whitening.matrix().cwiseAbs().rowwise().sum();
-  result.error = 16 * kEpsilon * (2 * size + farthest).array() + std::numeric_limits<double>::min();
+  const Eigen::Vector3d stretch = whitening.matrix().cwiseAbs().rowwise().sum();
+  const Eigen::Vector3d size = 1.8 * object.tree->radius() * stretch;
+  result.error =
+      16 * kEpsilon * (2 * size + farthest) + (object.tree->error() + kLostInProducts) * stretch;
+  result.error.array() += std::numeric_limits<double>::min();
+  boundMotions(object, whitening.matrix(), result);
   fitBoxes(result);
 }
 
 }  // namespace
 
+NodeBox bodyBox(const WhitenedTree& whitened, int body) {
+  const WhitenedShape& shape = whitened.shapes[whitened.tree->bodies[body].shape];
+  const Eigen::Vector3d& position = whitened.positions[body];
+  return paddedBox(position + shape.lo, position + shape.hi, whitened.error);
+}
+
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
             WhitenedPair& result) {
-  const LongVector reference = worldOrigin(a.tree->parts[0], a.parts[0].pose);
-  whitenOne(a, whitening, reference, result.a);
-  whitenOne(b, whitening, reference + whitening.mean().cast<long double>(), result.b);
+  ExactPosition minus_origin;
+  minus_origin.add(a.parts[0].pose, a.tree->parts[0].origin, -1.0);
+  whitenOne(a, whitening, minus_origin, result.a);
+  minus_origin.add(whitening.mean(), -1.0);
+  whitenOne(b, whitening, minus_origin, result.b);
 }
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,

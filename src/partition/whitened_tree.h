@@ -35,6 +35,17 @@ inline bool isClearOf(const NodeBox& box, const double* lo, const double* hi) {
   return false;
 }
 
+/// [lo - pad, hi + pad]
+inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
+                         const Eigen::Vector3d& pad) {
+  NodeBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = lo[k] - pad[k];
+    box.hi[k] = hi[k] + pad[k];
+  }
+  return box;
+}
+
 /// A shape of the pieces and its extent, relative to the position of a piece. What its edges, and
 /// the edges p and q of its faces, are rounded by is 8 ε of their magnitudes: of the terms that
 /// they are sums of.
@@ -59,9 +70,30 @@ struct WhitenedTree {
   /// Bound on the error of a vertex or point of a piece, for each axis.
   Eigen::Vector3d error = Eigen::Vector3d::Zero();
 
+  /// How far the points of a node and the vertices may move besides, for each axis: empty for an
+  /// object without PointMotion. The boxes contain it.
+  std::vector<Eigen::Vector3d> node_motions;
+  std::vector<Eigen::Vector3d> vertex_motions;
+
+  /// The error of the points of a node. Whoever uses it adds four of them; the motion needs to be
+  /// in that once.
+  Eigen::Vector3d errorOf(int node) const {
+    return node_motions.empty() ? error : Eigen::Vector3d(error + 0.25 * node_motions[node]);
+  }
+
+  Eigen::Vector3d motionOf(int vertex) const {
+    return vertex_motions.empty() ? Eigen::Vector3d::Zero().eval() : vertex_motions[vertex];
+  }
+
   /// Bound on the error of m·v for such a point v; the rounding of the sum is within it, too.
   double errorAlong(const Eigen::Vector3d& m) const { return m.cwiseAbs().dot(error); }
+  double errorAlong(const Eigen::Vector3d& m, int node) const {
+    return node_motions.empty() ? errorAlong(m) : m.cwiseAbs().dot(errorOf(node));
+  }
 };
+
+/// Around tree->bodies[body], padded as the boxes of nodes.
+NodeBox bodyBox(const WhitenedTree& whitened, int body);
 
 struct WhitenedPair {
   WhitenedTree a;

@@ -3,16 +3,19 @@
 #include "fcl_prob/batch.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <mutex>
 #include <string>
+#include <variant>
 
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
+#include "query/truncation.h"
 
 namespace fcl_prob {
 namespace {
@@ -32,7 +35,8 @@ class Batch {
     if (request_.query.threads == 1) {
       for (std::size_t i = 0; i < waypoints_.size() && !cancelled(); ++i) answer(i);
     } else {
-      tbb::task_arena arena(static_cast<int>(request_.query.threads));
+      tbb::task_arena arena(static_cast<int>(std::min(
+          request_.query.threads, static_cast<unsigned>(tbb::info::default_concurrency()))));
       // Each waypoint is a task of its own: their costs differ by orders of magnitude.
       arena.execute([this] {
         tbb::parallel_for(
@@ -56,7 +60,14 @@ class Batch {
   void answer(std::size_t i) {
     const Waypoint& at = waypoints_[i];
     ProbabilityResult result;
-    query_.collisionProbability(at.pose_a, at.pose_b, at.displacement, of_one_, result);
+    if (const auto* gaussian = std::get_if<GaussianDisplacement>(&at.displacement)) {
+      query_.collisionProbability(at.pose_a, at.pose_b, *gaussian, of_one_, result);
+    } else if (const auto* mixture = std::get_if<GaussianMixture>(&at.displacement)) {
+      collisionProbability(query_, at.pose_a, at.pose_b, *mixture, of_one_, result);
+    } else {
+      collisionProbability(query_, at.pose_a, at.pose_b,
+                           std::get<TruncatedGaussian>(at.displacement), of_one_, result);
+    }
     if (result.status == ProbabilityStatus::cancelled) return;
     result_.waypoints[i] = std::move(result);
     report();
@@ -101,6 +112,9 @@ BatchResult collisionProbabilities(const PreparedQuery& query,
     const std::string at = " at waypoint " + std::to_string(i);
     detail::validatePose(waypoints[i].pose_a, "object A" + at);
     detail::validatePose(waypoints[i].pose_b, "object B" + at);
+    if (std::holds_alternative<TruncatedGaussian>(waypoints[i].displacement)) {
+      detail::validateTruncatedRequest(request.query);
+    }
   }
   return Batch(query, waypoints, request).run();
 }

@@ -14,6 +14,21 @@
 namespace fcl_prob::detail {
 namespace {
 
+/// normal·x = offset in the world, |normal| = 1.
+struct PlacedPlane {
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+/// The rotation of the pose need not keep the length of the normal to the last bit.
+template <typename Shape>
+PlacedPlane planeOf(const Shape& shape, const fcl::Transform3d& pose) {
+  const Eigen::Vector3d along = pose.linear() * shape.n;
+  const double length = along.norm();
+  const Eigen::Vector3d normal = along / length;
+  return {normal, shape.d / length + normal.dot(pose.translation())};
+}
+
 /// The pose whose z axis is `normal` and whose origin is the foot of `centre` on the plane
 /// normal·x = offset.
 fcl::Transform3d poseOnPlane(const Eigen::Vector3d& normal, double offset,
@@ -56,17 +71,16 @@ BoundedPart boundedPart(const fcl::CollisionGeometryd& unbounded, const fcl::Tra
   const double reach = ball.radius;
   if (unbounded.getNodeType() == fcl::GEOM_PLANE) {
     const auto& plane = static_cast<const fcl::Planed&>(unbounded);
-    const Eigen::Vector3d normal = (pose.linear() * plane.n).normalized();
+    const auto [normal, offset] = planeOf(plane, pose);
     const double far =
         2 * sizeFor(reach, plane.d, pose, centre);  // the inscribed circle has half the radius
     return {std::make_shared<fcl::TrianglePd>(
                 Eigen::Vector3d(far, 0, 0), Eigen::Vector3d(-0.5 * far, std::sqrt(0.75) * far, 0),
                 Eigen::Vector3d(-0.5 * far, -std::sqrt(0.75) * far, 0)),
-            poseOnPlane(normal, plane.d + normal.dot(pose.translation()), centre)};
+            poseOnPlane(normal, offset, centre)};
   }
   const auto& halfspace = static_cast<const fcl::Halfspaced&>(unbounded);
-  const Eigen::Vector3d normal = (pose.linear() * halfspace.n).normalized();
-  const double offset = halfspace.d + normal.dot(pose.translation());
+  const auto [normal, offset] = planeOf(halfspace, pose);
   const double half = sizeFor(reach, halfspace.d, pose, centre);
   const double depth = std::max(0.0, offset - normal.dot(centre)) + half;
   BoundedPart part{std::make_shared<fcl::Boxd>(2 * half, 2 * half, depth),

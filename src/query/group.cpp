@@ -8,15 +8,22 @@
 #include <string>
 
 #include "fcl_prob/combined_bounds.h"
-#include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/parts_bounds.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
+#include "narrowphase/convex_pair_mass.h"
 #include "partition/partition.h"
+#include "partition/without_contact.h"
 #include "query/bounded_part.h"
+#include "query/call_budget.h"
+#include "query/mixture_query.h"
+#include "query/octree_cells.h"
 #include "query/prepared_geometry.h"
 #include "query/request_limits.h"
 #include "query/single_collide.h"
+#include "query/tolerance_note.h"
+#include "query/truncation.h"
 
 namespace fcl_prob {
 namespace {
@@ -27,14 +34,16 @@ using detail::PreparedGeometry;
 /// Of the threshold: what may be left out of the sums that decide it.
 constexpr double kNegligible = 1e-6;
 
-/// The members of one side, and the tree of those that are bounded.
+/// The members of one side, and the tree of those that are bounded. Members that fcl::collide
+/// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
 class Group {
  public:
   Group(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
     if (geometries.empty()) throw InvalidGeometry(name + " has no members");
     for (std::size_t i = 0; i < geometries.size(); ++i) {
       members_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
-      if (members_.back().hasPieces()) bounded_.push_back(i);
+      if (isLeftOut(*geometries[i])) continue;
+      (members_.back().hasPieces() ? bounded_ : unbounded_).push_back(i);
     }
     std::vector<const detail::PieceTree*> trees;
     for (const std::size_t i : bounded_) trees.push_back(&members_[i].pieces());
@@ -43,7 +52,10 @@ class Group {
 
   const std::deque<PreparedGeometry>& members() const { return members_; }
   const detail::PieceTree& tree() const { return *tree_; }
-  bool anyUnbounded() const { return bounded_.size() < members_.size(); }
+  const std::vector<std::size_t>& unbounded() const { return unbounded_; }
+  bool anyUnbounded() const { return !unbounded_.empty(); }
+  bool isEmpty() const { return bounded_.empty() && unbounded_.empty(); }
+  std::size_t leftOut() const { return members_.size() - bounded_.size() - unbounded_.size(); }
 
   bool haveRootBodies() const {
     return std::all_of(members_.begin(), members_.end(),
@@ -85,10 +97,21 @@ class Group {
     return object;
   }
 
+  bool hasOcTree() const {
+    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry& member) {
+      return member.geometry().getNodeType() == fcl::GEOM_OCTREE;
+    });
+  }
+
  private:
+  static bool isLeftOut(const fcl::CollisionGeometryd& geometry) {
+    return geometry.getNodeType() != fcl::GEOM_OCTREE && !geometry.isOccupied();
+  }
+
   std::string name_;
   std::deque<PreparedGeometry> members_;
   std::vector<std::size_t> bounded_;
+  std::vector<std::size_t> unbounded_;
   std::shared_ptr<const detail::PieceTree> tree_;
 };
 
@@ -105,10 +128,8 @@ class PlacedGroup {
     if (!group_.anyUnbounded()) return;
     const detail::ReachedBall ball = detail::reachedBall(other, displacement, detail::kReach);
     std::vector<const detail::PieceTree*> trees{&group_.tree()};
-    for (std::size_t i = 0; i < group_.members().size(); ++i) {
-      const PreparedGeometry& member = group_.members()[i];
-      if (member.hasPieces()) continue;
-      const auto part = detail::boundedPart(member.geometry(), poses_[i], ball);
+    for (const std::size_t i : group_.unbounded()) {
+      const auto part = detail::boundedPart(group_.members()[i].geometry(), poses_[i], ball);
       stand_ins_.push_back(detail::buildPieceTree(*part.geometry));
       trees.push_back(stand_ins_.back().get());
       object_.parts.push_back({part.pose, nullptr});
@@ -124,6 +145,24 @@ class PlacedGroup {
   std::vector<std::shared_ptr<const detail::PieceTree>> stand_ins_;
   std::shared_ptr<const detail::PieceTree> joined_;
 };
+
+/// One union of pieces must do for all pairs of members.
+void requireAlike(const Group& group, const Group& others) {
+  if (!others.hasOcTree()) return;
+  for (const PreparedGeometry& member : group.members()) {
+    if (!detail::isAlikeBesideOcTrees(member.geometry())) {
+      throw UnsupportedGeometry(detail::nodeTypeName(member.geometry().getNodeType()) +
+                                " both occupied and free in a group that meets an octree: "
+                                "fcl::collide leaves it out there and nowhere else");
+    }
+    for (const PreparedGeometry& other : others.members()) {
+      detail::requireDistinctCells(member, other);
+    }
+  }
+}
+
+/// Of the time limit, for a first sum of bounds that is seldom the answer.
+constexpr double kShareOfRootBounds = 0.1;
 
 void requireMethod(const ProbabilityRequest& request) {
   switch (request.method) {
@@ -150,22 +189,43 @@ struct GroupQuery::Implementation {
       single.emplace(group_a[0], group_b[0]);
     else if (a.anyUnbounded() && b.anyUnbounded()) {
       throw UnsupportedGeometry("both groups have unbounded members");
+    } else {
+      requireAlike(a, b);
+      requireAlike(b, a);
     }
   }
 
+  /// \throws InvalidRequest, InvalidPose, UnsupportedGeometry
+  void validate(const Poses& poses_a, const Poses& poses_b,
+                const ProbabilityRequest& request) const {
+    validateRequest(request);
+    a.validate(poses_a);
+    b.validate(poses_b);
+    if (!single) requireMethod(request);
+  }
+
+  /// \param ball  null: the displacement is not truncated; else the request is that of meeting and
+  /// being within it
   ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,
                            const GaussianDisplacement& displacement,
-                           const ProbabilityRequest& request) const {
+                           const ProbabilityRequest& request,
+                           const detail::BallTruncation* ball = nullptr) const {
+    if (a.isEmpty() || b.isEmpty()) return detail::withoutContact(request, note());
+    const detail::CallBudget budget(request);
     PlacedGroup placed_a(a, poses_a, request.contact);
     PlacedGroup placed_b(b, poses_b, request.contact);
     const double most = sumOfRootBounds(poses_a, poses_b, displacement, request);
     if (auto far = intervalOfSum(most, request)) return *far;
-    if (auto decided = decidedByPairs(poses_a, poses_b, displacement, request)) return *decided;
+    // Those bounds are of contact, not of contact within an ellipsoid.
+    if (!ball) {
+      if (auto decided = decidedByPairs(poses_a, poses_b, displacement, request)) return *decided;
+    }
     // At most one of the two has unbounded members.
     placed_a.boundBy(placed_b.object(), displacement);
     placed_b.boundBy(placed_a.object(), displacement);
     ProbabilityResult result =
-        detail::partitionProbability(placed_a.object(), placed_b.object(), displacement, request);
+        detail::partitionProbability(placed_a.object(), placed_b.object(), displacement,
+                                     detail::withTimeLeft(request, budget), ball);
     result.upper = std::max(*result.lower, std::min(*result.upper, most));
     result.plan.insert(result.plan.begin(), note());
     return result;
@@ -178,17 +238,19 @@ struct GroupQuery::Implementation {
                          const ProbabilityRequest& request) const {
     const bool wanted = !request.gradient && request.method != ProbabilityMethod::estimate;
     if (!wanted || !a.haveRootBodies() || !b.haveRootBodies()) return 1.0;
+    detail::RequestLimits limits(request, kShareOfRootBounds);
     // A larger sum ends no query.
     const double useful = std::max(request.absolute_tolerance, request.threshold.value_or(0.0));
     std::vector<Bounds> pairs;
     double sum = 0.0;
     for (std::size_t i = 0; i < poses_a.size(); ++i) {
       for (std::size_t j = 0; j < poses_b.size(); ++j) {
-        const double bound = convexPcd(a.members()[i].rootBody(), poses_a[i],
-                                       b.members()[j].rootBody(), poses_b[j], displacement)
-                                 .least;
+        const double bound =
+            detail::convexPcd(a.members()[i].rootBody(), poses_a[i], b.members()[j].rootBody(),
+                              poses_b[j], displacement, limits.interruption())
+                .least;
         sum += bound;
-        if (sum > useful) return 1.0;
+        if (sum > useful || limits.reason()) return 1.0;
         pairs.push_back({0.0, bound});
       }
     }
@@ -204,6 +266,7 @@ struct GroupQuery::Implementation {
       return std::nullopt;
     }
     if (!a.isConvexInOnePlace(poses_a) || !b.isConvexInOnePlace(poses_b)) return std::nullopt;
+    if (a.leftOut() + b.leftOut() > 0) return std::nullopt;
     detail::RequestLimits limits(request);
     PartsBoundsRequest parts;
     parts.negligible = kNegligible * *request.threshold;
@@ -240,8 +303,13 @@ struct GroupQuery::Implementation {
   }
 
   std::string note() const {
+    const std::size_t left_out = a.leftOut() + b.leftOut();
     return "groups of " + std::to_string(a.members().size()) + " and " +
-           std::to_string(b.members().size()) + ": one partition for the union of their pairs";
+           std::to_string(b.members().size()) +
+           (left_out > 0
+                ? " (" + std::to_string(left_out) + " left out, as fcl::collide does: not occupied)"
+                : "") +
+           ": one partition for the union of their pairs";
   }
 };
 
@@ -257,15 +325,57 @@ double GroupQuery::collisionProbability(const std::vector<fcl::Transform3d>& pos
                                         const GaussianDisplacement& displacement,
                                         const ProbabilityRequest& request,
                                         ProbabilityResult& result) const {
-  validateRequest(request);
-  implementation_->a.validate(poses_a);
-  implementation_->b.validate(poses_b);
+  implementation_->validate(poses_a, poses_b, request);
   if (implementation_->single) {
     return implementation_->single->collisionProbability(poses_a[0], poses_b[0], displacement,
                                                          request, result);
   }
-  requireMethod(request);
   result = implementation_->answer(poses_a, poses_b, displacement, request);
+  detail::noteTolerance(request, result);
+  return result.probability();
+}
+
+double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,
+                            const std::vector<fcl::Transform3d>& poses_b,
+                            const GaussianMixture& displacement, const ProbabilityRequest& request,
+                            ProbabilityResult& result) {
+  const GroupQuery::Implementation& group = *query.implementation_;
+  group.validate(poses_a, poses_b, request);
+  if (group.single) {
+    return collisionProbability(*group.single, poses_a[0], poses_b[0], displacement, request,
+                                result);
+  }
+  result = detail::mixtureProbability(
+      displacement, request,
+      [&](const GaussianDisplacement& component, const ProbabilityRequest& of_component) {
+        return group.answer(poses_a, poses_b, component, of_component);
+      });
+  return result.probability();
+}
+
+double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,
+                            const std::vector<fcl::Transform3d>& poses_b,
+                            const TruncatedGaussian& displacement,
+                            const ProbabilityRequest& request, ProbabilityResult& result) {
+  const GroupQuery::Implementation& group = *query.implementation_;
+  group.validate(poses_a, poses_b, request);
+  if (group.single) {
+    return collisionProbability(*group.single, poses_a[0], poses_b[0], displacement, request,
+                                result);
+  }
+  const detail::TruncatedQuery truncated(displacement, request);
+  ProbabilityResult answered;
+  if (truncated.isWhole()) {
+    answered =
+        group.answer(poses_a, poses_b, displacement.gaussian(), truncated.requestOfContact());
+    truncated.ofContact(answered);
+  } else {
+    answered = group.answer(poses_a, poses_b, displacement.gaussian(), truncated.requestOfJoint(),
+                            &truncated.ball());
+    truncated.ofJoint(answered);
+  }
+  detail::noteTolerance(request, answered);
+  result = std::move(answered);
   return result.probability();
 }
 

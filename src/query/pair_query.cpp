@@ -4,21 +4,55 @@
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
+#include "partition/without_contact.h"
+#include "query/call_budget.h"
 #include "query/exact_mass.h"
+#include "query/octree_cells.h"
 #include "query/single_collide.h"
+#include "query/tolerance_note.h"
 #include "query/unbounded_pair.h"
 
 namespace fcl_prob::detail {
+namespace {
+
+/// Whether fcl::collide itself is asked at random displacements.
+bool samples(const QueryPlan& plan) {
+  return plan.route == Route::monte_carlo || plan.route == Route::rare_event;
+}
+
+}  // namespace
 
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const GaussianDisplacement& displacement,
                                     const ProbabilityRequest& request) const {
+  ProbabilityResult result = answerOfGaussian(pose_a, pose_b, displacement, request);
+  noteTolerance(request, result);
+  return result;
+}
+
+ProbabilityResult PairQuery::sampled(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                     const GaussianMixture& displacement,
+                                     const ProbabilityRequest& request) const {
+  ProbabilityResult result =
+      monteCarloProbability(a_->geometry(), pose_a, b_->geometry(), pose_b, displacement, request);
+  noteTolerance(request, result);
+  return result;
+}
+
+ProbabilityResult PairQuery::answerOfGaussian(const fcl::Transform3d& pose_a,
+                                              const fcl::Transform3d& pose_b,
+                                              const GaussianDisplacement& displacement,
+                                              const ProbabilityRequest& request) const {
   validateRequest(request);
   validatePose(pose_a, "object A");
   validatePose(pose_b, "object B");
   const QueryPlan plan = planQuery(*a_, *b_, displacement, request);
+  if (const auto why = whyNeverInContact(a_->geometry(), b_->geometry()); why && !samples(plan)) {
+    return withoutContact(request, *why);
+  }
   ProbabilityResult result = follow(plan, {*a_, pose_a, *b_, pose_b}, displacement, request);
   result.plan.insert(result.plan.begin(), plan.notes.begin(), plan.notes.end());
   return result;
@@ -54,6 +88,8 @@ ProbabilityResult PairQuery::follow(const QueryPlan& plan, const PlacedPair& pai
 ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& pair,
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request) const {
+  requireDistinctCells(*a_, *b_);
+  const CallBudget budget(request);
   // Open meshes are refused wherever the shapes are.
   const ClosedMesh* const solid_a = a_->solid(request.contact);
   const ClosedMesh* const solid_b = b_->solid(request.contact);
@@ -61,8 +97,10 @@ ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& 
     auto result = intervalOfRootBound(pair, displacement, request);
     if (result) return *result;
   }
-  return partitionProbability({&a_->pieces(), {{pair.pose_a, solid_a}}},
-                              {&b_->pieces(), {{pair.pose_b, solid_b}}}, displacement, request);
+  const PartitionObject a{&a_->pieces(), {{pair.pose_a, solid_a}}};
+  const PartitionObject b{&b_->pieces(), {{pair.pose_b, solid_b}}};
+  if (!request.time_limit) return partitionProbability(a, b, displacement, request);
+  return partitionProbability(a, b, displacement, withTimeLeft(request, budget));
 }
 
 }  // namespace fcl_prob::detail

@@ -28,7 +28,15 @@ class PairQuery {
                            const TruncatedGaussian& displacement,
                            const ProbabilityRequest& request) const;
 
+  /// The same for a mixture, by Monte Carlo of the whole of it.
+  ProbabilityResult sampled(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                            const GaussianMixture& displacement,
+                            const ProbabilityRequest& request) const;
+
  private:
+  ProbabilityResult answerOfGaussian(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                     const GaussianDisplacement& displacement,
+                                     const ProbabilityRequest& request) const;
   ProbabilityResult follow(const QueryPlan& plan, const PlacedPair& pair,
                            const GaussianDisplacement& displacement,
                            const ProbabilityRequest& request) const;

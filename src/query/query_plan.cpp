@@ -49,10 +49,14 @@ struct QueryPair {
                             pair.name() + ": " + why);
 }
 
-QueryPlan planWithoutMotion(const QueryPair& pair) {
+QueryPlan planWithoutMotion(const QueryPair& pair, const ProbabilityRequest& request) {
   const std::string reason = "the covariance is 0: nothing is random";
   if (pair.anyUnbounded()) return {Route::unbounded_pair, false, {reason}};
-  if (pair.inFcl()) return {Route::single_collide, false, {reason + ", one fcl::collide"}};
+  if (pair.inFcl()) {
+    QueryPlan plan{Route::single_collide, false, {reason + ", one fcl::collide"}};
+    if (request.gradient) plan.notes.push_back("no gradient: P jumps where A touches B");
+    return plan;
+  }
   return {
       Route::partition, false, {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
 }
@@ -126,7 +130,7 @@ QueryPlan planGeneralPcd(const QueryPair& pair, const ProbabilityRequest& reques
 QueryPlan planQuery(const PreparedGeometry& a, const PreparedGeometry& b,
                     const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   const QueryPair pair{a, b};
-  if (displacement.rank() == 0) return planWithoutMotion(pair);
+  if (displacement.rank() == 0) return planWithoutMotion(pair, request);
   switch (request.method) {
     case ProbabilityMethod::automatic:
       return planAutomatic(pair, displacement, request);

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "gaussian/constants.h"
+#include "geometry/exact_sum.h"
 #include "geometry/geometry_kind.h"
 #include "query/line_intervals.h"
 #include "query/single_collide.h"
@@ -17,9 +18,8 @@
 namespace fcl_prob::detail {
 namespace {
 
-using LongVector = Eigen::Matrix<long double, 3, 1>;
-
-/// { normal·x <= offset } or, a surface, { normal·x = offset } in the world frame.
+/// { normal·x <= offset } or, a surface, { normal·x = offset }, for x relative to a point of the
+/// world near it: far from the origin offsets would round.
 struct Unbounded {
   Eigen::Vector3d normal;
   double offset;
@@ -27,23 +27,26 @@ struct Unbounded {
   bool surface;
 };
 
+/// \param moved  from the point that positions are relative to, to the origin of the shape
 template <typename Shape>
-Unbounded placed(const Shape& shape, const fcl::Transform3d& pose, bool surface) {
+Unbounded placed(const Shape& shape, const fcl::Transform3d& pose, const Eigen::Vector3d& moved,
+                 bool surface) {
   const Eigen::Vector3d normal = pose.linear() * shape.n;
-  const LongVector translation = pose.translation().cast<long double>();
-  const long double moved = normal.cast<long double>().dot(translation);
-  const double error = 8 * kEpsilon * (std::fabs(shape.d) + pose.translation().norm());
-  return {normal, static_cast<double>(shape.d + moved), error, surface};
+  const long double along = normal.cast<long double>().dot(moved.cast<long double>());
+  const double error = 8 * kEpsilon * (std::fabs(shape.d) + moved.norm());
+  return {normal, static_cast<double>(shape.d + along), error, surface};
 }
 
-Unbounded placed(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
+Unbounded placed(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose,
+                 const Eigen::Vector3d& moved = Eigen::Vector3d::Zero()) {
   if (geometry.getNodeType() == fcl::GEOM_HALFSPACE) {
-    return placed(static_cast<const fcl::Halfspaced&>(geometry), pose, false);
+    return placed(static_cast<const fcl::Halfspaced&>(geometry), pose, moved, false);
   }
-  return placed(static_cast<const fcl::Planed&>(geometry), pose, true);
+  return placed(static_cast<const fcl::Planed&>(geometry), pose, moved, true);
 }
 
-/// Where the displacement, along `normal`, leads to contact; the ends are known to within `error`.
+/// Where the displacement from its mean, along `normal`, leads to contact; the ends are known to
+/// within `error`.
 struct ContactSet {
   Eigen::Vector3d normal;
   std::vector<LineInterval> intervals;
@@ -51,11 +54,9 @@ struct ContactSet {
 };
 
 /// Extents of the pieces along a world direction, relative to `offset`.
+/// \param origin  of their part, relative to that of the plane
 std::vector<LineInterval> extents(const PieceTree& tree, const fcl::Transform3d& pose,
-                                  const Unbounded& plane) {
-  const LongVector origin =
-      pose.linear().cast<long double>() * tree.parts[0].origin.cast<long double>() +
-      pose.translation().cast<long double>();
+                                  const LongVector& origin, const Unbounded& plane) {
   const long double at_origin = plane.normal.cast<long double>().dot(origin);
   const double base = static_cast<double>(at_origin - static_cast<long double>(plane.offset));
   const Eigen::Vector3d direction = pose.linear().transpose() * plane.normal;
@@ -75,10 +76,10 @@ std::vector<LineInterval> extents(const PieceTree& tree, const fcl::Transform3d&
   return result;
 }
 
-double errorOfExtents(const PieceTree& tree, const fcl::Transform3d& pose, const Unbounded& plane) {
-  return plane.error + 16 * kEpsilon *
-                           (tree.radius() + tree.parts[0].origin.norm() +
-                            pose.translation().norm() + std::fabs(plane.offset));
+double errorOfExtents(const PieceTree& tree, const LongVector& origin, const Unbounded& plane) {
+  return plane.error + 2 * tree.error() +
+         16 * kEpsilon *
+             (tree.radius() + static_cast<double>(origin.norm()) + std::fabs(plane.offset));
 }
 
 /// A Halfspace reaches everything from the lowest point on.
@@ -89,14 +90,21 @@ std::vector<LineInterval> reached(std::vector<LineInterval> extents, const Unbou
   return {{lowest, kInfinity}};
 }
 
-ContactSet contactWithBounded(const PlacedPair& pair, bool a_is_unbounded) {
+ContactSet contactWithBounded(const PlacedPair& pair, const Eigen::Vector3d& mean,
+                              bool a_is_unbounded) {
   const PreparedGeometry& bounded = a_is_unbounded ? pair.b : pair.a;
   const fcl::Transform3d& pose = a_is_unbounded ? pair.pose_b : pair.pose_a;
-  const Unbounded plane = a_is_unbounded ? placed(pair.a.geometry(), pair.pose_a)
-                                         : placed(pair.b.geometry(), pair.pose_b);
+  const fcl::Transform3d& pose_of_plane = a_is_unbounded ? pair.pose_a : pair.pose_b;
+  const Unbounded plane =
+      placed(a_is_unbounded ? pair.a.geometry() : pair.b.geometry(), pose_of_plane);
   const PieceTree& tree = bounded.pieces();
-  ContactSet set{plane.normal, reached(extents(tree, pose, plane), plane),
-                 errorOfExtents(tree, pose, plane)};
+  ExactPosition position;
+  position.add(pose, tree.parts[0].origin);
+  position.add(pose_of_plane.translation(), -1.0);
+  position.add(mean, a_is_unbounded ? -1.0 : 1.0);
+  const LongVector origin = position.value();
+  ContactSet set{plane.normal, reached(extents(tree, pose, origin, plane), plane),
+                 errorOfExtents(tree, origin, plane)};
   if (a_is_unbounded) return set;
   // Moving the bounded one by s is moving the plane by -s.
   for (LineInterval& interval : set.intervals) interval = {-interval.hi, -interval.lo};
@@ -128,14 +136,19 @@ ContactSet contactOfUnbounded(const Unbounded& a, const Unbounded& b) {
   return set;
 }
 
-ContactSet contactSet(const PlacedPair& pair) {
+ContactSet contactSet(const PlacedPair& pair, const Eigen::Vector3d& mean) {
   const auto unbounded = [](const PreparedGeometry& geometry) {
     return kindOf(geometry.geometry()) == GeometryKind::unbounded;
   };
-  if (!unbounded(pair.a)) return contactWithBounded(pair, false);
-  if (!unbounded(pair.b)) return contactWithBounded(pair, true);
-  return contactOfUnbounded(placed(pair.a.geometry(), pair.pose_a),
-                            placed(pair.b.geometry(), pair.pose_b));
+  if (!unbounded(pair.a)) return contactWithBounded(pair, mean, false);
+  if (!unbounded(pair.b)) return contactWithBounded(pair, mean, true);
+  ExactPosition from_a_to_b;
+  from_a_to_b.add(pair.pose_b.translation());
+  from_a_to_b.add(pair.pose_a.translation(), -1.0);
+  from_a_to_b.add(mean, -1.0);
+  return contactOfUnbounded(
+      placed(pair.a.geometry(), pair.pose_a),
+      placed(pair.b.geometry(), pair.pose_b, from_a_to_b.value().cast<double>()));
 }
 
 void fillGradient(const DisplacementAlong& along, const ContactSet& set,
@@ -161,8 +174,8 @@ ProbabilityResult unboundedPairProbability(const PlacedPair& pair,
   // Open meshes are refused here as anywhere.
   pair.a.solid(request.contact);
   pair.b.solid(request.contact);
-  const ContactSet set = contactSet(pair);
-  const DisplacementAlong along(displacement, set.normal);
+  const ContactSet set = contactSet(pair, displacement.mean());
+  const DisplacementAlong along(displacement.withMean(Eigen::Vector3d::Zero()), set.normal);
   const Bounds mass = along.mass(set.intervals, set.error);
   ProbabilityResult result;
   result.method = ProbabilityMethod::exact;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "audit_run.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <mutex>
 #include <sstream>
@@ -36,13 +38,39 @@ void catchCrashes() {
   struct sigaction action = {};
   action.sa_handler = leaveCrash;
   action.sa_flags = SA_NODEFER;
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGALRM}) {
+    sigaction(signal, &action, nullptr);
+  }
 }
+
+/// Sends SIGALRM to the thread that it is made in, after so many seconds of that thread's time.
+class Watchdog {
+ public:
+  explicit Watchdog(long seconds) {
+    sigevent event = {};
+    event.sigev_notify = SIGEV_THREAD_ID;
+    event.sigev_signo = SIGALRM;
+    event._sigev_un._tid = gettid();
+    timer_create(CLOCK_THREAD_CPUTIME_ID, &event, &timer_);
+    const itimerspec time = {{0, 0}, {seconds, 0}};
+    timer_settime(timer_, 0, &time, nullptr);
+  }
+  ~Watchdog() { timer_delete(timer_); }
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+ private:
+  timer_t timer_ = {};
+};
+
+/// Of one scene, some ten times what the slowest one takes.
+constexpr long kHangs = 8;
 
 /// A crash is a violation like others. What was in use then is lost, which a short run can afford.
 std::vector<Violation> checkSurviving(const Scene& scene, Tally& tally,
                                       const CheckOptions& options = {}) {
   std::vector<Violation> found;
+  const Watchdog watchdog(kHangs);
   const int signal = sigsetjmp(after_crash, 1);
   if (signal == 0) {
     is_checking = 1;
@@ -51,8 +79,9 @@ std::vector<Violation> checkSurviving(const Scene& scene, Tally& tally,
     return found;
   }
   is_checking = 0;
-  ++tally.violations[scene.family + ": crash"];
-  return {{"crash", "signal " + std::to_string(signal)}};
+  const std::string what = signal == SIGALRM ? "hang" : "crash";
+  ++tally.violations[scene.family + ": " + what];
+  return {{what, "signal " + std::to_string(signal)}};
 }
 
 double now() {
@@ -115,7 +144,10 @@ class Run {
     }
     for (const Violation& violation : found) {
       if (plan_.verbose) std::cout << violation.check << ": " << violation.detail << "\n";
-      failures_[scene.family + ": " + violation.check].push_back({scene, violation});
+      const std::string kind = scene.family + ": " + violation.check;
+      std::vector<Failure>& failures = failures_[kind];
+      if (failures.empty()) std::cout << kind << ", index " << scene.index << std::endl;
+      failures.push_back({scene, violation});
     }
   }
 

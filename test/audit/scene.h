@@ -65,8 +65,8 @@ struct Shape {
   double threshold_free = 0.0;
 
   bool isUnbounded() const { return kind == Kind::halfspace || kind == Kind::plane; }
-  /// As fcl::collide has it, what is not occupied is never hit.
-  bool isOccupied() const { return cost_density >= threshold_occupied; }
+  /// As fcl::collide has it, what is not occupied is never hit; of an octree only its cells count.
+  bool isOccupied() const { return kind == Kind::octree || cost_density >= threshold_occupied; }
 };
 
 struct Member {

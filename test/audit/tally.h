@@ -20,9 +20,11 @@ struct Violation {
 
 struct FamilyTally {
   std::size_t scenes = 0, answered = 0, refused = 0;
-  std::size_t exact_truths = 0, sampled_truths = 0, claims = 0;
-  std::size_t non_trivial = 0;  ///< with bounds around a P in (1e-3, 0.999)
-  std::size_t late = 0;         ///< beyond their time limit by more than 0.2 s
+  std::size_t exact_truths = 0, sampled_truths = 0;
+  std::size_t claims = 0, claim_points = 0;  ///< of cells, and displacements tried in them
+  std::size_t undecided = 0;                 ///< of these, by the oracle
+  std::size_t non_trivial = 0;               ///< with bounds around a P in (1e-3, 0.999)
+  std::size_t late = 0;                      ///< beyond their time limit by more than 0.2 s
   double seconds = 0.0;
   double slowest = 0.0;
 };

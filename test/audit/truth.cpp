@@ -257,6 +257,7 @@ std::optional<SampledTruth> sampledProbability(const TruthQuestion& question, in
     if (!spans) return std::nullopt;
     truth.mean += shareOf(*spans, static_cast<double>(line.reach)) / lines;
   }
+  truth.mean = std::min(1.0, truth.mean);
   return truth;
 }
 

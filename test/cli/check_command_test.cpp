@@ -47,6 +47,51 @@ struct Cubes {
 
 }  // namespace
 
+TEST_CASE("check takes errors of a pose", "[cli]") {
+  const Cubes cubes;
+  const std::vector<std::string> base{cubes.file, cubes.file, "--pose-a", "1.2,0.13,0.07"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    return more;
+  };
+  // Without rotation as for --sigma.
+  const json still = checkJson(with({"--pose-sigma", "0.1,0,0,0,0,0"}), cubes.folder);
+  CHECK(still.at("lower").get<double>() <= fcl_prob::normalTailMass(2.0));
+  CHECK(still.at("upper").get<double>() >= fcl_prob::normalTailMass(2.0));
+  const json turned = checkJson(
+      with({"--pose-sigma", "0.1,0.05,0.05,0.1,0.1,0.1", "--method", "estimate"}), cubes.folder);
+  CHECK(turned.at("method") == "estimate");
+  CHECK(turned.at("status") == "converged");
+  const json counted = checkJson(
+      with({"--pose-covariance", "0.01,0,0,0,0,0,0.0025,0,0,0,0,0.0025,0,0,0,0.01,0,0,0.01,0,0.01",
+            "--method", "monte-carlo", "--samples", "20000", "--relative-tolerance", "1e-9"}),
+      cubes.folder);
+  const double difference =
+      turned.at("estimate").get<double>() - counted.at("estimate").get<double>();
+  CHECK(std::fabs(difference) <= 5.0 * std::hypot(turned.at("standard_error").get<double>(),
+                                                  counted.at("standard_error").get<double>()));
+  const json interval = checkJson(with({"--pose-sigma", "0.1,0.05,0.05,0.01,0.01,0.01", "--method",
+                                        "interval", "--relative-tolerance", "0.2"}),
+                                  cubes.folder);
+  CHECK(interval.at("upper").get<double>() > interval.at("lower").get<double>());
+  const std::vector<std::vector<std::string>> refused{
+      {"--pose-sigma", "0.1,0,0"},
+      {"--pose-sigma", "0.1,0,0,0,0,45"},
+      {"--pose-sigma", "0.1,0,0,0,0,x"},
+      {"--pose-covariance", "1,2,3"},
+      {"--pose-sigma", "0.1,0,0,0,0,0.1", "--sigma", "0.1,0,0"},
+      {"--pose-sigma", "0.1,0,0,0,0,0.1", "--pose-convention", "mine"},
+      {"--pose-sigma", "0.1,0,0,0,0,0.1", "--method", "general-pcd"},
+      {"--pose-sigma", "0.1,0,0,0,0,0.1", "--bv", "sphere"}};
+  for (const auto& bad : refused) {
+    std::vector<std::string> all = with(bad);
+    all.insert(all.begin(), "check");
+    const CommandResult result = runCommand(all, cubes.folder);
+    CAPTURE(bad[1], result.err);
+    CHECK(result.refused());
+  }
+}
+
 TEST_CASE("check answers what the normal distribution says of two cubes", "[cli]") {
   const Cubes cubes;
   // Centres 1.2 m apart, sigma 0.1 m along x only; surfaces of cubes that overlap touch.

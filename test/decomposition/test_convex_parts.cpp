@@ -11,7 +11,6 @@
 
 namespace {
 
-using Catch::Approx;
 using Eigen::Vector3d;
 using fcl_prob::ConvexParts;
 using fcl_prob::ConvexPolytope;

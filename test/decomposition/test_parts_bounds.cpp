@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
+#include <fcl/geometry/shape/sphere.h>
+
 #include <cmath>
 
 #include "benchmark_scenes.h"
@@ -141,7 +143,7 @@ TEST_CASE("pairs that overlap are not counted twice", "[decomposition]") {
   CHECK(bounds.any.lower <= p);
   CHECK(bounds.any.upper >= p);
   CHECK(bounds.any.width() < 1e-6);
-  CHECK(bounds.sum == Catch::Approx(massOfInterval(1, 3) + massOfInterval(2, 4)).epsilon(1e-9));
+  CHECK(bounds.sum == Approx(massOfInterval(1, 3) + massOfInterval(2, 4)).epsilon(1e-9));
   CHECK(bounds.intersections == 1);
 }
 

@@ -3,6 +3,7 @@
 #include "fcl_prob/gaussian_displacement.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <limits>
 
 #include "catch.h"
@@ -267,6 +268,67 @@ TEST_CASE("reversing mirrors the mean, rotating turns mean, axes and covariance"
     CHECK(d.withMean(kZero).mean() == kZero);
     CHECK(d.withMean(kZero).standardDeviations() == d.standardDeviations());
   }
+}
+
+using WideVector = Eigen::Matrix<HighPrecision, 3, 1>;
+using WideMatrix = Eigen::Matrix<HighPrecision, 3, 3>;
+
+// R A D in 50 digits, where Σ = A D² Aᵀ: with its transpose it is R Σ Rᵀ, R as it is.
+WideMatrix rotatedFactor(const GaussianDisplacement& d, const Matrix3d& r) {
+  return r.cast<HighPrecision>() * d.axes().cast<HighPrecision>() *
+         d.standardDeviations().cast<HighPrecision>().asDiagonal();
+}
+
+// Sums of the squares of all minors of each order, in which nothing cancels (Cauchy and Binet).
+std::array<HighPrecision, 3> squaredMinors(const WideMatrix& f) {
+  const WideVector x = f.col(0), y = f.col(1), z = f.col(2);
+  const HighPrecision volume = x.dot(y.cross(z));
+  return {f.squaredNorm(),
+          x.cross(y).squaredNorm() + x.cross(z).squaredNorm() + y.cross(z).squaredNorm(),
+          volume * volume};
+}
+
+TEST_CASE("a displacement rotated by a matrix that is nearly a rotation") {
+  std::mt19937 random(81);
+  for (int i = 0; i < 2000; ++i) {
+    const int rank = i % 4;
+    const double least = i % 3 ? logUniform(random, 1e-140, 1.0) : 1.0;
+    const double scale = logUniform(random, 1e-140, 1e140);
+    Vector3d sigma = Vector3d::Zero();
+    for (int k = 0; k < rank; ++k) sigma[k] = scale * logUniform(random, 0.999 * least, 1.0);
+    auto d = GaussianDisplacement::fromStandardDeviations(sigma, randomQuaternion(random));
+    Matrix3d r = randomRotation(random);
+    const double off = logUniform(random, 1e-16, 2e-10);
+    for (int k = 0; k < 9; ++k) r(k / 3, k % 3) += uniform(random, -off, off);
+    const auto rotated = d.rotated(r);
+    INFO("case " << i << " deviations " << d.standardDeviations().transpose() << " off by " << off);
+    CHECK(rotated.rank() == rank);
+    CHECK(rotationDefect(rotated.axes()) < 3e-15);
+    // The largest deviations first: each order of minors shows one more of them.
+    const WideMatrix factor = rotatedFactor(d, r);
+    const auto truth = squaredMinors(factor);
+    const WideMatrix diagonal = rotated.standardDeviations().cast<HighPrecision>().asDiagonal();
+    const auto found = squaredMinors(diagonal);
+    for (int k = 0; k < rank; ++k) CHECK(abs(found[k] / truth[k] - 1) <= 1e-13);
+    // Whitened by the transpose, what is rotated has the identity as its covariance.
+    if (least < 1.0 || rank == 0) continue;
+    const WideMatrix turned = rotated.axes().cast<HighPrecision>().transpose() * factor;
+    const WideMatrix covariance = turned * turned.transpose();
+    for (int k = 0; k < rank; ++k) {
+      for (int j = 0; j < rank; ++j) {
+        const HighPrecision one = diagonal(k, k) * diagonal(j, j);
+        CHECK(abs(covariance(k, j) / one - (k == j ? 1 : 0)) <= 1e-14);
+      }
+    }
+  }
+}
+
+TEST_CASE("rotating again and again keeps axes that are a rotation") {
+  std::mt19937 random(82);
+  auto d = GaussianDisplacement::fromStandardDeviations({3, 2, 1}, randomQuaternion(random));
+  for (int i = 0; i < 20000; ++i) d = d.rotated(randomRotation(random));
+  CHECK(rotationDefect(d.axes()) < 3e-15);
+  CHECK((d.standardDeviations() - Vector3d(3, 2, 1)).norm() < 1e-10);
 }
 
 TEST_CASE("a quaternion of any length, as small or large as doubles go, is the same rotation") {

@@ -145,6 +145,61 @@ TEST_CASE("shells: cavities, overlapping shells, inside-out meshes, parts") {
   CHECK(inside_out.partPoints().size() == 1);
 }
 
+TEST_CASE("triangles with equal corners are parts of the surface") {
+  TriangleMesh mesh = joined(boxMesh({1, 1, 1}), transformed(boxMesh({1, 1, 1}), moved(5, 0, 0)));
+  mesh.vertices.push_back({9, 9, 9});
+  mesh.vertices.push_back({8, 8, 8});
+  mesh.vertices.push_back({7, 7, 7});  // of no triangle
+  mesh.triangles.emplace_back(16, 16, 16);
+  mesh.triangles.emplace_back(17, 17, 17);
+  mesh.triangles.emplace_back(0, 0, 1);  // hangs together with the first box
+  const ClosedMesh solid = closed(mesh);
+  REQUIRE(solid.partPoints().size() == 4);
+  CHECK(solid.partOfVertex().size() == mesh.vertices.size());
+  CHECK(solid.partOfVertex().back() == -1);
+  for (std::size_t v = 0; v + 1 < mesh.vertices.size(); ++v) {
+    const Eigen::Vector3d& point = solid.partPoints()[solid.partOfVertex()[v]];
+    CHECK((point - mesh.vertices[v]).norm() < 2);
+  }
+}
+
+TEST_CASE("points that are known with an error are certain only that far from the surface") {
+  std::mt19937_64 generator(13);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  const ClosedMesh mesh = closed(boxMesh({1, 2, 1.5}));
+  const Eigen::Vector3d half(0.5, 1, 0.75);
+  int certain = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Vector3d p(coordinate(generator), coordinate(generator), coordinate(generator));
+    const Eigen::Vector3d outside = p.cwiseAbs() - half;
+    const double depth = outside.maxCoeff();
+    const double error = 0.01;
+    const Containment containment = mesh.contains(p, error);
+    if (depth > -error && (outside.array() < error).all()) {
+      REQUIRE(containment == Containment::unknown);
+    } else if (containment != Containment::unknown) {
+      REQUIRE(containment == (depth < 0 ? Containment::inside : Containment::outside));
+      ++certain;
+    }
+  }
+  CHECK(certain > 500);
+}
+
+TEST_CASE("containment at scales at which products leave the normal numbers") {
+  std::mt19937_64 generator(14);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (const double scale : {1e-120, 1e-150, 1e-156, 1e-158, 1e-160, 1e-165, 1e120}) {
+    const ClosedMesh mesh = closed(boxMesh({scale, scale, scale}));
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector3d p(coordinate(generator), coordinate(generator), coordinate(generator));
+      const bool expected = p.cwiseAbs().maxCoeff() < 0.5;
+      const Containment containment = mesh.contains(scale * p);
+      if (containment == Containment::unknown) continue;
+      REQUIRE(containment == (expected ? Containment::inside : Containment::outside));
+    }
+  }
+}
+
 TEST_CASE("points that are not finite are unknown") {
   const ClosedMesh mesh = closed(boxMesh({1, 1, 1}));
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -35,6 +35,49 @@ std::shared_ptr<Shape> shapeOf(const TemporaryFolder& folder, const std::string&
 
 }  // namespace
 
+TEST_CASE("a pose error in place of the displacement", "[io]") {
+  TemporaryFolder folder;
+  const auto load = [&](const std::string& error) {
+    return loadScene(
+        folder.write("scene.json", R"({"a": {"sphere": 1}, "b": {"sphere": 1}, )" + error + "}"));
+  };
+  const auto fault = [&](const std::string& error) {
+    try {
+      load(error);
+    } catch (const FileError& failure) {
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  const Scene scene = load(
+      R"("pose_error": {"sigma": [1, 2, 3, 0.1, 0.2, 0.3], "mean": [0, 0, 1, 0, 0, 0.1],
+                        "convention": "body"})");
+  REQUIRE(scene.pose_error);
+  CHECK(scene.pose_error->covariance()(4, 4) == Approx(0.04));
+  CHECK(scene.pose_error->mean()[5] == 0.1);
+  CHECK(scene.pose_error->convention() == PoseConvention::body_rotation_vector);
+  CHECK(scene.displacement.covariance()(1, 1) == Approx(4));
+  CHECK(scene.displacement.mean().z() == Approx(1));
+  const Scene full = load(
+      R"("pose_error": {"covariance": [1,0,0,0,0,0.1, 1,0,0,0,0, 1,0,0,0, 0.1,0,0, 0.1,0, 0.1]})");
+  CHECK(full.pose_error->covariance()(0, 5) == 0.1);
+  CHECK(full.pose_error->covariance()(5, 0) == 0.1);
+  CHECK(full.pose_error->covariance()(2, 2) == 1.0);
+  CHECK_FALSE(load(R"("displacement": {"sigma": [1, 2, 3]})").pose_error);
+
+  CHECK(fault(R"("pose_error": {"sigma": [1, 2, 3]})").find("pose_error: sigma: it needs 6") !=
+        std::string::npos);
+  CHECK(fault(R"("pose_error": {"covariance": [1, 2, 3]})").find("21 numbers") !=
+        std::string::npos);
+  CHECK(fault(R"("pose_error": {"sigma": [1, 2, 3, 0, 0, 45]})").find("degrees") !=
+        std::string::npos);
+  CHECK(fault(R"("pose_error": {"sigma": [1, 2, 3, 0, 0, 0], "convention": "x"})")
+            .find("convention") != std::string::npos);
+  CHECK(
+      fault(R"("pose_error": {"sigma": [1, 2, 3, 0, 0, 0]}, "displacement": {"sigma": [1, 2, 3]})")
+          .find("exactly one") != std::string::npos);
+}
+
 TEST_CASE("a scene file with everything in it", "[io]") {
   const TemporaryFolder folder;
   const Scene scene = loadScene(folder.write("s.json", R"({

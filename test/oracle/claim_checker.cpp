@@ -193,7 +193,6 @@ ClaimReport& ClaimReport::operator+=(const ClaimReport& other) {
     sum.violated += count.violated;
   }
   violations.insert(violations.end(), other.violations.begin(), other.violations.end());
-  whitening_error = std::max(whitening_error, other.whitening_error);
   return *this;
 }
 
@@ -231,9 +230,6 @@ ClaimReport checkClaims(const Scene& scene, const std::function<void()>& query,
     const std::size_t share = std::min(left / methods--, reservoir.claims.size());
     for (std::size_t i = 0; i < share; ++i) checker.check(reservoir.claims[i], count);
     left -= share;
-  }
-  for (const WhitenedFrame& frame : recorder.frames) {
-    report.whitening_error = std::max(report.whitening_error, frame.error());
   }
   return report;
 }

@@ -4,9 +4,9 @@
 //
 // What is claimed of a set of whitened points holds for all of them
 // (src/partition/claim_observer.h); some are tried, most of them at corners, on edges and faces of
-// cells and on planes, as little inside as doubles allow. A point y is exactly that of the
-// displacement mean + A (W A)⁻¹ y, A the axes that move, each as long as its standard deviation,
-// and W their rows of the whitening: no rounding in between can be blamed.
+// cells and on planes, as little inside as doubles allow. A point y stands
+// for the displacement that has it by law (whitened_frame.h), so that what is rounded in whitening
+// counts as the partition's.
 #pragma once
 
 #include <cstdint>
@@ -47,9 +47,6 @@ struct ClaimCount {
 struct ClaimReport {
   std::map<std::string, ClaimCount> by_method;
   std::vector<Violation> violations;
-
-  /// The largest |(W A)(W A)ᵀ - I|: 0 if the whitened displacement is a standard normal.
-  double whitening_error = 0.0;
 
   ClaimCount total() const;
   ClaimReport& operator+=(const ClaimReport& other);

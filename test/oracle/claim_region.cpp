@@ -112,7 +112,9 @@ std::optional<Eigen::Vector3d> ClaimRegion::start(Random& random) const {
 }
 
 std::optional<Eigen::Vector3d> ClaimRegion::point(int hits, Random& random) const {
-  if (cell_.lo == cell_.hi) return cell_.lo;
+  if (cell_.lo == cell_.hi) {
+    return contains(cell_.lo) ? std::optional<Eigen::Vector3d>(cell_.lo) : std::nullopt;
+  }
   const auto begin = start(random);
   if (!begin) return std::nullopt;
   Eigen::Vector3d inside = *begin;

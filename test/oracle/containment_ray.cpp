@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "origin_search.h"
+
 namespace oracle {
 
 namespace {
@@ -109,9 +111,12 @@ class Ray {
   }
 
   int sideOfPlane(const int* t) {
-    const int sign =
-        certainSign(mesh_.vertex(t[0]) - query_.point, mesh_.vertex(t[1]) - query_.point,
-                    mesh_.vertex(t[2]) - query_.point, query_.error);
+    const auto relative = [&](int i) -> Vector<Long> {
+      const LongVector v = mesh_.vertex(i) - query_.point;
+      return {v[0], v[1], v[2]};
+    };
+    const int sign = certainSign(relative(t[0]), relative(t[1]), relative(t[2]),
+                                 {query_.error[0], query_.error[1], query_.error[2]});
     if (sign != 0) return sign;
     ++exact_questions_;
     const ExactVector point = query_.exact();

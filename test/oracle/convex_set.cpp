@@ -7,135 +7,120 @@
 #include <optional>
 #include <vector>
 
-#include "closest_point.h"
+#include "curved_support.h"
+#include "origin_search.h"
 
 namespace oracle {
 
 namespace {
 
-// Of what a sum of products is certain to exceed: the points' own errors and the sum's rounding.
-constexpr Long kSafety = 4;
-
-// Supports sought before a pair is left to what is exact. Each halves the distance to a curved
-// boundary at least; 64 bits are used up long before.
-constexpr int kMostSteps = 200;
+// Supports sought before a pair is left to more digits. Each halves the distance to a curved
+// boundary at least: more than these never help.
+constexpr int kMostSteps = 100;
+constexpr int kMostWideSteps = 300;
 
 Vector<Long> toArray(const LongVector& v) { return {v[0], v[1], v[2]}; }
-LongVector toEigen(const Vector<Long>& v) { return {v[0], v[1], v[2]}; }
 
-/// Points of b - a - offset, and what they prove.
-class Difference {
+int sign(const LongVector& u, const LongVector& v, const LongVector& w, const Vector<Long>& error) {
+  return certainSign(toArray(u), toArray(v), toArray(w), error);
+}
+
+/// A piece over any kind of number.
+template <typename S>
+class Support {
  public:
-  explicit Difference(const ConvexPair& pair) : pair_(pair) {}
-
-  LongVector support(const LongVector& direction) const {
-    return pair_.b.support(direction) - pair_.a.support(-direction) - pair_.offset;
+  Support(const CurvedShape* curved, std::vector<Vector<S>> corners)
+      : corners_(std::move(corners)) {
+    if (curved) curved_.emplace(*curved);
   }
 
-  /// Whether all of b - a - offset is certainly ahead of the origin along `direction`.
-  bool isAhead(const LongVector& direction) const {
-    const Long least = -pair_.b.supportValue(-direction) - pair_.a.supportValue(direction) -
-                       direction.dot(pair_.offset);
-    return least > kSafety * direction.cwiseAbs().dot(pair_.error);
+  Vector<S> point(const Vector<S>& direction) const {
+    return curved_ ? curved_->point(direction) : corners_[farthest(direction)];
   }
 
-  bool separatedAlong(const LongVector& direction) const {
-    return isAhead(direction) || isAhead(-direction);
-  }
-
-  /// Whether the tetrahedron of four such points certainly has the origin within.
-  bool surround(const LongVector& p, const LongVector& q, const LongVector& r,
-                const LongVector& s) const {
-    const int sign = certainSign(q, r, s, pair_.error);
-    return sign != 0 && certainSign(p, r, s, pair_.error) == -sign &&
-           certainSign(p, q, s, pair_.error) == sign && certainSign(p, q, r, pair_.error) == -sign;
-  }
-
-  bool anyFourSurround(const std::vector<LongVector>& points) const {
-    const std::size_t count = points.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        for (std::size_t k = 0; k < j; ++k) {
-          for (std::size_t l = 0; l < k; ++l) {
-            if (surround(points[i], points[j], points[k], points[l])) return true;
-          }
-        }
-      }
-    }
-    return false;
+  S value(const Vector<S>& direction) const {
+    return curved_ ? curved_->value(direction) : dot(corners_[farthest(direction)], direction);
   }
 
  private:
-  const ConvexPair& pair_;
+  std::size_t farthest(const Vector<S>& direction) const {
+    std::size_t best = 0;
+    S highest = dot(corners_[0], direction);
+    for (std::size_t i = 1; i < corners_.size(); ++i) {
+      const S height = dot(corners_[i], direction);
+      if (height > highest) {
+        highest = height;
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  std::optional<CurvedSupport<S>> curved_;
+  std::vector<Vector<S>> corners_;
 };
 
-// Where the origin is on a face of all simplices met: points around it in general position.
-bool surroundedByProbes(const Difference& difference, const Simplex<Long>& simplex) {
-  std::vector<LongVector> points;
-  for (int i = 0; i < simplex.count; ++i) {
-    points.push_back(toEigen(simplex.points[static_cast<std::size_t>(i)]));
+/// b - a - offset.
+template <typename S>
+class Difference {
+ public:
+  using Scalar = S;
+
+  Difference(Support<S> a, Support<S> b, const Vector<S>& offset, const Vector<S>& error)
+      : a_(std::move(a)), b_(std::move(b)), offset_(offset), error_(error) {}
+
+  Vector<S> point(const Vector<S>& direction) const {
+    return b_.point(direction) - a_.point(back(direction)) - offset_;
   }
-  const auto probe = [&](const LongVector& direction) {
-    for (const Long sign : {1.0L, -1.0L}) points.push_back(difference.support(sign * direction));
-  };
-  if (points.size() >= 3) probe((points[1] - points[0]).cross(points[2] - points[0]));
-  if (difference.anyFourSurround(points)) return true;
-  probe({0.63L, 0.31L, -0.71L});
-  probe({-0.42L, 0.87L, 0.26L});
-  probe({0.55L, -0.37L, 0.75L});
-  return difference.anyFourSurround(points);
+
+  S value(const Vector<S>& direction) const {
+    return b_.value(direction) + a_.value(back(direction)) - dot(direction, offset_);
+  }
+
+  const Vector<S>& error() const { return error_; }
+
+ private:
+  static Vector<S> back(const Vector<S>& v) { return {S(-v[0]), S(-v[1]), S(-v[2])}; }
+
+  Support<S> a_;
+  Support<S> b_;
+  Vector<S> offset_;
+  Vector<S> error_;
+};
+
+template <typename S>
+Verdict search(const Difference<S>& difference, const Vector<S>& start, int most_steps) {
+  const S square = dot(start, start);
+  const Vector<S> unit{S(1), S(0), S(0)};
+  return OriginSearch<Difference<S>>(difference).run(square > 0 ? start : unit, most_steps);
 }
 
-Verdict lastResort(const Difference& difference, const Simplex<Long>& simplex) {
-  if (simplex.count >= 3) {
-    const LongVector a = toEigen(simplex.points[0]);
-    const LongVector b = toEigen(simplex.points[1]);
-    const LongVector c = toEigen(simplex.points[2]);
-    if (difference.separatedAlong((b - a).cross(c - a))) return Verdict::apart;
-  }
-  return surroundedByProbes(difference, simplex) ? Verdict::touching : Verdict::undecided;
+Support<Long> longSupport(const ConvexSet& set) {
+  std::vector<Vector<Long>> corners;
+  for (int i = 0; i < set.count; ++i) corners.push_back(toArray(set.corner(i)));
+  return {set.curved, std::move(corners)};
 }
 
-// Gilbert, Johnson and Keerthi 1988; only its certificates count, not where it converges to.
-Verdict search(const ConvexPair& pair) {
-  const Difference difference(pair);
-  Simplex<Long> simplex;
-  LongVector start = -pair.offset;
-  if (start.isZero(0)) start = LongVector::UnitX();
-  simplex.points[0] = toArray(difference.support(-start));
-  simplex.count = 1;
-  reduce(simplex);
-  Long last = std::numeric_limits<Long>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
-    const LongVector closest = toEigen(simplex.closest);
-    if (simplex.count == 4) {
-      const auto& p = simplex.points;
-      if (difference.surround(toEigen(p[0]), toEigen(p[1]), toEigen(p[2]), toEigen(p[3]))) {
-        return Verdict::touching;
-      }
-      break;
-    }
-    if (difference.isAhead(closest)) return Verdict::apart;
-    const Long square = closest.squaredNorm();
-    if (!(square < last)) break;
-    last = square;
-    const LongVector next = difference.support(-closest);
-    simplex.points[static_cast<std::size_t>(simplex.count++)] = toArray(next);
-    const Simplex<Long> before = simplex;
-    reduce(simplex);
-    const Long now = toEigen(simplex.closest).squaredNorm();
-    if (simplex.count < 4 && !(now < square)) {
-      simplex = before;
-      break;
-    }
-  }
-  return lastResort(difference, simplex);
+Verdict searchInLong(const ConvexPair& pair) {
+  const Difference<Long> difference(longSupport(pair.a), longSupport(pair.b), toArray(pair.offset),
+                                    toArray(pair.error));
+  return search(difference, toArray(pair.offset), kMostSteps);
+}
+
+Verdict searchInWide(const ConvexPair& pair) {
+  std::vector<WideVector> of_a, of_b;
+  for (int i = 0; i < pair.a.count; ++i) of_a.push_back(pair.corners->wideA(i));
+  for (int i = 0; i < pair.b.count; ++i) of_b.push_back(pair.corners->wideB(i));
+  const Difference<Wide> difference({pair.a.curved, std::move(of_a)},
+                                    {pair.b.curved, std::move(of_b)}, pair.wide_offset,
+                                    pair.wide_error);
+  return search(difference, pair.wide_offset, kMostWideSteps);
 }
 
 /// Two triangles: by the signs of determinants of their corners.
 class TrianglePair {
  public:
-  explicit TrianglePair(const ConvexPair& pair) : pair_(pair) {
+  explicit TrianglePair(const ConvexPair& pair) : pair_(pair), error_(toArray(pair.error)) {
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         corners_[i][j] = pair.b.corner(j) - pair.a.corner(i) - pair.offset;
@@ -149,10 +134,9 @@ class TrianglePair {
 
   Verdict verdict() const {
     if (allAlike(side_of_a_) || allAlike(side_of_b_)) return Verdict::apart;
-    const Difference difference(pair_);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
-        if (difference.separatedAlong(edgeOfA(i).cross(edgeOfB(j)))) return Verdict::apart;
+        if (separatedAlong(edgeOfA(i).cross(edgeOfB(j)))) return Verdict::apart;
       }
     }
     for (int i = 0; i < 3; ++i) {
@@ -163,11 +147,24 @@ class TrianglePair {
 
  private:
   int sign(const LongVector& u, const LongVector& v, const LongVector& w) const {
-    return certainSign(u, v, w, pair_.error);
+    return oracle::sign(u, v, w, error_);
   }
 
   static bool allAlike(const int* signs) {
     return signs[0] != 0 && signs[0] == signs[1] && signs[1] == signs[2];
+  }
+
+  bool separatedAlong(const LongVector& direction) const {
+    Long least = std::numeric_limits<Long>::infinity(), most = -least;
+    for (const auto& row : corners_) {
+      for (const LongVector& corner : row) {
+        const Long along = direction.dot(corner);
+        least = std::min(least, along);
+        most = std::max(most, along);
+      }
+    }
+    const Long doubt = 4 * direction.cwiseAbs().dot(pair_.error);
+    return least > doubt || most < -doubt;
   }
 
   LongVector edgeOfA(int i) const { return pair_.a.corner((i + 1) % 3) - pair_.a.corner(i); }
@@ -193,6 +190,7 @@ class TrianglePair {
   }
 
   const ConvexPair& pair_;
+  Vector<Long> error_;
   LongVector corners_[3][3];  // b - a - offset
   int side_of_b_[3];          // of the corners of a, relative to the plane of b
   int side_of_a_[3];
@@ -200,26 +198,10 @@ class TrianglePair {
 
 }  // namespace
 
-int certainSign(const LongVector& u, const LongVector& v, const LongVector& w,
-                const LongVector& error) {
-  Long value = 0;
-  Long doubt = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    value += u[i] * (v[j] * w[k] - v[k] * w[j]);
-    const Long vj = std::fabs(v[j]) + error[j], vk = std::fabs(v[k]) + error[k];
-    const Long wj = std::fabs(w[j]) + error[j], wk = std::fabs(w[k]) + error[k];
-    doubt += error[i] * (vj * wk + vk * wj) +
-             std::fabs(u[i]) * (error[j] * (wk + vk) + error[k] * (vj + wj));
-  }
-  if (value > kSafety * doubt) return 1;
-  return value < -kSafety * doubt ? -1 : 0;
-}
-
 Verdict meetExactly(const ConvexPair& pair) {
   std::vector<ExactVector> of_a, of_b;
-  for (int i = 0; i < pair.a.count; ++i) of_a.push_back(pair.exact_a(i));
-  for (int i = 0; i < pair.b.count; ++i) of_b.push_back(pair.exact_b(i));
+  for (int i = 0; i < pair.a.count; ++i) of_a.push_back(pair.corners->exactA(i));
+  for (int i = 0; i < pair.b.count; ++i) of_b.push_back(pair.corners->exactB(i));
   const auto farthest = [](const std::vector<ExactVector>& points, const ExactVector& along) {
     std::size_t best = 0;
     Rational highest = dot(points[0], along);
@@ -253,8 +235,9 @@ Verdict meetExactly(const ConvexPair& pair) {
 Verdict meet(const ConvexPair& pair) {
   const bool hulls = !pair.a.curved && !pair.b.curved;
   const bool triangles = hulls && pair.a.count == 3 && pair.b.count == 3;
-  const Verdict verdict = triangles ? TrianglePair(pair).verdict() : search(pair);
-  return verdict == Verdict::undecided && hulls ? meetExactly(pair) : verdict;
+  const Verdict verdict = triangles ? TrianglePair(pair).verdict() : searchInLong(pair);
+  if (verdict != Verdict::undecided) return verdict;
+  return hulls ? meetExactly(pair) : searchInWide(pair);
 }
 
 }  // namespace oracle

@@ -3,8 +3,6 @@
 // Convex pieces of the oracle, and whether two of them meet.
 #pragma once
 
-#include <functional>
-
 #include "exact.h"
 
 namespace oracle {
@@ -21,12 +19,6 @@ struct CurvedShape {
   Long half_length = 0;  ///< along z; a cone has its apex at +, a capsule's balls are there
   LongMatrix linear = LongMatrix::Identity();
 
-  /// A point of the shape, to within rounding, that is farthest along `direction`.
-  LongVector support(const LongVector& direction) const;
-
-  /// The largest product of `direction` and a point of the shape.
-  Long supportValue(const LongVector& direction) const;
-
   /// Bound on the terms that the coordinates of its points are sums of.
   LongVector magnitude() const;
 };
@@ -39,8 +31,19 @@ struct ConvexSet {
   const CurvedShape* curved = nullptr;  ///< null: a hull
 
   const LongVector& corner(int i) const { return vertices[corners[i]]; }
-  LongVector support(const LongVector& direction) const;
+
+  /// The largest product of `direction` and a point of it.
   Long supportValue(const LongVector& direction) const;
+};
+
+/// Where the corners of the hulls of a pair are kept.
+class Corners {
+ public:
+  virtual ~Corners() = default;
+  virtual ExactVector exactA(int i) const = 0;  ///< in the world, displaced
+  virtual ExactVector exactB(int i) const = 0;
+  virtual WideVector wideA(int i) const = 0;  ///< relative to the reference
+  virtual WideVector wideB(int i) const = 0;
 };
 
 /// B moved by -offset against A.
@@ -49,19 +52,15 @@ struct ConvexPair {
   ConvexSet b;
   LongVector offset;  ///< reference of A, displaced, less that of B
   LongVector error;   ///< bound on the error of a point of b - a - offset, for each axis
-  std::function<ExactVector(int)> exact_a;  ///< the corner i of a hull in the world, displaced
-  std::function<ExactVector(int)> exact_b;
+  WideVector wide_offset;
+  WideVector wide_error;
+  const Corners* corners = nullptr;
 };
 
-/// Undecided only where one of the two is curved, and within a few `error` of touching.
+/// Undecided only where one of the two is curved, and within a few `wide_error` of touching.
 Verdict meet(const ConvexPair& pair);
 
 /// The same of two hulls in rationals; slow.
 Verdict meetExactly(const ConvexPair& pair);
-
-/// Sign of the determinant of three vectors of which every component is known to within `error`
-/// of its axis; 0 if that leaves it open.
-int certainSign(const LongVector& u, const LongVector& v, const LongVector& w,
-                const LongVector& error);
 
 }  // namespace oracle

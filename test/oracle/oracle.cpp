@@ -21,12 +21,42 @@ std::vector<Part> partsOf(const std::vector<Placed>& placed, Contact contact) {
 struct Offset {
   LongVector offset;
   LongVector error;  ///< of a point of b - a - offset
+  WideVector wide_offset;
+  WideVector wide_error;
+};
+
+/// Corners of two pieces of parts.
+class PairCorners : public Corners {
+ public:
+  PairCorners(const Part& a, const Part& b, const Displacement& displacement, Effort& effort)
+      : a_(a), b_(b), displacement_(displacement), effort_(effort) {}
+
+  void choose(int piece_a, int piece_b) {
+    piece_a_ = piece_a;
+    piece_b_ = piece_b;
+  }
+
+  ExactVector exactA(int i) const override {
+    effort_.exact += i == 0 ? 1 : 0;
+    return a_.exactCorner(piece_a_, i) + displacement_.exact();
+  }
+  ExactVector exactB(int i) const override { return b_.exactCorner(piece_b_, i); }
+  WideVector wideA(int i) const override { return a_.wideCorner(piece_a_, i); }
+  WideVector wideB(int i) const override { return b_.wideCorner(piece_b_, i); }
+
+ private:
+  const Part& a_;
+  const Part& b_;
+  const Displacement& displacement_;
+  Effort& effort_;
+  int piece_a_ = 0;
+  int piece_b_ = 0;
 };
 
 Offset offsetOf(const Part& a, const Part& b, const Displacement& displacement) {
   Offset result;
-  const WideVector exact = a.reference() + displacement.rounded() - b.reference();
-  result.offset = toLong(exact);
+  result.wide_offset = a.reference() + displacement.rounded() - b.reference();
+  result.offset = toLong(result.wide_offset);
   // The sums of three rounded numbers, and of 237 bits what cancels.
   Long largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -36,6 +66,9 @@ Offset offsetOf(const Part& a, const Part& b, const Displacement& displacement) 
   const LongVector size = a.extent() + b.extent() + result.offset.cwiseAbs();
   result.error = a.error() + b.error() + std::ldexp(1.0L, -61) * size +
                  LongVector::Constant(std::ldexp(largest, -225));
+  const Wide wide_error =
+      a.wideError() + b.wideError() + ldexp(Wide(largest) + Wide(size.maxCoeff()), -225);
+  result.wide_error = {wide_error, wide_error, wide_error};
   return result;
 }
 
@@ -136,6 +169,10 @@ Verdict Scene::surfacesTouch(const Part& a, const Part& b, const Displacement& d
   ConvexPair pair;
   pair.offset = offset.offset;
   pair.error = offset.error;
+  pair.wide_offset = offset.wide_offset;
+  pair.wide_error = offset.wide_error;
+  PairCorners corners(a, b, displacement, effort_);
+  pair.corners = &corners;
   Verdict result = Verdict::apart;
   std::vector<std::pair<int, int>> stack{{0, 0}};
   while (!stack.empty()) {
@@ -156,14 +193,9 @@ Verdict Scene::surfacesTouch(const Part& a, const Part& b, const Displacement& d
       continue;
     }
     ++effort_.pairs;
-    const int piece_a = of_a.piece, piece_b = of_b.piece;
-    pair.a = a.piece(piece_a);
-    pair.b = b.piece(piece_b);
-    pair.exact_a = [&](int corner) {
-      effort_.exact += corner == 0 ? 1 : 0;
-      return a.exactCorner(piece_a, corner) + displacement.exact();
-    };
-    pair.exact_b = [&](int corner) { return b.exactCorner(piece_b, corner); };
+    pair.a = a.piece(of_a.piece);
+    pair.b = b.piece(of_b.piece);
+    corners.choose(of_a.piece, of_b.piece);
     const Verdict verdict = meet(pair);
     if (verdict == Verdict::touching) return verdict;
     if (verdict == Verdict::undecided) result = verdict;

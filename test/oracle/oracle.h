@@ -7,9 +7,9 @@
 // a rotation is used as it is. Sets are closed: to touch at one point is to touch. Polytopes,
 // meshes and octrees are decided exactly: in extended precision where its error bounds allow,
 // otherwise in rationals. Curved shapes are decided by four points of b - a around the origin or by
-// a plane with all of it on one side, either certain in extended precision; within some 1e-9 of the
-// size of the two beside the boundary they may stay undecided. A half-space or plane is placed as
-// fcl::transform does: normal R n, offset d + (R n)·t.
+// a plane with all of it on one side, either certain in extended precision or in 237 bits; within
+// some 1e-30 of the size of the two beside the boundary they stay undecided. A half-space or plane
+// is placed as fcl::transform does: normal R n, offset d + (R n)·t.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -167,6 +167,7 @@ void Part::readCurved(CurvedShape::Kind kind, const Eigen::Vector3d& radii, doub
   reference_ = converted<Wide>(translation_);
   extent_ = shape_.magnitude();
   error_ = std::ldexp(1.0L, -58) * extent_;
+  wide_error_ = ldexp(Wide(extent_.maxCoeff()) + Wide(translation_.cwiseAbs().maxCoeff()), -225);
 }
 
 void Part::placeUnbounded(const Eigen::Vector3d& normal, double offset, bool surface) {
@@ -211,6 +212,7 @@ void Part::placeVertices() {
   }
   error_ = std::ldexp(1.0L, -63) * extent_ +
            LongVector::Constant(std::ldexp(farthest + largest.convert_to<Long>(), -220));
+  wide_error_ = ldexp(Wide(farthest) + largest, -225);
 }
 
 // One vertex of all that hangs together by vertices of equal coordinates.
@@ -292,6 +294,13 @@ ExactVector Part::exactVertex(int i) const {
   if (curved_) return converted<Rational>(translation_);
   return product(linear_, converted<Rational>(originals_[static_cast<std::size_t>(i)])) +
          converted<Rational>(translation_);
+}
+
+WideVector Part::wideCorner(int piece, int corner) const {
+  const int index =
+      corners_[static_cast<std::size_t>(first_corner_[static_cast<std::size_t>(piece)] + corner)];
+  return product(linear_, converted<Wide>(originals_[static_cast<std::size_t>(index)])) +
+         converted<Wide>(translation_) - reference_;
 }
 
 ExactVector Part::exactCorner(int piece, int corner) const {

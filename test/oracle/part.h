@@ -73,6 +73,12 @@ class Part {
   /// Corner `corner` of a hull, in the world.
   ExactVector exactCorner(int piece, int corner) const;
 
+  /// The same to 237 bits, relative to the reference.
+  WideVector wideCorner(int piece, int corner) const;
+
+  /// Bound on what that is rounded by, and the reference.
+  const Wide& wideError() const { return wide_error_; }
+
   const std::vector<PieceNode>& nodes() const { return nodes_; }
   const WideVector& reference() const { return reference_; }
 
@@ -126,6 +132,7 @@ class Part {
   WideVector reference_;
   LongVector extent_ = LongVector::Zero();
   LongVector error_ = LongVector::Zero();
+  Wide wide_error_ = 0;
   std::vector<PieceNode> nodes_;
 };
 

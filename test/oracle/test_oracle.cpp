@@ -221,7 +221,7 @@ TEST_CASE("Curved shapes at the distances that formulas give") {
   for (const Case& one : cases) {
     INFO(one.distance << " along " << one.direction.transpose());
     const Scene scene({&one.a, at(0, 0, 0)}, {&one.b, at(0, 0, 0)}, Contact::surface);
-    for (const double off : {1e-6, 0.1}) {
+    for (const double off : {2e-15, 1e-12, 1e-6, 0.1}) {
       CHECK(scene.touches(Vector3(one.direction * (one.distance + off * 8))) == Verdict::apart);
       CHECK(scene.touches(Vector3(one.direction * (one.distance - off * 8))) == Verdict::touching);
     }

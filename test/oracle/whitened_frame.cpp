@@ -12,14 +12,28 @@ ExactVector combined(const std::array<ExactVector, 3>& columns, const ExactVecto
   return sum;
 }
 
-// The columns of the inverse of a matrix given by its rows.
-std::array<ExactVector, 3> inverse(const std::array<ExactVector, 3>& rows) {
-  const Rational det = determinant(rows[0], rows[1], rows[2]);
-  std::array<ExactVector, 3> columns;
-  for (std::size_t k = 0; k < 3; ++k) {
-    columns[k] = scaled(Rational(1 / det), cross(rows[(k + 1) % 3], rows[(k + 2) % 3]));
+// A whitening that is not turned is diag(1/σ) Aᵀ, whatever the rounding of its rows means along
+// axes of far larger deviations.
+bool isTurned(const fcl_prob::Whitening& whitening,
+              const fcl_prob::GaussianDisplacement& displacement) {
+  for (int k = 0; k < whitening.rank(); ++k) {
+    const Eigen::Vector3d row =
+        whitening.matrix().row(k).transpose() * displacement.standardDeviations()[k];
+    if (!((row - displacement.axes().col(k)).norm() < 1e-6)) return true;
   }
-  return columns;
+  return false;
+}
+
+// Gram and Schmidt, twice.
+void makeOrthonormal(std::array<WideVector, 3>& rows, std::size_t rank) {
+  for (std::size_t i = 0; i < rank; ++i) {
+    for (int round = 0; round < 2; ++round) {
+      for (std::size_t j = 0; j < i; ++j) {
+        rows[i] = rows[i] - scaled(dot(rows[i], rows[j]), rows[j]);
+      }
+      rows[i] = scaled(Wide(1 / sqrt(dot(rows[i], rows[i]))), rows[i]);
+    }
+  }
 }
 
 }  // namespace
@@ -27,35 +41,33 @@ std::array<ExactVector, 3> inverse(const std::array<ExactVector, 3>& rows) {
 WhitenedFrame::WhitenedFrame(const fcl_prob::Whitening& whitening,
                              const fcl_prob::GaussianDisplacement& displacement)
     : rank_(whitening.rank()) {
-  std::array<ExactVector, 3> axes;     // as long as their standard deviations
-  std::array<ExactVector, 3> product;  // rows of W A; of a unit matrix where nothing moves
+  std::array<WideVector, 3> axes;   // as long as their standard deviations
+  std::array<WideVector, 3> turns;  // rows of R
   for (int k = 0; k < 3; ++k) {
-    const auto column = static_cast<std::size_t>(k);
-    axes[column] = scaled(Rational(displacement.standardDeviations()[k]),
-                          converted<Rational>(displacement.axes().col(k)));
+    axes[static_cast<std::size_t>(k)] = scaled(Wide(displacement.standardDeviations()[k]),
+                                               converted<Wide>(displacement.axes().col(k)));
   }
+  const bool turned = isTurned(whitening, displacement);
   for (int i = 0; i < 3; ++i) {
-    const ExactVector row = converted<Rational>(whitening.matrix().row(i).transpose());
+    const WideVector row = converted<Wide>(whitening.matrix().row(i).transpose());
     for (int j = 0; j < 3; ++j) {
-      const bool moves = i < rank_ && j < rank_;
-      product[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
-          moves ? dot(row, axes[static_cast<std::size_t>(j)]) : Rational(i == j ? 1 : 0);
+      const bool moves = turned && i < rank_ && j < rank_;
+      turns[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
+          moves ? dot(row, axes[static_cast<std::size_t>(j)]) : Wide(i == j ? 1 : 0);
     }
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      const Rational off = dot(product[i], product[j]) - (i == j ? 1 : 0);
-      error_ = std::max(error_, std::abs(off.convert_to<double>()));
-    }
-  }
+  makeOrthonormal(turns, static_cast<std::size_t>(rank_));
   Exact exact;
-  exact.mean = converted<Rational>(whitening.mean());
-  const std::array<ExactVector, 3> inverted = inverse(product);
+  exact.mean = converted<Rational>(displacement.mean());
+  mean_ = converted<Wide>(displacement.mean());
   for (std::size_t k = 0; k < 3; ++k) {
-    exact.columns[k] = combined(axes, inverted[k]);
-    columns_[k] = toWide(exact.columns[k]);
+    columns_[k] = {Wide(0), Wide(0), Wide(0)};
+    for (std::size_t j = 0; j < 3; ++j) {
+      columns_[k] = columns_[k] + scaled(turns[k][j], axes[j]);
+    }
+    exact.columns[k] = {Rational(columns_[k][0]), Rational(columns_[k][1]),
+                        Rational(columns_[k][2])};
   }
-  mean_ = toWide(exact.mean);
   exact_ = std::make_shared<const Exact>(std::move(exact));
 }
 

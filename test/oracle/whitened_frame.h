@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// From whitened points to displacements, without rounding.
+// From whitened points to displacements, as the displacement's law has it.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,9 @@
 
 namespace oracle {
 
+/// ε = mean + A Rᵀ y: A the axes that move, each as long as its standard deviation, all as the
+/// displacement reports them, and R the rotation that the whitening adds, to 237 bits. Then y is a
+/// standard normal, whatever was rounded in the whitening itself.
 class WhitenedFrame {
  public:
   WhitenedFrame(const fcl_prob::Whitening& whitening,
@@ -23,9 +26,6 @@ class WhitenedFrame {
   /// The same, rounded to doubles.
   Eigen::Vector3d rounded(const Eigen::Vector3d& y) const;
 
-  /// The largest |(W A)(W A)ᵀ - I|.
-  double error() const { return error_; }
-
  private:
   struct Exact {
     ExactVector mean;
@@ -38,7 +38,6 @@ class WhitenedFrame {
   std::shared_ptr<const Exact> exact_;
   WideVector mean_;
   std::array<WideVector, 3> columns_;
-  double error_ = 0.0;
 };
 
 }  // namespace oracle

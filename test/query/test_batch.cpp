@@ -69,7 +69,8 @@ TEST_CASE("a batch gives what single queries give, on one thread and on two") {
   int likely = 0, unlikely = 0;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     ProbabilityResult single;
-    query.collisionProbability(waypoints[i].pose_a, waypoints[i].pose_b, waypoints[i].displacement,
+    query.collisionProbability(waypoints[i].pose_a, waypoints[i].pose_b,
+                               std::get<GaussianDisplacement>(waypoints[i].displacement),
                                requestWith(1).query, single);
     requireSame(*one.waypoints[i], single);
     requireSame(*two.waypoints[i], single);

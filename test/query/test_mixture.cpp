@@ -8,9 +8,11 @@
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 
+#include <cmath>
 #include <limits>
 
 #include "catch.h"
+#include "fcl_prob/batch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
@@ -251,5 +253,102 @@ TEST_CASE("truncated: thresholds are those of the conditional probability; some 
   request.gradient = false;
   request.method = ProbabilityMethod::monte_carlo;
   CHECK_THROWS_AS(collisionProbability(query, kIdentity, kIdentity, truncated, request, result),
+                  UnsupportedGeometry);
+}
+
+TEST_CASE("sampled mixtures have confidence intervals that cover P as often as they say",
+          "[slow]") {
+  const PreparedQuery query = boxAndWall();
+  const GaussianMixture three({{0.6, kIsotropic},
+                               {0.3, kIsotropic.withMean(Eigen::Vector3d(0.15, 0, 0))},
+                               {0.1, GaussianDisplacement()}});
+  const double truth = 0.6 * normalTailMass(2.0) + 0.3 * normalTailMass(0.5);
+  for (const ProbabilityMethod method :
+       {ProbabilityMethod::monte_carlo, ProbabilityMethod::rare_event}) {
+    ProbabilityRequest request;
+    request.method = method;
+    request.samples = 600;
+    request.confidence = 0.8;
+    request.relative_tolerance = 1e-6;
+    constexpr int kSeeds = 200;
+    int covered = 0;
+    double width = 0.0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      request.seed = static_cast<std::uint64_t>(seed);
+      ProbabilityResult result;
+      collisionProbability(query, kIdentity, wallAt(2.0), three, request, result);
+      REQUIRE(result.confidence_interval);
+      CHECK_FALSE(result.lower);
+      CHECK(std::fabs(*result.estimate - truth) <= 5.5 * *result.standard_error);
+      covered +=
+          result.confidence_interval->lower <= truth && truth <= result.confidence_interval->upper;
+      width += result.confidence_interval->width() / kSeeds;
+    }
+    CAPTURE(toString(method), covered, width);
+    CHECK(covered >= 0.8 * kSeeds - 3 * std::sqrt(0.16 * kSeeds));
+    CHECK(width < truth);
+  }
+}
+
+TEST_CASE("groups and batches answer mixtures and truncated Gaussians as pairs do") {
+  RandomBodies random(5);
+  const auto mesh = makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 4, 6, 1));
+  const auto torus = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5));
+  const auto floor = std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), -0.7);
+  const PreparedQuery pair(mesh, torus);
+  // A member twice, and one that is out of reach, change nothing.
+  const GroupQuery same({mesh, mesh}, {torus, torus});
+  const GroupQuery with_floor({mesh, mesh}, {torus, floor});
+  const ProbabilityRequest request = withTolerance(0.03);
+  for (int i = 0; i < 4; ++i) {
+    const fcl::Transform3d pose = random.pose(1.0);
+    const std::vector<fcl::Transform3d> poses_a{pose, pose}, poses_b{kIdentity, at(300, 0, 0)};
+    const GaussianDisplacement one = randomDisplacement(random, 0.05, 0.2);
+    const GaussianMixture mixture({{0.4, one}, {0.6, randomDisplacement(random, 0.05, 0.2)}});
+    const TruncatedGaussian cut(one, random.uniform(0.5, 2.5));
+    Waypoint of_mixture, of_cut;
+    of_mixture.pose_a = of_cut.pose_a = pose;
+    of_mixture.displacement = mixture;
+    of_cut.displacement = cut;
+    BatchRequest batch;
+    batch.query = request;
+    batch.query.threads = 2;
+    const BatchResult answers = collisionProbabilities(pair, {of_mixture, of_cut}, batch);
+    REQUIRE(answers.done == 2);
+    const auto check = [&](const auto& displacement, const ProbabilityResult& of_batch) {
+      ProbabilityResult alone, group, floored;
+      collisionProbability(pair, pose, kIdentity, displacement, request, alone);
+      collisionProbability(same, poses_a, poses_b, displacement, request, group);
+      CHECK(*of_batch.lower == *alone.lower);
+      CHECK(*of_batch.upper == *alone.upper);
+      CHECK(*group.lower <= *alone.upper);
+      CHECK(*group.upper >= *alone.lower);
+      CHECK(*group.upper - *group.lower <= 0.03 * *group.upper + 1e-300);
+      collisionProbability(with_floor, poses_a, {kIdentity, kIdentity}, displacement, request,
+                           floored);
+      CHECK(*floored.upper >= *alone.lower);
+    };
+    check(mixture, *answers.waypoints[0]);
+    check(cut, *answers.waypoints[1]);
+  }
+}
+
+TEST_CASE("a truncated group holds the closed form, and leaves out what is beyond the ellipsoid") {
+  const auto box = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
+  const auto wall = std::make_shared<fcl::Boxd>(10, 10, 10);
+  const GroupQuery query({box, box}, {wall});
+  for (const double k : {0.5, 1.0, 2.5, 4.0}) {
+    const TruncatedGaussian cut(kIsotropic, k);
+    ProbabilityResult result;
+    // One box reaches the wall at half the radius; the other is behind it.
+    collisionProbability(query, {kIdentity, at(-0.5, 0, 0)}, {wallAt(0.5 * k)}, cut,
+                         withTolerance(1e-3), result);
+    checkHolds(result, capMass(0.5 * k, k) / ballMassOf(k), 2e-3);
+  }
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::estimate;
+  ProbabilityResult result;
+  CHECK_THROWS_AS(collisionProbability(query, {kIdentity, kIdentity}, {kIdentity},
+                                       TruncatedGaussian(kIsotropic, 1.0), request, result),
                   UnsupportedGeometry);
 }

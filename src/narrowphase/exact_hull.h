@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Convex polygons without a tolerance.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fcl_prob::detail {
+
+/// The corners of the convex hull of points whose coordinates are whole numbers below 2^52 (where
+/// every turn is decided exactly), counter-clockwise, none within a side. However thin the polygon
+/// is: two corners mean that all points are on a segment, one that they are equal.
+std::vector<Eigen::Vector2d> exactHull(std::vector<Eigen::Vector2d> points);
+
+}  // namespace fcl_prob::detail

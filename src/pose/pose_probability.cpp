@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/pose_probability.h"
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/monte_carlo.h"
+#include "geometry/validation.h"
+#include "pose/configuration_estimate.h"
+#include "pose/pose_interval.h"
+#include "query/pair_query.h"
+
+namespace fcl_prob {
+namespace {
+
+[[noreturn]] void refuse(ProbabilityMethod method) {
+  throw UnsupportedGeometry("method " + toString(method) +
+                            " has no answer for errors of a rotation");
+}
+
+}  // namespace
+
+struct PreparedPoseQuery::Implementation {
+  std::shared_ptr<const detail::PreparedGeometry> a;
+  std::shared_ptr<const detail::PreparedGeometry> b;
+  detail::PairQuery pair;
+
+  Implementation(std::shared_ptr<const fcl::CollisionGeometryd> geometry_a,
+                 std::shared_ptr<const fcl::CollisionGeometryd> geometry_b)
+      : a(std::make_shared<const detail::PreparedGeometry>(std::move(geometry_a), "object A")),
+        b(std::make_shared<const detail::PreparedGeometry>(std::move(geometry_b), "object B")),
+        pair(a, b) {}
+
+  ProbabilityResult estimate(const RandomPoses& poses, const ProbabilityRequest& request) const {
+    const auto answer = [this](const PlacedConfiguration& placed,
+                               const ProbabilityRequest& of_one) {
+      return pair.answer(placed.poses_a[0], placed.poses_b[0], placed.displacement, of_one);
+    };
+    return detail::configurationEstimate(poses, answer, request);
+  }
+};
+
+PreparedPoseQuery::PreparedPoseQuery(std::shared_ptr<const fcl::CollisionGeometryd> a,
+                                     std::shared_ptr<const fcl::CollisionGeometryd> b)
+    : implementation_(std::make_unique<Implementation>(std::move(a), std::move(b))) {}
+
+PreparedPoseQuery::~PreparedPoseQuery() = default;
+PreparedPoseQuery::PreparedPoseQuery(PreparedPoseQuery&&) noexcept = default;
+PreparedPoseQuery& PreparedPoseQuery::operator=(PreparedPoseQuery&&) noexcept = default;
+
+double PreparedPoseQuery::collisionProbability(const fcl::Transform3d& pose_a,
+                                               const fcl::Transform3d& pose_b,
+                                               const PoseError& error,
+                                               const ProbabilityRequest& request,
+                                               ProbabilityResult& result) const {
+  validateRequest(request);
+  detail::validatePose(pose_a, "object A");
+  detail::validatePose(pose_b, "object B");
+  const RandomPoses poses = RandomPoses::ofOne(pose_a, error, pose_b);
+  if (poses.dimension() == 0) {
+    const PlacedConfiguration placed = poses.at(Eigen::VectorXd());
+    result = implementation_->pair.answer(placed.poses_a[0], placed.poses_b[0], placed.displacement,
+                                          request);
+    return result.probability();
+  }
+  switch (request.method) {
+    case ProbabilityMethod::automatic:
+    case ProbabilityMethod::estimate:
+      result = implementation_->estimate(poses, request);
+      break;
+    case ProbabilityMethod::interval:
+      result = detail::poseInterval(*implementation_->a, pose_a, *implementation_->b, pose_b, error,
+                                    request);
+      break;
+    case ProbabilityMethod::monte_carlo:
+      result = poseMonteCarloProbability(implementation_->a->geometry(), pose_a,
+                                         implementation_->b->geometry(), pose_b, error, request);
+      break;
+    default:
+      refuse(request.method);
+  }
+  return result.probability();
+}
+
+double collisionProbability(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
+                            const PoseError& error, const ProbabilityRequest& request,
+                            ProbabilityResult& result) {
+  if (a == nullptr) throw InvalidGeometry("object A is null");
+  if (b == nullptr) throw InvalidGeometry("object B is null");
+  return collisionProbability(a->collisionGeometry().get(), a->getTransform(),
+                              b->collisionGeometry().get(), b->getTransform(), error, request,
+                              result);
+}
+
+double collisionProbability(const fcl::CollisionGeometryd* a, const fcl::Transform3d& pose_a,
+                            const fcl::CollisionGeometryd* b, const fcl::Transform3d& pose_b,
+                            const PoseError& error, const ProbabilityRequest& request,
+                            ProbabilityResult& result) {
+  const auto unowned = [](const fcl::CollisionGeometryd* geometry) {
+    return std::shared_ptr<const fcl::CollisionGeometryd>(std::shared_ptr<const void>(), geometry);
+  };
+  return PreparedPoseQuery(unowned(a), unowned(b))
+      .collisionProbability(pose_a, pose_b, error, request, result);
+}
+
+}  // namespace fcl_prob

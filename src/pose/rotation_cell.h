@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A box of the whitened rotation space, and what is certain of contact within it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fcl_prob/bounds.h"
+#include "partition/point_motion.h"
+#include "pose/moved_frame.h"
+
+namespace fcl_prob::detail {
+
+/// { lo <= z <= hi } of z ~ N(0, I), with infinite sides at first.
+struct RotationCell {
+  Eigen::VectorXd lo;
+  Eigen::VectorXd hi;
+  Bounds mass;                      ///< certified
+  Bounds conditional{0.0, 1.0};     ///< of P(contact | z in the cell), certified
+  double moved_gap = 1.0;           ///< of it, what is left open by how points move in the cell
+  Eigen::VectorXd curvature_parts;  ///< and by the curvature of P over shifts, by coordinate
+
+  double gap() const { return mass.upper * conditional.width(); }
+  bool isFinite() const { return lo.allFinite() && hi.allFinite(); }
+};
+
+/// All of the space. \param rank  1 to 3
+RotationCell wholeRotationSpace(int rank);
+
+/// The parts of a cell. Infinite sides are cut off first, then coordinates are halved: that of the
+/// largest angle, or that whose shifts leave most open. \param angles  radians a unit of z
+std::vector<RotationCell> split(const RotationCell& cell, const Eigen::VectorXd& angles);
+
+/// How a pose error moves an object while z is in a finite cell. The object is where z_c, the
+/// middle of the cell, puts it. Relative to that, a point x (world frame) is moved by
+///   (R R_c⁻¹ - 1)(x - c) + (R R_c⁻¹ - 1)(c - p) + C (z - z_c),
+/// p being what the rotation is about. The last two do not depend on x: to first order they are
+/// linear in z, a shift that joins the displacement. Its mean over the cell is part of
+/// `displacement`; how P varies around that is bounded by the curvature of a Gaussian's mass over
+/// shifts. What is left is `motion`.
+struct CellMotion {
+  fcl::Transform3d turned;            ///< moves the object to where z_c puts it
+  GaussianDisplacement displacement;  ///< besides, at the mean of z in the cell
+  PointMotion motion;
+  Eigen::VectorXd curvatures;  ///< variance of the shift in the cell in deviations², by coordinate
+  double reach = 0.0;          ///< bound on the shift, in deviations
+  double slack = 0.0;          ///< bound on its mean, in deviations: rounding
+  double tail = 0.0;           ///< mass of displacements for which `motion` does not hold
+};
+
+/// \param reference  c, metres, world frame; any point is right, one near the contact is best
+/// \param size       metres: no point that matters is farther from the origin
+CellMotion motionOf(const MovedFrame& frame, const RotationCell& cell,
+                    const Eigen::Vector3d& reference, double size);
+
+/// Bounds on P(contact | z in the cell) from those, `inner`, at z_c: their lower end must hold for
+/// contact throughout `motion`, the upper one for any contact within it.
+void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell& cell);
+
+}  // namespace fcl_prob::detail

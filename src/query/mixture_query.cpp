@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/mixture_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "gaussian/constants.h"
+#include "query/call_budget.h"
+#include "query/single_collide.h"
+#include "query/tolerance_note.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// The first look at every component, to see which of them matter.
+constexpr double kCoarse = 0.3;
+
+/// How often components are asked again whose standard errors do not add up to what was asked for.
+constexpr int kMostRounds = 4;
+
+class MixtureQuery {
+ public:
+  MixtureQuery(const GaussianMixture& mixture, const ProbabilityRequest& request,
+               const GaussianQuery& query)
+      : components_(mixture.components()),
+        request_(request),
+        query_(query),
+        budget_(request),
+        results_(components_.size()) {}
+
+  ProbabilityResult answer() {
+    if (components_.size() == 1) {
+      results_[0] = query_(components_[0].displacement, request_);
+      ProbabilityResult result = *results_[0];
+      result.plan.insert(result.plan.begin(), "mixture of 1 Gaussian");
+      return result;
+    }
+    if (looksTwice()) askCoarsely();
+    for (int round = 0; round == 0 || (round < kMostRounds && isEstimateTooCoarse()); ++round) {
+      askFinely(round);
+    }
+    return sum();
+  }
+
+ private:
+  bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
+  bool isSampled() const { return request_.method == ProbabilityMethod::rare_event; }
+
+  /// Methods with a tolerance for what they answer of each component.
+  bool looksTwice() const {
+    return request_.method == ProbabilityMethod::automatic ||
+           request_.method == ProbabilityMethod::interval || isEstimate();
+  }
+
+  void askCoarsely() {
+    ProbabilityRequest coarse = ofOne();
+    coarse.relative_tolerance = std::max(kCoarse, request_.relative_tolerance);
+    coarse.gradient = false;
+    const std::size_t count = components_.size();
+    for (std::size_t i = 0; i < count && !finished(); ++i) ask(i, 2 * count - i, coarse);
+  }
+
+  void askFinely(int round) {
+    ProbabilityRequest fine = ofOne();
+    if (looksTwice()) {
+      fine.absolute_tolerance = toleranceOfOne() / (1 << round);
+      fine.relative_tolerance = fine.absolute_tolerance > 0.0 ? 0.0 : request_.relative_tolerance;
+    }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < components_.size(); ++i) left += !isFine(i, fine);
+    for (std::size_t i = 0; i < components_.size() && !finished(); ++i) {
+      if (!isFine(i, fine)) ask(i, left--, fine);
+    }
+  }
+
+  /// Such that what all components leave open adds up to no more than the tolerance: widths by
+  /// their weights, standard errors (independent of each other) by the squares of those.
+  double toleranceOfOne() const {
+    if (!isEstimate()) {
+      return std::max(request_.absolute_tolerance, request_.relative_tolerance * interval().lower);
+    }
+    constexpr double kReserve = 0.9;  // for an estimate that turns out smaller
+    double squares = 0.0;
+    for (const auto& component : components_) squares += component.weight * component.weight;
+    const double estimate = estimateOfAll().first;
+    return std::max(request_.absolute_tolerance,
+                    kReserve * request_.relative_tolerance * estimate) /
+           std::sqrt(squares);
+  }
+
+  /// The threshold is that of the sum, and so is the progress. The error probabilities of
+  /// confidence intervals add up to that of their sum.
+  ProbabilityRequest ofOne() {
+    ProbabilityRequest request = request_;
+    request.threshold.reset();
+    const double error = (1.0 - request_.confidence) / static_cast<double>(components_.size());
+    if (isSampled()) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
+    if (!request_.on_progress) return request;
+    request.on_progress = [this](const ProbabilityProgress& of_component) {
+      ProbabilityProgress progress = of_component;
+      progress.interval = interval();
+      progress.seconds = budget_.seconds();
+      const double queries = static_cast<double>(components_.size() * (looksTwice() ? 2 : 1));
+      fraction_ =
+          std::max(fraction_,
+                   std::min(1.0, (static_cast<double>(asked_) + of_component.fraction) / queries));
+      progress.fraction = fraction_;
+      cancelled_ = cancelled_ || !request_.on_progress(progress);
+      return !cancelled_;
+    };
+    return request;
+  }
+
+  /// The answer so far is good enough.
+  bool isFine(std::size_t i, const ProbabilityRequest& fine) const {
+    const auto& result = results_[i];
+    if (!result || !looksTwice() || request_.gradient) return false;
+    if (isEstimate()) return errorOf(i) <= fine.absolute_tolerance;
+    return result->lower && result->upper &&
+           *result->upper - *result->lower <= fine.absolute_tolerance;
+  }
+
+  /// \param left  components that are still to be asked, this one included
+  void ask(std::size_t i, std::size_t left, ProbabilityRequest request) {
+    budget_.share(left, request);
+    ProbabilityResult result = query_(components_[i].displacement, request);
+    budget_.spend(result.statistics);
+    addStatistics(result.statistics);
+    ++asked_;
+    if (results_[i] && results_[i]->lower && results_[i]->upper && result.lower && result.upper) {
+      // Both hold; one that was stopped may be the wider one.
+      result.lower = std::max(*result.lower, *results_[i]->lower);
+      result.upper = std::min(*result.upper, *results_[i]->upper);
+      const bool better = result.standard_error && results_[i]->standard_error &&
+                          *results_[i]->standard_error < *result.standard_error;
+      if (better) {
+        result.estimate = results_[i]->estimate;
+        result.standard_error = results_[i]->standard_error;
+      }
+    }
+    results_[i] = std::move(result);
+  }
+
+  bool finished() {
+    if (!limit_) limit_ = budget_.exhausted();
+    return cancelled_ || limit_ || decided();
+  }
+
+  bool decided() const {
+    if (!request_.threshold || isSampled()) return false;
+    const Bounds now = interval();
+    return now.upper < *request_.threshold || now.lower > *request_.threshold;
+  }
+
+  Bounds weightedSum(const std::function<Bounds(const ProbabilityResult&)>& boundsOf) const {
+    Bounds sum;
+    for (std::size_t i = 0; i < components_.size(); ++i) {
+      const Bounds one = results_[i] ? boundsOf(*results_[i]) : Bounds{0.0, 1.0};
+      sum.lower += components_[i].weight * one.lower;
+      sum.upper += components_[i].weight * one.upper;
+    }
+    const double rounding = (4.0 + 2.0 * static_cast<double>(components_.size())) * kEpsilon;
+    return {std::max(0.0, sum.lower * (1.0 - rounding)),
+            std::min(1.0, sum.upper * (1.0 + rounding) + std::numeric_limits<double>::min())};
+  }
+
+  Bounds interval() const {
+    return weightedSum([](const ProbabilityResult& one) {
+      return Bounds{one.lower.value_or(0.0), one.upper.value_or(1.0)};
+    });
+  }
+
+  /// What is certain of a component needs no confidence.
+  Bounds confidenceInterval() const {
+    return weightedSum([](const ProbabilityResult& one) {
+      if (one.confidence_interval) return *one.confidence_interval;
+      return Bounds{one.lower.value_or(0.0), one.upper.value_or(1.0)};
+    });
+  }
+
+  /// Of a component that was not estimated: half of what is possible of it.
+  double errorOf(std::size_t i) const {
+    const auto& one = results_[i];
+    if (one && one->estimate) return one->standard_error.value_or(0.0);
+    return one ? 0.5 * (one->upper.value_or(1.0) - one->lower.value_or(0.0)) : 0.5;
+  }
+
+  std::pair<double, double> estimateOfAll() const {
+    double estimate = 0.0, variance = 0.0;
+    for (std::size_t i = 0; i < components_.size(); ++i) {
+      const auto& one = results_[i];
+      const double weight = components_[i].weight;
+      const double middle = one ? 0.5 * (one->lower.value_or(0.0) + one->upper.value_or(1.0)) : 0.5;
+      estimate += weight * (one && one->estimate ? *one->estimate : middle);
+      variance += std::pow(weight * errorOf(i), 2);
+    }
+    return {estimate, std::sqrt(variance)};
+  }
+
+  bool isEstimateTooCoarse() {
+    if (!isEstimate() || finished()) return false;
+    const auto [estimate, error] = estimateOfAll();
+    return error > std::max(request_.absolute_tolerance, request_.relative_tolerance * estimate);
+  }
+
+  bool all(const std::function<bool(const ProbabilityResult&)>& has) const {
+    return std::all_of(results_.begin(), results_.end(),
+                       [&has](const auto& result) { return result && has(*result); });
+  }
+
+  ProbabilityResult sum() {
+    const bool stopped = finished();
+    ProbabilityResult total;
+    const Bounds bounds = interval();
+    if (isSampled()) {
+      total.confidence_interval = confidenceInterval();
+    } else {
+      if (stopped || all([](const auto& one) { return one.lower.has_value(); }))
+        total.lower = bounds.lower;
+      if (stopped || all([](const auto& one) { return one.upper.has_value(); }))
+        total.upper = bounds.upper;
+    }
+    const bool estimates = all([](const auto& one) { return one.estimate.has_value(); });
+    if (isEstimate() || isSampled() || estimates) {
+      std::tie(total.estimate, total.standard_error) = estimateOfAll();
+      if (total.lower) total.estimate = std::clamp(*total.estimate, bounds.lower, bounds.upper);
+    }
+    if (all([](const auto& one) { return one.gradient.has_value(); })) addGradients(total);
+    total.statistics = statistics_;
+    total.method = results_[0] ? results_[0]->method : request_.method;
+    total.decision = decisionOf(total.confidence_interval.value_or(bounds), request_);
+    total.status = statusOf(total);
+    total.plan.push_back("mixture of " + std::to_string(components_.size()) +
+                         " Gaussians: the sum of their answers by weight");
+    if (request_.gradient && !total.gradient) {
+      total.plan.push_back("no gradient: not every component has one");
+    }
+    noteTolerance(request_, total);
+    return total;
+  }
+
+  /// Of the components if they agree; else the first that was stopped, unless the sum is good
+  /// enough all the same.
+  ProbabilityStatus statusOf(const ProbabilityResult& total) const {
+    const bool is_decided = total.decision == Decision::below || total.decision == Decision::above;
+    if (is_decided) return ProbabilityStatus::decided;
+    if (cancelled_) return ProbabilityStatus::cancelled;
+    const bool fine = isGoodEnough(total);
+    if (limit_ && !fine) return *limit_;
+    std::optional<ProbabilityStatus> common;
+    for (const auto& result : results_) {
+      if (!result) return ProbabilityStatus::converged;
+      const bool complete = result->status == ProbabilityStatus::exact ||
+                            result->status == ProbabilityStatus::converged;
+      if (!complete) return fine ? ProbabilityStatus::converged : result->status;
+      if (common && *common != result->status) common = ProbabilityStatus::converged;
+      if (!common) common = result->status;
+    }
+    if (isEstimate() && !fine) return ProbabilityStatus::resolution_limit;
+    return *common;
+  }
+
+  bool isGoodEnough(const ProbabilityResult& total) const {
+    const auto within = [this](double error, double probability, double absolute) {
+      return error <= std::max(absolute, request_.relative_tolerance * probability);
+    };
+    if (isSampled()) {
+      const Bounds& sampled = *total.confidence_interval;
+      return within(0.5 * sampled.width(), sampled.upper, 0.0);
+    }
+    if (isEstimate()) {
+      return within(*total.standard_error, *total.estimate, request_.absolute_tolerance);
+    }
+    return total.lower && total.upper &&
+           within(*total.upper - *total.lower, *total.upper, request_.absolute_tolerance);
+  }
+
+  void addGradients(ProbabilityResult& total) const {
+    const bool bounded = all([](const auto& one) { return one.gradient_lower.has_value(); });
+    const bool sampled =
+        all([](const auto& one) { return one.gradient_standard_error.has_value(); });
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    Eigen::Vector3d lower = middle, upper = middle, size = middle, variance = middle;
+    for (std::size_t i = 0; i < components_.size(); ++i) {
+      const double weight = components_[i].weight;
+      const ProbabilityResult& one = *results_[i];
+      middle += weight * *one.gradient;
+      if (sampled) variance += (weight * *one.gradient_standard_error).cwiseAbs2();
+      if (!bounded) continue;
+      lower += weight * *one.gradient_lower;
+      upper += weight * *one.gradient_upper;
+      size += weight * one.gradient_lower->cwiseAbs().cwiseMax(one.gradient_upper->cwiseAbs());
+    }
+    total.gradient = middle;
+    if (sampled) total.gradient_standard_error = variance.cwiseSqrt();
+    if (!bounded) return;
+    size *= (4.0 + 2.0 * static_cast<double>(components_.size())) * kEpsilon;
+    total.gradient_lower = lower - size;
+    total.gradient_upper = upper + size;
+  }
+
+  void addStatistics(const ProbabilityStatistics& one) {
+    statistics_.cells += one.cells;
+    statistics_.cells_open += one.cells_open;
+    statistics_.pairs_tested += one.pairs_tested;
+    statistics_.leaf_pairs += one.leaf_pairs;
+    statistics_.peak_front = std::max(statistics_.peak_front, one.peak_front);
+    statistics_.peak_memory = std::max(statistics_.peak_memory, one.peak_memory);
+    statistics_.samples += one.samples;
+    statistics_.hits += one.hits;
+    statistics_.seconds.insert(statistics_.seconds.end(), one.seconds.begin(), one.seconds.end());
+  }
+
+  const std::vector<GaussianMixture::Component>& components_;
+  const ProbabilityRequest& request_;
+  const GaussianQuery& query_;
+  CallBudget budget_;
+  std::vector<std::optional<ProbabilityResult>> results_;  ///< the best of each component
+  ProbabilityStatistics statistics_;                       ///< of all queries
+  std::size_t asked_ = 0;
+  double fraction_ = 0.0;
+  bool cancelled_ = false;
+  std::optional<ProbabilityStatus> limit_;
+};
+
+}  // namespace
+
+ProbabilityResult mixtureProbability(const GaussianMixture& mixture,
+                                     const ProbabilityRequest& request,
+                                     const GaussianQuery& query) {
+  return MixtureQuery(mixture, request, query).answer();
+}
+
+}  // namespace fcl_prob::detail
