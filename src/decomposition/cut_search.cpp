@@ -173,12 +173,10 @@ class ParallelCuts {
     const int low = heights_[from] <= heights_[to] ? from : to;
     const int high = from + to - low;
     auto i = std::lower_bound(offsets.begin(), offsets.end(), heights_[low]) - offsets.begin();
-    for (; i < static_cast<std::ptrdiff_t>(offsets.size()) && offsets[i] <= heights_[high]; ++i) {
+    for (; i < static_cast<std::ptrdiff_t>(offsets.size()) && offsets[i] < heights_[high]; ++i) {
       const double below = heights_[low] - offsets[i];
       const double above = heights_[high] - offsets[i];
-      on_plane[i].add(below < above ? crossingPoint(piece_.vertices()[low], below,
-                                                    piece_.vertices()[high], above)
-                                    : piece_.vertices()[low]);
+      on_plane[i].add(crossingPoint(piece_.vertices()[low], below, piece_.vertices()[high], above));
     }
   }
 

@@ -51,7 +51,7 @@ class Cutting {
     for (const CutPlane& side : {whole.cut.plane, whole.cut.plane.flipped()}) {
       CutPolytope cell = whole.cell;
       cell.cut(side.normal, side.offset);
-      add(whole.surface.below(side), std::move(cell));
+      add(whole.surface.below(side, side.normal == whole.cut.plane.normal), std::move(cell));
     }
     return true;
   }
@@ -73,12 +73,12 @@ class Cutting {
   }
 
   /// What of the solid is in a cell has no other extreme points than those of its surface there and
-  /// corners of the cell.
+  /// corners of the cell inside it.
   void addCornersInside(CutPolytope& cell, PointSet& points) const {
     FaceSet faces;
     cell.writeTo(faces);
     for (const Eigen::Vector3d& corner : faces.vertices()) {
-      if (solid_->contains(corner) != Containment::outside) points.push_back(corner);
+      if (solid_->contains(corner) == Containment::inside) points.push_back(corner);
     }
   }
 

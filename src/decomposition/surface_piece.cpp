@@ -3,6 +3,7 @@
 #include "decomposition/surface_piece.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace fcl_prob::detail {
@@ -60,13 +61,19 @@ SurfacePiece::SurfacePiece(const TriangleMesh& mesh)
   findEdges();
 }
 
-SurfacePiece SurfacePiece::below(const CutPlane& plane) const {
+SurfacePiece SurfacePiece::below(const CutPlane& plane, bool keep_coplanar) const {
   SurfacePiece result;
   Clip clip(vertices_, plane, result.vertices_);
   std::vector<int> polygon;
   for (std::size_t p = 0; p < first_.size(); ++p) {
     polygon.clear();
     const int count = polygonEnd(p) - first_[p];
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (int i = 0; i < count; ++i) {
+      lowest = std::min(lowest, clip.height(corners_[first_[p] + i]));
+      highest = std::max(highest, clip.height(corners_[first_[p] + i]));
+    }
+    if (lowest > 0.0 || (lowest == 0.0 && !(keep_coplanar && highest == 0.0))) continue;
     for (int i = 0; i < count; ++i) {
       const int from = corners_[first_[p] + i];
       const int to = corners_[first_[p] + (i + 1) % count];
@@ -77,7 +84,6 @@ SurfacePiece SurfacePiece::below(const CutPlane& plane) const {
         polygon.push_back(clip.cross(from, to));
       }
     }
-    if (polygon.empty()) continue;
     result.first_.push_back(static_cast<int>(result.corners_.size()));
     result.corners_.insert(result.corners_.end(), polygon.begin(), polygon.end());
   }

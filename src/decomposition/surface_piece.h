@@ -35,7 +35,8 @@ class SurfacePiece {
 
   /// What of the polygons is in the half-space. Where a side crosses the plane, the new vertex is
   /// the same for the piece on the other side, so that the two leave nothing out but by rounding.
-  SurfacePiece below(const CutPlane& plane) const;
+  /// Polygons that only touch the plane are left out; those that lie in it are kept if asked for.
+  SurfacePiece below(const CutPlane& plane, bool keep_coplanar) const;
 
  private:
   int polygonEnd(std::size_t polygon) const {
