@@ -14,6 +14,8 @@ const std::vector<Benchmark>& benchmarks() {
        "intervals, estimates and decisions against 10,000 calls of fcl::collide, on six scenes",
        true, benchCertified},
       {"parts", "100 random scenes of robot parts and a can beside a human arm", true, benchParts},
+      {"pose", "errors of rotations and joints against counting, on six scenes and an arm", true,
+       benchPose},
       {"robot", "decisions for robot links beside an arm, groups of links, batches of poses", true,
        benchRobot},
       {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,

@@ -137,7 +137,8 @@ TEST_CASE("the JSON of check has every field of the contract", "[cli]") {
 TEST_CASE("a gradient is computed only when asked for, and its price is told", "[cli]") {
   const TemporaryFolder folder;
   const auto answer = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"--scene", dataFile("two_boxes.json")});
+    more.insert(more.begin(),
+                {"--scene", dataFile("two_boxes.json"), "--sigma", "0.08,0.05,0.02"});
     return checkJson(more, folder);
   };
   const json without = answer({});
