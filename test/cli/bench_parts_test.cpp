@@ -183,7 +183,7 @@ void checkTable1(const std::string& only, std::size_t scenes) {
     }
     CHECK(record.at("value").get<double>() <= 1.0);
   }
-  CHECK(bounds == scenes * 15);
+  CHECK(bounds == scenes * 28);
   CHECK(certified == scenes * 2);
   CHECK(published == scenes * 9);
 }
