@@ -18,7 +18,7 @@
 namespace fcl_prob::cli {
 namespace {
 
-constexpr std::size_t kFclSamples = 10'000;
+constexpr std::size_t kFclChecks = 10'000;
 constexpr double kLeastProbability = 1e-3;
 
 struct Part {
@@ -40,15 +40,15 @@ const std::vector<Part>& parts() {
   return all;
 }
 
-struct Task {
+struct PartsTask {
   std::string name;
   ProbabilityMethod method;
   double relative_tolerance;
   std::optional<double> threshold;
 };
 
-const std::vector<Task>& tasks() {
-  static const std::vector<Task> all{
+const std::vector<PartsTask>& tasks() {
+  static const std::vector<PartsTask> all{
       {"interval 10 %", ProbabilityMethod::interval, 0.1, std::nullopt},
       {"interval 1 %", ProbabilityMethod::interval, 0.01, std::nullopt},
       {"interval 0.1 %", ProbabilityMethod::interval, 0.001, std::nullopt},
@@ -87,11 +87,11 @@ class PartsTable {
       const GaussianDisplacement error = randomError(random_, 0.01, 0.05);
       const PreparedScene scene({meshes_[part], pose}, {arm_mesh_, fcl::Transform3d::Identity()},
                                 error, "obbrss");
-      const FclLoop loop = timeFclLoop(scene, kFclSamples, options_.seed + scenes_);
+      const FclLoop loop = timeFclLoop(scene, kFclChecks, options_.seed + scenes_);
       if (loop.estimate() < kLeastProbability) continue;
       std::size_t row = 0;
       for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
-        for (const Task& task : tasks()) addTask(part, scene, contact, task, loop, row++);
+        for (const PartsTask& task : tasks()) addTask(part, scene, contact, task, loop, row++);
       }
       ++scenes_;
       return;
@@ -164,7 +164,7 @@ class PartsTable {
   }
 
   void addTask(std::size_t part, const PreparedScene& scene, ContactMeaning contact,
-               const Task& task, const FclLoop& loop, std::size_t row) {
+               const PartsTask& task, const FclLoop& loop, std::size_t row) {
     ProbabilityRequest request;
     request.method = task.method;
     request.relative_tolerance = task.relative_tolerance;
