@@ -91,7 +91,9 @@ Shells randomShells(RandomBodies& random, double size) {
     if (random.integer(0, 3) == 0) {
       shell.cavity = {{0.05 * size * random.direction()}, {0.8 * shell.outside.half}};
     }
-    if (i > 0 && random.integer(0, 3) == 0) shell = {{Eigen::Vector3d::Zero(), {0, 0, 0}}, {}};
+    if (i > 0 && random.integer(0, 3) == 0) {
+      shell = Shell{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, std::nullopt};
+    }
     const double gap = random.integer(0, 1) == 0 ? 0.2 * size : 10.0 * random.uniform(1.0, 2.0);
     x += shell.outside.half.x() + (i > 0 ? gap : 0.0);
     const Eigen::Vector3d move(x, size * random.uniform(-0.2, 0.2), 0.0);
