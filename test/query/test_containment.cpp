@@ -89,7 +89,7 @@ Shells randomShells(RandomBodies& random, double size) {
   for (int i = 0; i < count; ++i) {
     Shell shell{{Eigen::Vector3d::Zero(), size * positive(random, 0.4, 1.0)}, std::nullopt};
     if (random.integer(0, 3) == 0) {
-      shell.cavity = {{0.05 * size * random.direction()}, {0.8 * shell.outside.half}};
+      shell.cavity = Box{0.05 * size * random.direction(), 0.8 * shell.outside.half};
     }
     if (i > 0 && random.integer(0, 3) == 0) {
       shell = Shell{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, std::nullopt};
