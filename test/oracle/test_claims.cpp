@@ -82,6 +82,34 @@ TEST_CASE("Claims of shells, strays and voxels, each within a larger solid") {
   }
 }
 
+// Large enough for proofs by topology.
+TEST_CASE("Claims of meshes of hundreds of triangles, closed and open, as surfaces and as solids") {
+  RandomBodies random(1202);
+  ClaimReport sum;
+  for (int trial = 0; trial < 6; ++trial) {
+    const bool solid = trial % 2 == 0;
+    const auto mesh = [&](double radius) {
+      TriangleMesh result = bumpyMesh(radius, 16, 20, trial);
+      const int count = static_cast<int>(result.triangles.size());
+      if (!solid) result.triangles.resize(static_cast<std::size_t>(random.integer(500, count)));
+      return makeModel<fcl::OBBRSSd>(result);
+    };
+    // Now and then one of them within the other.
+    const bool within = trial % 3 == 0;
+    const auto a = mesh(within ? 0.2 : 0.7), b = mesh(1.0);
+    const fcl::Transform3d pose_a(random.pose(0.1)), pose_b(random.pose(within ? 0.3 : 1.6));
+    ProbabilityRequest request = interval(solid ? ContactMeaning::solid : ContactMeaning::fcl);
+    request.relative_tolerance = 1e-3;
+    request.max_cells = 800;
+    const ClaimReport report =
+        checkClaims({a.get(), pose_a}, {b.get(), pose_b}, randomDisplacement(random, 0.05, 0.3),
+                    request, ClaimBudget{300, 2, 2}, random.integer(0, 1 << 30));
+    checkReport(report);
+    sum += report;
+  }
+  CHECK(sum.by_method["crossing surfaces"].checked > 20);
+}
+
 TEST_CASE("The checker finds claims that are wrong") {
   // Told of a ball that is a little larger or smaller than the one asked about.
   const fcl::Boxd box(1, 1, 1);
