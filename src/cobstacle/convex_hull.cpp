@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include <libqhullcpp/Qhull.h>
 #include <libqhullcpp/QhullError.h>
 #include <libqhullcpp/QhullFacetList.h>
 #include <libqhullcpp/QhullQh.h>
@@ -19,6 +18,7 @@
 #include "gaussian/directed_edges.h"
 #include "gaussian/number_text.h"
 #include "geometry/length_limit.h"
+#include "geometry/quiet_qhull.h"
 
 namespace fcl_prob {
 namespace {
@@ -74,7 +74,7 @@ Eigen::Vector3d areaVector(const std::vector<Eigen::Vector3d>& points,
 
 std::vector<Facet> runQhull(const std::vector<Eigen::Vector3d>& normalised,
                             const std::string& options) {
-  orgQhull::Qhull qhull;
+  detail::QuietQhull qhull;
   qhull.runQhull("", 3, static_cast<int>(normalised.size()), normalised.front().data(),
                  options.c_str());
   std::vector<Facet> facets;
