@@ -263,7 +263,11 @@ class MixtureQuery {
       if (common && *common != result->status) common = ProbabilityStatus::converged;
       if (!common) common = result->status;
     }
-    if (isEstimate() && !fine) return ProbabilityStatus::resolution_limit;
+    // Bounds below the least normal double add up to more than their parts.
+    const bool has_both = total.lower && total.upper;
+    const bool claims_tolerance = isEstimate() || (looksTwice() && has_both);
+    if (claims_tolerance && !fine && *common != ProbabilityStatus::exact)
+      return ProbabilityStatus::resolution_limit;
     return *common;
   }
 

@@ -19,7 +19,7 @@ bool isTurned(const fcl_prob::Whitening& whitening,
   for (int k = 0; k < whitening.rank(); ++k) {
     const Eigen::Vector3d row =
         whitening.matrix().row(k).transpose() * displacement.standardDeviations()[k];
-    if (!((row - displacement.axes().col(k)).norm() < 1e-6)) return true;
+    if (!((row - displacement.axes().col(k)).norm() < 1e-14)) return true;
   }
   return false;
 }

@@ -120,6 +120,26 @@ TEST_CASE("a mixture in the tail holds the sum of two tails; one Gaussian is its
   CHECK(result.status == single.status);
 }
 
+TEST_CASE("a mixture has converged only where its sum is within the tolerance") {
+  const PreparedQuery query = boxAndWall();
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::interval;
+  request.absolute_tolerance = 0.0;
+  request.relative_tolerance = 0.3;
+  int beyond = 0;
+  for (double deviations = 30.0; deviations < 44.0; deviations += 0.5) {
+    const GaussianMixture mixture({{0.5, kIsotropic}, {0.5, kIsotropic}});
+    ProbabilityResult result;
+    collisionProbability(query, kIdentity, wallAt(deviations), mixture, request, result);
+    CAPTURE(deviations, *result.lower, *result.upper);
+    const bool within = *result.upper - *result.lower <= 0.3 * *result.upper;
+    const bool converged = result.status == ProbabilityStatus::converged;
+    CHECK((within || !converged));
+    beyond += *result.lower == 0.0;
+  }
+  CHECK(beyond > 0);
+}
+
 TEST_CASE("a threshold is decided by some of the components; a query can be cancelled") {
   const PreparedQuery query = meshAndTorus();
   const GaussianMixture mixture(
