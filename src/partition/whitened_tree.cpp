@@ -111,10 +111,32 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
   }
 }
 
+// What is swept by a ball, radius 0 included, turns as its centres do: the largest motion of those.
+// A pose that is not quite a rotation makes an ellipsoid of the ball, which turns by what it is
+// off.
+Eigen::Vector3d motionOfRoundBody(const PointMotion& motion, const Eigen::Matrix3d& whitening,
+                                  const fcl::Transform3d& pose, const Eigen::Vector3d& position,
+                                  const SupportShape& body) {
+  Eigen::Vector3d largest = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& centre : body.points) {
+    largest = largest.cwiseMax(motion.bound(whitening, pose * Eigen::Vector3d(position + centre)));
+  }
+  const Eigen::Matrix3d& linear = pose.linear();
+  const double off = (linear.transpose() * linear - Eigen::Matrix3d::Identity()).norm();
+  const double changed = body.semi_axes(0, 0) * (2.0 * off + 16 * kEpsilon);
+  return largest + changed * whitening.rowwise().norm();
+}
+
+bool isRound(const SupportShape& body) {
+  const double radius = body.semi_axes(0, 0);
+  return body.semi_axes == Eigen::Matrix3d(Eigen::Vector3d::Constant(radius).asDiagonal());
+}
+
 // The largest motion of the corners of a box around a body.
 Eigen::Vector3d motionOfBody(const PointMotion& motion, const Eigen::Matrix3d& whitening,
                              const fcl::Transform3d& pose, const Eigen::Vector3d& position,
                              const SupportShape& body) {
+  if (isRound(body)) return motionOfRoundBody(motion, whitening, pose, position, body);
   Eigen::Vector3d lo, hi;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "pose/contact_point.h"
 
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
@@ -61,6 +62,20 @@ bool meanContact(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_
   return true;
 }
 
+// A sphere or a capsule turns as its centre or its axis does: the nearest point of that.
+Eigen::Vector3d nearestOfCore(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose,
+                              const Eigen::Vector3d& point) {
+  double half = 0.0;
+  if (geometry.getNodeType() == fcl::GEOM_CAPSULE) {
+    half = 0.5 * static_cast<const fcl::Capsuled&>(geometry).lz;
+  } else if (geometry.getNodeType() != fcl::GEOM_SPHERE) {
+    return point;
+  }
+  const Eigen::Vector3d axis = pose.linear().col(2);
+  const double along = std::clamp(axis.dot(point - pose.translation()), -half, half);
+  return pose.translation() + along * axis;
+}
+
 }  // namespace
 
 Eigen::Vector3d likelyContact(const PreparedGeometry& prepared_a, const fcl::Transform3d& pose_a,
@@ -71,7 +86,9 @@ Eigen::Vector3d likelyContact(const PreparedGeometry& prepared_a, const fcl::Tra
   const fcl::CollisionGeometryd& a = prepared_a.geometry();
   const fcl::CollisionGeometryd& b = prepared_b.geometry();
   // Contacts of triangles only: those of shapes come from an iteration that need not end.
-  if (kindOf(a) != GeometryKind::mesh || kindOf(b) != GeometryKind::mesh) return point;
+  if (kindOf(a) != GeometryKind::mesh || kindOf(b) != GeometryKind::mesh) {
+    return nearestOfCore(a, pose_a, point);
+  }
   const auto model_a = buildModel<fcl::OBBRSSd>(triangleMesh(meshView(a)));
   const auto model_b = buildModel<fcl::OBBRSSd>(triangleMesh(meshView(b)));
   meanContact(*model_a, pose_a, *model_b, pose_b, displacement, seed, point);

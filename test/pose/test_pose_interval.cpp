@@ -152,14 +152,12 @@ TEST_CASE("a sphere that turns about its centre has the interval of one that doe
   ProbabilityResult exact;
   collisionProbability(sphere.get(), pose_a, box.get(), kIdentity, translation,
                        intervalRequest(1e-5), exact);
-  for (const double sigma : {1e-6, 1e-3, 0.02}) {
+  for (const double sigma : {1e-6, 1e-3, 0.02, 0.5}) {
     const auto error =
         PoseError::fromIndependent(translation, sigma * sigma * Eigen::Matrix3d::Identity());
     const auto result = answer(query, pose_a, kIdentity, error, intervalRequest(0.1));
     CAPTURE(sigma);
-    // A body is bounded by its box, whose corners do move: at larger angles the cells come first.
-    const bool converged = result.status == ProbabilityStatus::converged;
-    CHECK((converged || (sigma > 1e-4 && result.status == ProbabilityStatus::cell_limit)));
+    CHECK(result.status == ProbabilityStatus::converged);
     checkContains(result, exact.probability());
   }
 }
@@ -176,12 +174,13 @@ TEST_CASE("a sphere on a lever before a wall: the interval contains the closed f
       return normalCdf((lever * std::sin(theta) - gap) / (sigma * shrunk));
     });
     const auto result = answer(query, poseAt(lever, 0, 0), poseAt(lever, gap + radius + 1.0, 0),
-                               error, intervalRequest(0.02));
+                               error, intervalRequest(0.02, 60'000));
     CAPTURE(angle);
+    // Each rotation asks for the interval of a curved pair: their cells come first.
     const bool converged = result.status == ProbabilityStatus::converged;
     CHECK((converged || (angle > 1e-3 && result.status == ProbabilityStatus::cell_limit)));
     checkContains(result, expected);
-    if (converged) CHECK(*result.upper - *result.lower <= 0.02 * *result.upper);
+    CHECK(*result.upper - *result.lower <= (converged ? 0.02 * *result.upper : 0.2));
   }
 }
 
