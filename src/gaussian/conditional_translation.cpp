@@ -51,6 +51,8 @@ ConditionalTranslation::ConditionalTranslation(const PoseError& error)
 }
 
 Eigen::Vector3d ConditionalTranslation::rotationVector(const Eigen::VectorXd& z) const {
+  // Eigen steps beyond the null pointer of a matrix without columns.
+  if (rank() == 0) return mean_rotation_;
   return mean_rotation_ + factor_ * z;
 }
 

@@ -133,7 +133,8 @@ RandomJoints::RandomJoints(const Eigen::VectorXd& mean, const Eigen::MatrixXd& c
 }
 
 PlacedConfiguration RandomJoints::at(const Eigen::VectorXd& z) const {
-  return {kinematics_(mean_ + factor_ * z), poses_b_, displacement_};
+  const Eigen::VectorXd values = dimension() == 0 ? mean_ : Eigen::VectorXd(mean_ + factor_ * z);
+  return {kinematics_(values), poses_b_, displacement_};
 }
 
 struct RandomBase::Base {
