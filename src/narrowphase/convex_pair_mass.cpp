@@ -3,9 +3,13 @@
 #include "narrowphase/convex_pair_mass.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "cobstacle/convex_body_data.h"
 #include "fcl_prob/normal_mass.h"
+#include "narrowphase/ball_pair.h"
 #include "narrowphase/pair_bounds.h"
 
 namespace fcl_prob {
@@ -14,16 +18,27 @@ namespace {
 /// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
 constexpr double kSandwichWidth = 1e-4;
 
-/// Mass of a ball whose centre is known to within `error` (metres); the deviations differ by
-/// rounding only. The mass falls with the distance and grows with the radius.
-Bounds ballMass(const detail::Ellipsoid& ball, double error, const Eigen::Vector3d& deviations) {
-  const double distance = ball.centre.norm();
-  const double most = deviations.maxCoeff();
-  const double least = deviations.minCoeff();
-  const double inner_radius = std::max(ball.radius - error, 0.0);
-  return {
-      normalBallMass((distance + error) / least, inner_radius / most).lower,
-      normalBallMass(std::max(distance - error, 0.0) / most, (ball.radius + error) / least).upper};
+/// Mass of a ball, of which the closed form for equal deviations is the fastest.
+Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& displacement) {
+  if (!displacement.isotropic()) return detail::principalBallMass(ball, displacement);
+  // The deviations differ by rounding only; the mass falls with the distance and grows with the
+  // radius.
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const auto [x, y, z] = ball.centre;
+  const auto distance = static_cast<double>(std::hypot(x, y, z));
+  const auto radius = static_cast<double>(ball.radius);
+  const double far = distance * (1.0 + kRounding) + 2.0 * ball.centre_error;
+  const double near = distance * (1.0 - kRounding) - 2.0 * ball.centre_error;
+  const double small = radius * (1.0 - kRounding) - ball.radius_error;
+  const double large = radius * (1.0 + kRounding) + ball.radius_error;
+  const double most = displacement.standardDeviations().maxCoeff();
+  const double least = displacement.standardDeviations().minCoeff();
+  return {normalBallMass(far / least, std::max(small, 0.0) / most).lower,
+          normalBallMass(std::max(near, 0.0) / most, large / least).upper};
+}
+
+Bounds intersection(const Bounds& one, const Bounds& other) {
+  return {std::max(one.lower, other.lower), std::min(one.upper, other.upper)};
 }
 
 }  // namespace
@@ -36,16 +51,16 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   const PairObstacle obstacle(frame, a.data(), b.data());
   PairBounds pair;
   if (obstacle->isPolytope()) return pair.mass(*obstacle, {0.0, interruption});
-  const auto ball = obstacle->ellipsoid();
-  if (ball && displacement.isotropic()) {
-    const double error = frame.error + 2.0 * frame.ball_stretch * ball->radius;
-    return ballMass(*ball, error, displacement.standardDeviations());
+  Bounds known{0.0, 1.0};
+  if (const auto ball = ballOfPair(a, pose_a, b, pose_b, displacement)) {
+    known = ballMass(*ball, displacement);
+    if (known.width() <= kSandwichWidth * known.upper) return known;
   }
   using Faces = ConvexSetObstacle::Faces;
   const ConvexSetObstacle outer(frame, a.data().set(), b.data().set(), Faces::outer);
   const ConvexSetObstacle inner(frame, a.data().set(), b.data().set(), Faces::inner);
   const MassEffort effort{kSandwichWidth, interruption};
-  return {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper};
+  return intersection(known, {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper});
 }
 
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,

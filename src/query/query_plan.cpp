@@ -22,12 +22,17 @@ struct QueryPair {
   bool anyUnbounded() const { return !a.hasPieces() || !b.hasPieces(); }
 
   /// Convex shapes whose C-obstacle has an exact mass.
-  bool haveExactMass(const GaussianDisplacement& displacement) const {
+  bool haveExactMass() const {
     if (!areConvex()) return false;
     const auto type_a = a.geometry().getNodeType();
     const auto type_b = b.geometry().getNodeType();
     if (isPolytope(type_a) && isPolytope(type_b)) return true;
-    return type_a == fcl::GEOM_SPHERE && type_b == fcl::GEOM_SPHERE && displacement.isotropic();
+    return areSpheres();
+  }
+
+  bool areSpheres() const {
+    return a.geometry().getNodeType() == fcl::GEOM_SPHERE &&
+           b.geometry().getNodeType() == fcl::GEOM_SPHERE;
   }
 
   std::string name() const {
@@ -88,7 +93,9 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
   if (pair.anyUnbounded()) return planUnbounded();
   if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
   QueryPlan plan{Route::exact_mass, false, {}};
-  plan.notes.push_back("both shapes are convex: exact mass of their C-obstacle, no tree");
+  plan.notes.push_back(pair.areSpheres()
+                           ? "two spheres: their C-obstacle is a ball, mass by quadrature"
+                           : "both shapes are convex: exact mass of their C-obstacle, no tree");
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
@@ -98,7 +105,7 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
 
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
-  const bool exact = pair.haveExactMass(displacement);
+  const bool exact = pair.haveExactMass();
   if (exact && !request.gradient) return planExact(pair, displacement, request);
   QueryPlan plan = planPartition(pair, displacement, request);
   if (exact) {

@@ -62,6 +62,12 @@ TEST_CASE("the C library's functions are as accurate as the bounds assume") {
             -3, 3, [](double x) { return std::erf(x); },
             [](const HighPrecision& x) { return boost::math::erf(x); }) < 2);
   CHECK(worstUlp(
+            -3.2, 3.2, [](double x) { return std::sin(x); },
+            [](const HighPrecision& x) { return HighPrecision(sin(x)); }) < 1);
+  CHECK(worstUlp(
+            -3.2, 3.2, [](double x) { return std::cos(x); },
+            [](const HighPrecision& x) { return HighPrecision(cos(x)); }) < 1);
+  CHECK(worstUlp(
             -700, 1, [](double x) { return std::exp(x); },
             [](const HighPrecision& x) { return HighPrecision(exp(x)); }) < 1);
   CHECK(worstUlp(

@@ -11,6 +11,8 @@
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 
@@ -114,6 +116,33 @@ TEST_CASE("two spheres agree with the closed form of a ball") {
                       0.39894228040143268 * (std::exp(-8.0) - std::exp(-98.0)) / 9;
   CHECK(result.probability() == Approx(ball).epsilon(1e-9));
   CHECK(result.status == ProbabilityStatus::exact);
+}
+
+TEST_CASE("two spheres under any covariance are exact") {
+  const fcl::Sphered a(0.3), b(0.2);
+  const auto axes = Eigen::Quaterniond(1, 0.3, 0.2, 0.5).normalized();
+  // A disc of five deviations about the mean.
+  const auto disc = answer(a, kIdentity, b, at({0, 0, 0}),
+                           GaussianDisplacement::fromStandardDeviations({0.5, 0.5, 0}, axes));
+  CHECK(disc.probability() == Approx(-std::expm1(-0.5)).epsilon(1e-10));
+  for (const Eigen::Vector3d& sigma :
+       {Eigen::Vector3d(0.3, 0.1, 0.2), Eigen::Vector3d(0.3, 0.1, 0), Eigen::Vector3d(0.3, 0, 0)}) {
+    const auto displacement = GaussianDisplacement::fromStandardDeviations(sigma, axes);
+    const Eigen::Vector3d gap = displacement.axes() * Eigen::Vector3d(0.6, 0.1, 0.1);
+    const auto result = answer(a, kIdentity, b, at(gap), displacement);
+    CHECK(result.method == ProbabilityMethod::exact);
+    CHECK(result.status == ProbabilityStatus::exact);
+    CHECK(*result.upper - *result.lower <= 1e-10 * *result.upper);
+    CHECK(std::find(result.plan.begin(), result.plan.end(),
+                    "two spheres: their C-obstacle is a ball, mass by quadrature") !=
+          result.plan.end());
+    ProbabilityRequest request;
+    request.method = ProbabilityMethod::interval;
+    request.relative_tolerance = 0.003;
+    const auto interval = answer(a, kIdentity, b, at(gap), displacement, request);
+    CHECK(*interval.lower <= *result.upper);
+    CHECK(*interval.upper >= *result.lower);
+  }
 }
 
 TEST_CASE("curved shapes go to the partition, which reaches the tolerance") {

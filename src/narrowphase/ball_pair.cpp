@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "narrowphase/ball_pair.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/exact_sum.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// Of a long double, or of what ExactSum gives.
+const long double kFine = std::max(std::numeric_limits<long double>::epsilon(), 0x1p-62L);
+
+bool isBall(const ConvexBody& body) {
+  return body.data().rounded && body.data().rounded->core.generatorCount() == 0;
+}
+
+/// By at most this share a linear map that is nearly a rotation changes lengths.
+double stretchOf(const Eigen::Matrix3d& rotation) {
+  if (rotation == Eigen::Matrix3d::Identity()) return 0.0;
+  using Matrix = Eigen::Matrix<long double, 3, 3>;
+  const Matrix exact = rotation.cast<long double>();
+  // Half of the largest eigenvalue's size, which is at most three entries.
+  const long double defect = (exact.transpose() * exact - Matrix::Identity()).cwiseAbs().maxCoeff();
+  return static_cast<double>(1.55L * (defect + 16.0L * kFine));
+}
+
+}  // namespace
+
+std::optional<PrincipalBall> ballOfPair(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                                        const ConvexBody& b, const fcl::Transform3d& pose_b,
+                                        const GaussianDisplacement& displacement) {
+  if (!isBall(a) || !isBall(b)) return std::nullopt;
+  const RoundedZonotope& body_a = *a.data().rounded;
+  const RoundedZonotope& body_b = *b.data().rounded;
+  ExactPosition offset;
+  offset.add(pose_b, body_b.core.centre());
+  offset.add(pose_a, body_a.core.centre(), -1.0);
+  offset.add(displacement.mean(), -1.0);
+  const LongVector centre = offset.value();
+  const LongVector along = displacement.axes().transpose().cast<long double>() * centre;
+  PrincipalBall ball;
+  for (int k = 0; k < 3; ++k) ball.centre[k] = along[k];
+  ball.centre_error = static_cast<double>(16.0L * kFine * centre.cwiseAbs().sum()) +
+                      std::numeric_limits<double>::min();
+  ball.radius = static_cast<long double>(body_a.radius) + body_b.radius;
+  ball.radius_error =
+      stretchOf(pose_a.linear()) * body_a.radius + stretchOf(pose_b.linear()) * body_b.radius;
+  return ball;
+}
+
+}  // namespace fcl_prob::detail
