@@ -13,6 +13,8 @@ const std::vector<Benchmark>& benchmarks() {
       {"certified",
        "intervals, estimates and decisions against 10,000 calls of fcl::collide, on six scenes",
        true, benchCertified},
+      {"conjunction", "2,170 encounters of satellites against what their file says of them", true,
+       benchConjunction},
       {"parts", "100 random scenes of robot parts and a can beside a human arm", true, benchParts},
       {"pose", "errors of rotations and joints against counting, on six scenes and an arm", true,
        benchPose},

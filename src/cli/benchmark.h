@@ -46,6 +46,7 @@ const std::vector<Benchmark>& benchmarks();
 
 /// The benchmarks, one a file.
 BenchReport benchCertified(const BenchOptions& options, const BenchProgress& progress);
+BenchReport benchConjunction(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchParts(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchPose(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchRobot(const BenchOptions& options, const BenchProgress& progress);
