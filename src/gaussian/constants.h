@@ -12,7 +12,8 @@ inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What denormal numbers may lose in the mass or moment of a polytope.
+/// More than what the rounding of numbers below the least normal one adds up to in any mass, moment
+/// or sum of them.
 inline constexpr double kUnderflow = 1e-312;
 
 }  // namespace fcl_prob::detail

@@ -48,7 +48,7 @@ double squaredRadiusAround(const Cell& cell, const Eigen::Vector3d& n) {
 
 Bounds widened(double mass) {
   const double error = 8 * kIntervalMassRelativeError;
-  return {std::max(0.0, mass * (1 - error)),
+  return {std::max(0.0, mass * (1 - error) - kUnderflow),
           std::min(1.0, mass * (1 + error) + std::numeric_limits<double>::min())};
 }
 
@@ -114,7 +114,7 @@ BallMass ballMass(double radius, int rank) {
   }
   // exp(x) is as accurate as x, which is up to 745.
   const auto tail = [](double mass) -> Bounds {
-    return {mass * (1 - 1e-12),
+    return {std::max(0.0, mass * (1 - 1e-12) - kUnderflow),
             std::min(1.0, mass * (1 + 1e-12) + std::numeric_limits<double>::min())};
   };
   if (rank == 2) return {widened(-std::expm1(-0.5 * radius * radius)), tail(density)};

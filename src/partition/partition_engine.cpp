@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gaussian/constants.h"
 #include "partition/cell_split.h"
 
 namespace fcl_prob::detail {
@@ -146,8 +147,8 @@ Bounds PartitionEngine::interval() const {
   const double lower = settled_.mass.lower + open_.lower;
   const double upper = settled_.mass.upper + open_.upper;
   // What lies beyond kReach is below the smallest double.
-  return {std::clamp(lower * (1.0 - rounding), 0.0, 1.0),
-          std::clamp(upper * (1.0 + rounding) + 1e-320, 0.0, 1.0)};
+  return {std::clamp(lower * (1.0 - rounding) - kUnderflow, 0.0, 1.0),
+          std::clamp(upper * (1.0 + rounding) + kUnderflow, 0.0, 1.0)};
 }
 
 MomentBounds PartitionEngine::moment() const {

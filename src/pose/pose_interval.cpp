@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/constants.h"
 #include "partition/partition.h"
 #include "pose/contact_point.h"
 #include "pose/rotation_cell.h"
@@ -209,7 +210,7 @@ class PoseInterval {
       sum.upper += cell.mass.upper * cell.conditional.upper;
     }
     const double rounding = 4e-16 * static_cast<double>(cells_.size() + 8);
-    interval_.lower = std::max(interval_.lower, sum.lower * (1.0 - rounding));
+    interval_.lower = std::max(interval_.lower, sum.lower * (1.0 - rounding) - kUnderflow);
     interval_.upper = std::min(interval_.upper, sum.upper * (1.0 + rounding));
   }
 

@@ -36,7 +36,8 @@ Bounds massOf(const RotationCell& cell) {
     mass *= normalIntervalMass(cell.lo[k], cell.hi[k]);
   }
   const double error = 4 * kIntervalMassRelativeError;
-  return {mass * (1.0 - error), std::min(1.0, mass * (1.0 + error))};
+  return {std::max(0.0, mass * (1.0 - error) - kUnderflow),
+          std::min(1.0, mass * (1.0 + error) + kUnderflow)};
 }
 
 RotationCell part(const RotationCell& cell, Eigen::Index k, double lo, double hi) {
@@ -241,7 +242,7 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
   const bool shifted = variance > 0.0;
   const double upper = inner.upper + slack + (shifted ? up : 0.0);
   const double lower = inner.lower - slack - (shifted ? down : 0.0);
-  cell.conditional = {std::clamp(lower * (1.0 - kRounding), 0.0, 1.0),
+  cell.conditional = {std::clamp(lower * (1.0 - kRounding) - kUnderflow, 0.0, 1.0),
                       std::clamp(upper * (1.0 + kRounding), 0.0, 1.0)};
   cell.moved_gap = inner.width() + 2.0 * motion.tail;
   cell.curvature_parts = motion.curvatures * (shifted ? (up + down) / variance : 0.0);

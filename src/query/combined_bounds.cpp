@@ -54,7 +54,8 @@ Bounds anyOfIndependent(const std::vector<Bounds>& events) {
   // -expm1(-x) is not worse.
   const double least = -std::expm1(logOfNone(events, &Bounds::lower) * (1.0 - rounding));
   const double most = -std::expm1(logOfNone(events, &Bounds::upper) * (1.0 + rounding));
-  Bounds any{least * (1.0 - rounding), most * (1.0 + rounding)};
+  Bounds any{std::max(0.0, least * (1.0 - rounding) - detail::kUnderflow),
+             most * (1.0 + rounding) + (most > 0.0 ? detail::kUnderflow : 0.0)};
   // Neither tighter than any event by itself, nor than what holds without independence.
   const Bounds always = anyOf(events);
   any.lower = std::max(any.lower, always.lower);

@@ -18,7 +18,7 @@ constexpr double kLargestDensity = 0.4;  // 1/sqrt(2 pi), rounded up
 // Widens by what rounding may have left out of a sum of masses.
 Bounds widened(double lower, double upper, std::size_t terms) {
   const double error = (4.0 + static_cast<double>(terms)) * kIntervalMassRelativeError;
-  return {std::clamp(lower * (1.0 - error), 0.0, 1.0),
+  return {std::clamp(lower * (1.0 - error) - kUnderflow, 0.0, 1.0),
           std::clamp(upper * (1.0 + error) + std::numeric_limits<double>::min(), 0.0, 1.0)};
 }
 

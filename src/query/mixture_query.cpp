@@ -167,7 +167,7 @@ class MixtureQuery {
       sum.upper += components_[i].weight * one.upper;
     }
     const double rounding = (4.0 + 2.0 * static_cast<double>(components_.size())) * kEpsilon;
-    return {std::max(0.0, sum.lower * (1.0 - rounding)),
+    return {std::max(0.0, sum.lower * (1.0 - rounding) - kUnderflow),
             std::min(1.0, sum.upper * (1.0 + rounding) + std::numeric_limits<double>::min())};
   }
 

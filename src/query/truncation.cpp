@@ -59,9 +59,10 @@ Bounds TruncatedQuery::joint(const Bounds& contact) const {
 
 Bounds TruncatedQuery::conditional(const Bounds& joint) const {
   const Bounds& inside = mass_.inside;
-  return {std::clamp(joint.lower / inside.upper * (1 - 4 * kEpsilon), 0.0, 1.0),
-          inside.lower > 0.0 ? std::clamp(joint.upper / inside.lower * (1 + 4 * kEpsilon), 0.0, 1.0)
-                             : 1.0};
+  return {std::clamp(joint.lower / inside.upper * (1 - 4 * kEpsilon) - kUnderflow, 0.0, 1.0),
+          inside.lower > 0.0
+              ? std::clamp(joint.upper / inside.lower * (1 + 4 * kEpsilon) + kUnderflow, 0.0, 1.0)
+              : 1.0};
 }
 
 ProbabilityRequest TruncatedQuery::requestOfContact() const {

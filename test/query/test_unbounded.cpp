@@ -7,6 +7,9 @@
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include "catch.h"
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/normal_mass.h"
@@ -61,6 +64,24 @@ TEST_CASE("a ball over a half-space: one normal tail, in both orders, far into t
     CHECK(*above.upper >= expected * (1 - 1e-13 * (1 + sigmas * sigmas)));
     CHECK(below.probability() == Approx(expected).epsilon(1e-11));
   }
+}
+
+TEST_CASE("a half-space that is met with less than the least normal number") {
+  using Wide = boost::multiprecision::cpp_bin_float_50;
+  const fcl::Halfspaced floor(Eigen::Vector3d::UnitZ(), 0.0);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({1.0, 1.0, 1.0});
+  int denormal = 0;
+  for (int step = 0; step < 400; ++step) {
+    const double gap = 37.0 + step / 256.0;
+    const Wide truth = boost::math::erfc(Wide(gap) / sqrt(Wide(2))) / 2;
+    const auto result =
+        answer(fcl::Sphered(0.5), at(0, 0, gap + 0.5), floor, kIdentity, displacement);
+    CAPTURE(gap, *result.lower, *result.upper);
+    CHECK(Wide(*result.lower) <= truth);
+    CHECK(Wide(*result.upper) >= truth);
+    denormal += truth > 0 && truth < 1e-308;
+  }
+  CHECK(denormal > 50);
 }
 
 TEST_CASE("a plane is a surface: the ball may be on either side") {
