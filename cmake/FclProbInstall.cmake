@@ -8,13 +8,19 @@ if(FCL_PROB_WITH_ASSIMP)
   list(APPEND fcl_prob_installed fcl_prob_io)
   set(headers_of_io)
 endif()
+set(headers_of_robot PATTERN robot.h EXCLUDE PATTERN robot_query.h EXCLUDE)
+if(FCL_PROB_WITH_ROBOT)
+  list(APPEND fcl_prob_installed fcl_prob_robot)
+  set(headers_of_robot)
+endif()
 install(TARGETS ${fcl_prob_installed} EXPORT fcl_prob-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(FCL_PROB_BUILD_CLI)
   install(TARGETS fcl_prob_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${headers_of_io})
+install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${headers_of_io}
+  ${headers_of_robot})
 install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR})
 install(FILES package.xml DESTINATION share/fcl_prob)
 

@@ -12,6 +12,9 @@
 #include "cli/decompose_command.h"
 #include "cli/export_command.h"
 #include "cli/output.h"
+#ifdef FCL_PROB_HAS_ROBOT
+#include "cli/path_command.h"
+#endif
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::cli {
@@ -33,6 +36,9 @@ int parseAndRun(int argc, const char* const* argv) {
   addBenchCommand(app, exit_code);
   addExportCommand(app, exit_code);
   addDecomposeCommand(app, exit_code);
+#ifdef FCL_PROB_HAS_ROBOT
+  addPathCommand(app, exit_code);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -98,6 +98,45 @@ std::vector<double> StrictObject::numbers(const std::string& key) {
   return result;
 }
 
+std::vector<StrictObject> StrictObject::objects(const std::string& key) {
+  const Json& value = take(key);
+  if (!value.is_array()) fail(key, "not a list of objects");
+  std::vector<StrictObject> result;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    result.emplace_back(value[i], where_ + ": " + key + " " + std::to_string(i));
+  }
+  return result;
+}
+
+std::vector<std::string> StrictObject::texts(const std::string& key) {
+  const Json& value = take(key);
+  if (!value.is_array()) fail(key, "not a list of texts");
+  std::vector<std::string> result;
+  for (const Json& item : value) {
+    if (!item.is_string()) fail(key, "not a list of texts");
+    result.push_back(item.get<std::string>());
+  }
+  return result;
+}
+
+std::map<std::string, double> StrictObject::numbersByName() const {
+  std::map<std::string, double> result;
+  for (const auto& [key, value] : value_.items()) {
+    if (!value.is_number()) fail(key, "not a number");
+    result[key] = value.get<double>();
+  }
+  return result;
+}
+
+std::map<std::string, std::string> StrictObject::textsByName() const {
+  std::map<std::string, std::string> result;
+  for (const auto& [key, value] : value_.items()) {
+    if (!value.is_string()) fail(key, "not a text");
+    result[key] = value.get<std::string>();
+  }
+  return result;
+}
+
 std::string StrictObject::oneOf(const std::vector<std::string>& keys) const {
   std::string found;
   std::string all;

@@ -3,6 +3,7 @@
 // JSON of which every key must be known, once, and of the right kind.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -30,6 +31,12 @@ class StrictObject {
   double number(const std::string& key);
   std::uint64_t count(const std::string& key);
   std::vector<double> numbers(const std::string& key);
+
+  /// Lists of objects and texts, and what an object with keys of its own holds at each of them.
+  std::vector<StrictObject> objects(const std::string& key);
+  std::vector<std::string> texts(const std::string& key);
+  std::map<std::string, double> numbersByName() const;
+  std::map<std::string, std::string> textsByName() const;
 
   /// The key among `keys` that is there. Exactly one must be.
   std::string oneOf(const std::vector<std::string>& keys) const;

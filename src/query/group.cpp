@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -40,17 +41,28 @@ class Group {
  public:
   Group(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
     if (geometries.empty()) throw InvalidGeometry(name + " has no members");
+    // A geometry that is in the group many times, as a link at many waypoints, is prepared once.
+    std::map<const fcl::CollisionGeometryd*, const PreparedGeometry*> known;
     for (std::size_t i = 0; i < geometries.size(); ++i) {
-      members_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
+      const PreparedGeometry*& prepared = known[geometries[i].get()];
+      if (prepared == nullptr) {
+        prepared =
+            &distinct_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
+      }
+      members_.push_back(prepared);
       if (isLeftOut(*geometries[i])) continue;
-      (members_.back().hasPieces() ? bounded_ : unbounded_).push_back(i);
+      (prepared->hasPieces() ? bounded_ : unbounded_).push_back(i);
     }
     std::vector<const detail::PieceTree*> trees;
-    for (const std::size_t i : bounded_) trees.push_back(&members_[i].pieces());
+    for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
     tree_ = detail::joinPieceTrees(trees);
   }
 
-  const std::deque<PreparedGeometry>& members() const { return members_; }
+  // Members point into it.
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+
+  const std::vector<const PreparedGeometry*>& members() const { return members_; }
   const detail::PieceTree& tree() const { return *tree_; }
   const std::vector<std::size_t>& unbounded() const { return unbounded_; }
   bool anyUnbounded() const { return !unbounded_.empty(); }
@@ -59,7 +71,7 @@ class Group {
 
   bool haveRootBodies() const {
     return std::all_of(members_.begin(), members_.end(),
-                       [](const PreparedGeometry& member) { return member.hasRootBody(); });
+                       [](const PreparedGeometry* member) { return member->hasRootBody(); });
   }
 
   bool isConvexInOnePlace(const Poses& poses) const {
@@ -68,13 +80,13 @@ class Group {
     };
     return std::all_of(poses.begin(), poses.end(), same) &&
            std::all_of(members_.begin(), members_.end(),
-                       [](const PreparedGeometry& member) { return member.isConvex(); });
+                       [](const PreparedGeometry* member) { return member->isConvex(); });
   }
 
   /// Of convex members.
   std::vector<ConvexBody> bodies() const {
     std::vector<ConvexBody> bodies;
-    for (const PreparedGeometry& member : members_) bodies.push_back(member.rootBody());
+    for (const PreparedGeometry* member : members_) bodies.push_back(member->rootBody());
     return bodies;
   }
 
@@ -92,14 +104,14 @@ class Group {
   detail::PartitionObject placed(const Poses& poses, ContactMeaning contact) const {
     detail::PartitionObject object{tree_.get(), {}};
     for (const std::size_t i : bounded_) {
-      object.parts.push_back({poses[i], members_[i].solid(contact)});
+      object.parts.push_back({poses[i], members_[i]->solid(contact)});
     }
     return object;
   }
 
   bool hasOcTree() const {
-    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry& member) {
-      return member.geometry().getNodeType() == fcl::GEOM_OCTREE;
+    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry* member) {
+      return member->geometry().getNodeType() == fcl::GEOM_OCTREE;
     });
   }
 
@@ -109,7 +121,8 @@ class Group {
   }
 
   std::string name_;
-  std::deque<PreparedGeometry> members_;
+  std::deque<PreparedGeometry> distinct_;
+  std::vector<const PreparedGeometry*> members_;  ///< into distinct_
   std::vector<std::size_t> bounded_;
   std::vector<std::size_t> unbounded_;
   std::shared_ptr<const detail::PieceTree> tree_;
@@ -129,7 +142,7 @@ class PlacedGroup {
     const detail::ReachedBall ball = detail::reachedBall(other, displacement, detail::kReach);
     std::vector<const detail::PieceTree*> trees{&group_.tree()};
     for (const std::size_t i : group_.unbounded()) {
-      const auto part = detail::boundedPart(group_.members()[i].geometry(), poses_[i], ball);
+      const auto part = detail::boundedPart(group_.members()[i]->geometry(), poses_[i], ball);
       stand_ins_.push_back(detail::buildPieceTree(*part.geometry));
       trees.push_back(stand_ins_.back().get());
       object_.parts.push_back({part.pose, nullptr});
@@ -149,14 +162,14 @@ class PlacedGroup {
 /// One union of pieces must do for all pairs of members.
 void requireAlike(const Group& group, const Group& others) {
   if (!others.hasOcTree()) return;
-  for (const PreparedGeometry& member : group.members()) {
-    if (!detail::isAlikeBesideOcTrees(member.geometry())) {
-      throw UnsupportedGeometry(detail::nodeTypeName(member.geometry().getNodeType()) +
+  for (const PreparedGeometry* member : group.members()) {
+    if (!detail::isAlikeBesideOcTrees(member->geometry())) {
+      throw UnsupportedGeometry(detail::nodeTypeName(member->geometry().getNodeType()) +
                                 " both occupied and free in a group that meets an octree: "
                                 "fcl::collide leaves it out there and nowhere else");
     }
-    for (const PreparedGeometry& other : others.members()) {
-      detail::requireDistinctCells(member, other);
+    for (const PreparedGeometry* other : others.members()) {
+      detail::requireDistinctCells(*member, *other);
     }
   }
 }
@@ -226,12 +239,30 @@ struct GroupQuery::Implementation {
     ProbabilityResult result =
         detail::partitionProbability(placed_a.object(), placed_b.object(), displacement,
                                      detail::withTimeLeft(request, budget), ball);
+    if (displacement.rank() == 0 && *result.lower < *result.upper) {
+      return collided(poses_a, poses_b, displacement.mean(), request);
+    }
     result.upper = std::max(*result.lower, std::min(*result.upper, most));
     result.plan.insert(result.plan.begin(), note());
     return result;
   }
 
  private:
+  /// Without a displacement, where the partition cannot tell: what fcl::collide says, as for pairs.
+  ProbabilityResult collided(const Poses& poses_a, const Poses& poses_b,
+                             const Eigen::Vector3d& moved,
+                             const ProbabilityRequest& request) const {
+    ProbabilityResult result;
+    for (std::size_t i = 0; i < poses_a.size(); ++i) {
+      for (std::size_t j = 0; j < poses_b.size(); ++j) {
+        result = detail::singleCollide(a.members()[i]->geometry(), poses_a[i],
+                                       b.members()[j]->geometry(), poses_b[j], moved, request);
+        if (*result.upper > 0.0) return result;
+      }
+    }
+    return result;
+  }
+
   /// Bound on the sum over all pairs, 1 where there is none that is of use.
   double sumOfRootBounds(const Poses& poses_a, const Poses& poses_b,
                          const GaussianDisplacement& displacement,
@@ -246,7 +277,7 @@ struct GroupQuery::Implementation {
     for (std::size_t i = 0; i < poses_a.size(); ++i) {
       for (std::size_t j = 0; j < poses_b.size(); ++j) {
         const double bound =
-            detail::convexPcd(a.members()[i].rootBody(), poses_a[i], b.members()[j].rootBody(),
+            detail::convexPcd(a.members()[i]->rootBody(), poses_a[i], b.members()[j]->rootBody(),
                               poses_b[j], displacement, limits.interruption())
                 .least;
         sum += bound;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A robot from its URDF. In the library fcl_prob::robot, the only part that needs urdfdom and KDL.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fcl_prob {
+
+struct RobotOptions {
+  /// The folder of each package: what stands for `package://NAME` in the names of meshes.
+  std::map<std::string, std::string> packages;
+
+  /// The links whose collision elements are taken; none named: all of them.
+  std::vector<std::string> links;
+
+  /// Pose of the root link, metres, world frame.
+  fcl::Transform3d base = fcl::Transform3d::Identity();
+};
+
+/// A joint that moves by itself: mimic joints follow others, fixed ones do not move.
+struct RobotJoint {
+  std::string name;
+  bool turns = true;   ///< its value is in radians; else it slides, in metres
+  double lower = 0.0;  ///< limits; infinite for a continuous joint
+  double upper = 0.0;
+};
+
+/// A collision element of a link.
+struct RobotBody {
+  std::string link;
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  fcl::Transform3d in_link = fcl::Transform3d::Identity();  ///< metres
+};
+
+/// The joints and collision elements of a robot. Values of joints are given in the order of
+/// joints(), radians or metres. Immutable: copies share what they hold, and every member may be
+/// called from several threads.
+class Robot {
+ public:
+  /// Reads a URDF and the meshes that its collision elements name (paths are relative to its
+  /// folder). Neither is trusted: documents with a DOCTYPE, deeper than 64 elements or larger than
+  /// 16 MiB are refused before they are parsed, and meshes are read in a process of their own.
+  /// Visual elements are ignored.
+  /// \throws FileError naming the file and the element: no URDF, a joint type other than fixed,
+  ///         revolute, continuous and prismatic, a mimic joint that follows itself, a size or pose
+  ///         that is not finite, a package without folder, a link in `options` that is not there,
+  ///         no collision element; as loadMesh() for its meshes; InvalidPose for the base
+  explicit Robot(const std::string& urdf_file, const RobotOptions& options = {});
+
+  const std::string& name() const;
+  const std::vector<RobotJoint>& joints() const;
+  const std::vector<RobotBody>& bodies() const;
+
+  /// The geometries of the bodies, as GroupQuery takes them.
+  std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> geometries() const;
+
+  /// Values in the order of joints() from values by name; what is not named is 0, or the limit
+  /// nearest to that. \throws InvalidRequest for a name that is no joint, or a value that is not
+  /// finite
+  Eigen::VectorXd values(const std::map<std::string, double>& by_name) const;
+
+  /// \throws InvalidRequest if there is not one finite value a joint
+  void validate(const Eigen::VectorXd& values) const;
+
+  /// Whether no value is beyond its limits. \throws InvalidRequest as validate()
+  bool isWithinLimits(const Eigen::VectorXd& values) const;
+
+  /// Poses of the bodies, metres, world frame. Limits are not looked at.
+  /// \throws InvalidRequest as validate()
+  std::vector<fcl::Transform3d> poses(const Eigen::VectorXd& values) const;
+
+  /// Pose of a link, with or without collision elements. \throws InvalidRequest as validate(), or
+  /// for a link that is not there
+  fcl::Transform3d linkPose(const std::string& link, const Eigen::VectorXd& values) const;
+
+ private:
+  struct Implementation;
+  std::shared_ptr<const Implementation> implementation_;
+};
+
+}  // namespace fcl_prob

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The probability that a robot, in one state or along a motion, touches what was perceived.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fcl_prob/mixture.h"
+#include "fcl_prob/probability_result.h"
+#include "fcl_prob/robot.h"
+
+namespace fcl_prob {
+
+/// Something that the robot may touch, with the error of where it was perceived.
+struct Obstacle {
+  std::string name;
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
+  /// Of the obstacle, metres, world frame; independent of that of every other one.
+  Displacement displacement = GaussianDisplacement();
+};
+
+/// Whether the errors of a motion are drawn once or ever again.
+enum class ErrorsOverTime {
+  persistent,  ///< the obstacle was perceived once: its error is the same all along
+  independent  ///< drawn anew at every waypoint
+};
+
+/// P(any body of the robot touches any obstacle).
+struct RobotResult {
+  /// Certified, rounding included.
+  Bounds any{0.0, 1.0};
+
+  /// With ProbabilityMethod::estimate: not certified, with its standard error.
+  std::optional<double> estimate;
+  std::optional<double> standard_error;
+
+  Decision decision = Decision::none;
+  ProbabilityStatus status = ProbabilityStatus::converged;
+
+  /// By obstacle, in their order; independent errors: by waypoint, and for each by obstacle. Empty
+  /// `upper` where the decision did not need it.
+  std::vector<ProbabilityResult> parts;
+
+  /// Bodies at waypoints that are so far away that together they are no likelier to touch than
+  /// `far_upper`, which is part of `any`: no triangle of them was looked at.
+  std::size_t far_bodies = 0;
+  double far_upper = 0.0;
+
+  /// The single number to use: the estimate if there is one, else the middle of the interval.
+  double probability() const { return estimate ? *estimate : any.middle(); }
+};
+
+/// A robot among obstacles. All bodies of the robot share the displacement of an obstacle, so that
+/// one partition works on the union of them; obstacles are combined as independent events.
+///
+/// Const and thread-safe after construction.
+class RobotQuery {
+ public:
+  /// \throws InvalidRequest without an obstacle; InvalidPose, InvalidGeometry, UnsupportedGeometry
+  RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles);
+  ~RobotQuery();
+  RobotQuery(RobotQuery&&) noexcept;
+  RobotQuery& operator=(RobotQuery&&) noexcept;
+
+  const Robot& robot() const;
+  const std::vector<Obstacle>& obstacles() const;
+
+  /// In one state. The tolerances, the threshold and the limits are those of the whole answer.
+  /// \param request  method automatic, interval or estimate
+  /// \throws InvalidRequest, OpenMesh, UnsupportedGeometry as GroupQuery
+  RobotResult state(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
+
+  /// At any of the waypoints; what is between them is not looked at (see interpolated()).
+  /// Persistent errors: the mass of the union over time of what the robot sweeps at the waypoints,
+  /// one group query an obstacle; at least the largest P of a waypoint, at most their sum.
+  /// \throws InvalidRequest without a waypoint, and as state()
+  RobotResult motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
+                     const ProbabilityRequest& request) const;
+
+  /// The same, persistent, for each body of the robot by itself: which links carry the
+  /// probability. \throws as motion()
+  std::vector<RobotResult> byBody(const std::vector<Eigen::VectorXd>& waypoints,
+                                  const ProbabilityRequest& request) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<const Implementation> implementation_;
+};
+
+/// Waypoints with so many more between them, linear in the joints, that no joint value changes by
+/// more than `largest_step` (radians or metres) from one to the next.
+/// \throws InvalidRequest if the step is not > 0 or the waypoints differ in size
+std::vector<Eigen::VectorXd> interpolated(const std::vector<Eigen::VectorXd>& waypoints,
+                                          double largest_step);
+
+}  // namespace fcl_prob

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A robot, its obstacles and a motion, as a JSON file (docs/robots.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fcl_prob/robot_query.h"
+#include "fcl_prob/scene_io.h"
+
+namespace fcl_prob {
+
+struct RobotScene {
+  struct PlacedObstacle {
+    std::string name;
+    SceneObject object;                 ///< a mesh still in its file
+    GaussianDisplacement displacement;  ///< of the obstacle, metres, world frame
+  };
+
+  std::string urdf;  ///< path
+  RobotOptions robot;
+  std::vector<PlacedObstacle> obstacles;
+  std::vector<std::map<std::string, double>> waypoints;  ///< one is a state
+  ErrorsOverTime errors = ErrorsOverTime::persistent;
+  std::optional<double> largest_step;  ///< as interpolated() takes it
+  ProbabilityRequest request;          ///< defaults where the file says nothing
+};
+
+/// Reads a scene file. Paths are relative to its folder; neither the URDF nor the meshes are read.
+/// \throws FileError as loadScene()
+RobotScene loadRobotScene(const std::string& path);
+
+/// Reads what the scene names. \throws FileError, InvalidGeometry, InvalidRequest
+RobotQuery loadRobotQuery(const RobotScene& scene);
+
+/// The waypoints as values in the order of the robot's joints, with those between them if the scene
+/// asks for them. \throws InvalidRequest for a name that is no joint
+std::vector<Eigen::VectorXd> waypointsOf(const RobotScene& scene, const Robot& robot);
+
+}  // namespace fcl_prob

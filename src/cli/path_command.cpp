@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/path_command.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/json_values.h"
+#include "cli/number_text.h"
+#include "cli/output.h"
+#include "cli/prepared_scene.h"
+#include "cli/progress_bar.h"
+#include "cli/result_report.h"
+#include "cli/run.h"
+#include "cli/stopwatch.h"
+#include "fcl_prob/robot_scene.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct PathArguments {
+  std::string scene;
+  std::optional<double> relative_tolerance;
+  std::optional<double> threshold;
+  std::optional<double> time_limit;
+  std::optional<double> largest_step;
+  std::string method;
+  std::string errors;
+  bool by_body = false;
+  bool json = false;
+  std::string output;
+};
+
+struct PathReport {
+  std::vector<RobotBody> bodies;  ///< of the robot
+  RobotResult result;
+  std::vector<RobotResult> by_body;
+  std::size_t waypoints = 0;
+  double build_ms = 0.0;
+  double time_ms = 0.0;
+};
+
+RobotScene sceneOf(const PathArguments& arguments) {
+  RobotScene scene = loadRobotScene(arguments.scene);
+  if (arguments.relative_tolerance) {
+    scene.request.relative_tolerance = *arguments.relative_tolerance;
+  }
+  if (arguments.threshold) scene.request.threshold = arguments.threshold;
+  if (arguments.time_limit) scene.request.time_limit = arguments.time_limit;
+  if (arguments.largest_step) scene.largest_step = arguments.largest_step;
+  if (!arguments.method.empty()) scene.request.method = *methodFromString(arguments.method);
+  if (!arguments.errors.empty()) {
+    scene.errors = arguments.errors == "independent" ? ErrorsOverTime::independent
+                                                     : ErrorsOverTime::persistent;
+  }
+  return scene;
+}
+
+PathReport answer(RobotScene scene, bool by_body) {
+  PathReport report;
+  const Stopwatch building;
+  const RobotQuery query = loadRobotQuery(scene);
+  const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
+  report.waypoints = waypoints.size();
+  report.bodies = query.robot().bodies();
+  report.build_ms = building.milliseconds();
+  noteInterrupts();
+  ProgressBar bar("fcl_prob path");
+  scene.request.on_progress = std::ref(bar);
+  const Stopwatch watch;
+  report.result = query.motion(waypoints, scene.errors, scene.request);
+  report.time_ms = watch.milliseconds();
+  if (by_body) report.by_body = query.byBody(waypoints, scene.request);
+  return report;
+}
+
+/// What each obstacle, or each obstacle at each waypoint, adds.
+ordered_json partsOf(const PathReport& report, const RobotScene& scene) {
+  ordered_json parts = ordered_json::array();
+  for (std::size_t i = 0; i < report.result.parts.size(); ++i) {
+    const ProbabilityResult& part = report.result.parts[i];
+    ordered_json entry{{"obstacle", scene.obstacles[i % scene.obstacles.size()].name}};
+    if (scene.errors == ErrorsOverTime::independent) {
+      entry["waypoint"] = i / scene.obstacles.size();
+    }
+    entry["lower"] = orNull(part.lower);
+    entry["upper"] = orNull(part.upper);
+    entry["estimate"] = orNull(part.estimate);
+    entry["cells"] = part.statistics.cells;
+    parts.push_back(entry);
+  }
+  return parts;
+}
+
+ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
+  const RobotResult& result = report.result;
+  ordered_json json{{"probability", result.probability()},
+                    {"lower", result.any.lower},
+                    {"upper", result.any.upper},
+                    {"estimate", orNull(result.estimate)},
+                    {"standard_error", orNull(result.standard_error)},
+                    {"status", toString(result.status)},
+                    {"decision", toString(result.decision)},
+                    {"waypoints", report.waypoints},
+                    {"far_bodies", result.far_bodies},
+                    {"far_upper", result.far_upper},
+                    {"build_ms", report.build_ms},
+                    {"time_ms", report.time_ms},
+                    {"parts", partsOf(report, scene)}};
+  for (std::size_t i = 0; i < report.by_body.size(); ++i) {
+    json["bodies"].push_back({{"link", report.bodies[i].link},
+                              {"lower", report.by_body[i].any.lower},
+                              {"upper", report.by_body[i].any.upper}});
+  }
+  return json;
+}
+
+std::string interval(const Bounds& bounds) {
+  return "[" + numberText(bounds.lower, 6) + ", " + numberText(bounds.upper, 6) + "]";
+}
+
+std::string textOf(const PathReport& report, const RobotScene& scene) {
+  const RobotResult& result = report.result;
+  const bool persistent = scene.errors == ErrorsOverTime::persistent;
+  std::string text = "P(the robot touches anything) " + numberText(result.probability(), 6) +
+                     ", certainly in " + interval(result.any) + "\n";
+  if (result.standard_error) {
+    text += "standard error " + numberText(*result.standard_error, 3) + "\n";
+  }
+  if (result.decision != Decision::none) text += "decision: " + toString(result.decision) + "\n";
+  text += "status: " + toString(result.status) + "\n";
+  text += std::to_string(report.waypoints) + " waypoints, " +
+          (persistent ? "the same errors at all of them\n" : "errors drawn anew at each\n");
+  if (persistent) {
+    for (std::size_t i = 0; i < result.parts.size(); ++i) {
+      const ProbabilityResult& part = result.parts[i];
+      text += "  " + scene.obstacles[i].name + ": " +
+              interval({part.lower.value_or(0.0), part.upper.value_or(1.0)}) + "\n";
+    }
+  }
+  for (std::size_t i = 0; i < report.by_body.size(); ++i) {
+    text += "  link " + report.bodies[i].link + ": " + interval(report.by_body[i].any) + "\n";
+  }
+  text +=
+      std::to_string(result.far_bodies) +
+      " bodies at waypoints left out as far away, with P <= " + numberText(result.far_upper, 3) +
+      " together\n";
+  return text + numberText(report.time_ms, 4) + " ms, and " + numberText(report.build_ms, 4) +
+         " ms to load\n";
+}
+
+int runPath(const PathArguments& arguments) {
+  const RobotScene scene = sceneOf(arguments);
+  const PathReport report = answer(scene, arguments.by_body);
+  deliver(arguments.json ? jsonOf(report, scene).dump() + "\n" : textOf(report, scene),
+          arguments.output);
+  return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
+}
+
+}  // namespace
+
+void addPathCommand(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<PathArguments>();
+  CLI::App& command =
+      *app.add_subcommand("path", "The probability that a robot touches anything along a motion");
+  command.add_option("--scene", arguments->scene, "Robot scene file (docs/robots.md)")->required();
+  command.add_option("--method", arguments->method)
+      ->check(CLI::IsMember({"auto", "interval", "estimate"}));
+  command.add_option("--errors", arguments->errors, "Drawn once, or anew at every waypoint")
+      ->check(CLI::IsMember({"persistent", "independent"}));
+  command.add_option("--tolerance", arguments->relative_tolerance, "Relative");
+  command.add_option("--threshold", arguments->threshold, "Decide whether P is below or above");
+  command.add_option("--time-limit", arguments->time_limit, "Seconds");
+  command.add_option("--largest-step", arguments->largest_step,
+                     "Add waypoints such that no joint moves further at once (radians, metres)");
+  command.add_flag("--by-body", arguments->by_body, "Also each collision body by itself");
+  command.add_flag("--json", arguments->json, "One JSON object instead of text");
+  command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
+  command.callback([arguments, &exit_code] { exit_code = runPath(*arguments); });
+}
+
+}  // namespace fcl_prob::cli

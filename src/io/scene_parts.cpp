@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "io/scene_parts.h"
+
+#include "io/primitive_shapes.h"
+#include "io/quantities.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// Runs `convert`, whose exceptions do not know where in the file the value stands.
+template <typename Convert>
+auto located(const StrictObject& object, const std::string& key, const Convert& convert) {
+  try {
+    return convert();
+  } catch (const Exception& error) {
+    object.fail(key, error.what());
+  }
+}
+
+double scaleOf(StrictObject& object) {
+  const double scale = object.number("scale");
+  if (!(scale > 0.0)) object.fail("scale", "must be > 0");
+  return scale;
+}
+
+MeshFile readMeshFile(StrictObject& object, const std::filesystem::path& folder) {
+  MeshFile mesh;
+  const std::string name = object.text("mesh");
+  if (name.empty()) object.fail("mesh", "must not be empty");
+  mesh.path = (folder / name).lexically_normal().string();
+  if (object.has("scale")) mesh.options.scale = scaleOf(object);
+  if (object.has("normalize")) mesh.options.normalize = object.boolean("normalize");
+  return mesh;
+}
+
+}  // namespace
+
+SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& folder) {
+  SceneObject result;
+  std::vector<std::string> kinds = primitiveNames();
+  kinds.insert(kinds.begin(), "mesh");
+  const std::string kind = object.oneOf(kinds);
+  if (kind == "mesh") {
+    result.shape = readMeshFile(object, folder);
+  } else {
+    result.shape = readPrimitive(object, kind);
+  }
+  if (object.has("pose")) {
+    const std::vector<double> numbers = object.numbers("pose");
+    result.pose = located(object, "pose", [&] { return poseFrom(numbers); });
+  }
+  return result;
+}
+
+SceneObject readObject(StrictObject object, const std::filesystem::path& folder) {
+  SceneObject result = readShapeAndPose(object, folder);
+  object.finish();
+  return result;
+}
+
+GaussianDisplacement readDisplacement(StrictObject object) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  if (object.has("mean")) {
+    const std::vector<double> numbers = object.numbers("mean");
+    mean = located(object, "mean", [&] { return vectorFrom(numbers, "it"); });
+  }
+  const std::string kind = object.oneOf({"covariance", "sigma"});
+  const std::vector<double> numbers = object.numbers(kind);
+  Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();
+  if (kind == "sigma" && object.has("sigma_axes")) {
+    const std::vector<double> quaternion = object.numbers("sigma_axes");
+    axes = located(object, "sigma_axes", [&] { return quaternionFrom(quaternion); });
+  }
+  object.finish();
+  return located(object, kind, [&] {
+    if (kind == "covariance") return GaussianDisplacement(mean, covarianceFrom(numbers));
+    return GaussianDisplacement::fromStandardDeviations(vectorFrom(numbers, "it"), axes, mean);
+  });
+}
+
+PoseError readPoseError(StrictObject object) {
+  PoseConvention convention = PoseConvention::world_rotation_vector;
+  if (object.has("convention")) {
+    const auto named = poseConventionFromString(object.text("convention"));
+    if (!named)
+      object.fail("convention", "none of world, body, world-exponential, body-exponential");
+    convention = *named;
+  }
+  PoseError::Vector6 mean = PoseError::Vector6::Zero();
+  if (object.has("mean")) {
+    const std::vector<double> numbers = object.numbers("mean");
+    mean = located(object, "mean", [&] { return sixFrom(numbers, "it"); });
+  }
+  const std::string kind = object.oneOf({"covariance", "sigma"});
+  const std::vector<double> numbers = object.numbers(kind);
+  object.finish();
+  return located(object, kind, [&] {
+    if (kind == "covariance") {
+      return PoseError(poseCovarianceFrom(numbers), convention, mean);
+    }
+    return poseErrorFrom(sixFrom(numbers, "it"), convention, mean);
+  });
+}
+
+ProbabilityRequest readRequest(StrictObject object) {
+  ProbabilityRequest request;
+  if (object.has("method")) {
+    const auto method = methodFromString(object.text("method"));
+    if (!method) object.fail("method", "unknown method");
+    request.method = *method;
+  }
+  if (object.has("contact")) {
+    const auto contact = contactFromString(object.text("contact"));
+    if (!contact) object.fail("contact", "neither fcl nor solid");
+    request.contact = *contact;
+  }
+  const auto readNumber = [&](const char* key, auto& value) {
+    if (object.has(key)) value = object.number(key);
+  };
+  readNumber("relative_tolerance", request.relative_tolerance);
+  readNumber("absolute_tolerance", request.absolute_tolerance);
+  readNumber("threshold", request.threshold);
+  readNumber("time_limit", request.time_limit);
+  readNumber("confidence", request.confidence);
+  if (object.has("samples")) request.samples = object.count("samples");
+  if (object.has("seed")) request.seed = object.count("seed");
+  object.finish();
+  return request;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What several kinds of scene files are made of (docs/scene_format.md).
+#pragma once
+
+#include <filesystem>
+
+#include "fcl_prob/scene_io.h"
+#include "io/strict_json.h"
+
+namespace fcl_prob::detail {
+
+/// Each reads a whole object, in which nothing unknown may be. \throws FileError
+SceneObject readObject(StrictObject object, const std::filesystem::path& folder);
+GaussianDisplacement readDisplacement(StrictObject object);
+PoseError readPoseError(StrictObject object);
+ProbabilityRequest readRequest(StrictObject object);
+
+/// The same of an object that has other keys besides: the caller calls finish().
+/// \param folder  that mesh paths are relative to
+SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& folder);
+
+}  // namespace fcl_prob::detail

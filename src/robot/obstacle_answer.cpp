@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/obstacle_answer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_prob/combined_bounds.h"
+#include "query/call_budget.h"
+#include "query/single_collide.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+class EventAnswers {
+ public:
+  EventAnswers(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask)
+      : request_(request), ask_(ask), budget_(request), bounds_(count, Bounds{0.0, 1.0}) {
+    result_.parts.resize(count);
+  }
+
+  RobotResult run() {
+    if (request_.threshold && bounds_.size() > 1) {
+      ProbabilityRequest share = request_;
+      share.threshold = *request_.threshold / static_cast<double>(bounds_.size());
+      askAll(share, [this](std::size_t i) { return !result_.parts[i].upper; });
+    }
+    ProbabilityRequest fine = request_;
+    fine.absolute_tolerance /= static_cast<double>(bounds_.size());
+    if (bounds_.size() > 1) fine.threshold.reset();
+    askAll(fine, [this, &fine](std::size_t i) { return !isFine(result_.parts[i], fine); });
+    return finished();
+  }
+
+ private:
+  static bool isFine(const ProbabilityResult& part, const ProbabilityRequest& request) {
+    if (!part.upper) return false;
+    if (request.method == ProbabilityMethod::estimate) return false;
+    const double width = *part.upper - part.lower.value_or(0.0);
+    return width <= std::max(request.absolute_tolerance, request.relative_tolerance * *part.upper);
+  }
+
+  template <typename Needed>
+  void askAll(ProbabilityRequest part, const Needed& is_needed) {
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < bounds_.size(); ++i) left += is_needed(i);
+    for (std::size_t i = 0; i < bounds_.size() && !isDecided(); ++i) {
+      if (!is_needed(i)) continue;
+      if (stopped_) return;
+      if ((stopped_ = budget_.exhausted())) return;
+      ProbabilityRequest of_one = part;
+      budget_.share(left--, of_one);
+      ProbabilityResult answer;
+      ask_(i, of_one, answer);
+      budget_.spend(answer.statistics);
+      bounds_[i] = {std::max(bounds_[i].lower, answer.lower.value_or(0.0)),
+                    std::min(bounds_[i].upper, answer.upper.value_or(1.0))};
+      if (isStopped(answer.status)) stopped_ = answer.status;
+      result_.parts[i] = std::move(answer);
+    }
+  }
+
+  static bool isStopped(ProbabilityStatus status) {
+    return status == ProbabilityStatus::cancelled || status == ProbabilityStatus::time_limit;
+  }
+
+  bool isDecided() {
+    result_.any = anyOfIndependent(bounds_);
+    result_.decision = decisionOf(result_.any, request_);
+    return result_.decision == Decision::below || result_.decision == Decision::above;
+  }
+
+  RobotResult finished() {
+    const bool decided = isDecided();
+    addEstimate();
+    result_.status = decided ? ProbabilityStatus::decided : statusOfParts();
+    return std::move(result_);
+  }
+
+  // Of 1 - Π(1 - e), to first order in the errors, which are independent.
+  void addEstimate() {
+    double none = 1.0;
+    for (const ProbabilityResult& part : result_.parts) {
+      if (!part.estimate) return;
+      none *= 1.0 - *part.estimate;
+    }
+    double variance = 0.0;
+    for (std::size_t i = 0; i < result_.parts.size(); ++i) {
+      double others = 1.0;
+      for (std::size_t j = 0; j < result_.parts.size(); ++j) {
+        if (j != i) others *= 1.0 - *result_.parts[j].estimate;
+      }
+      variance += std::pow(others * result_.parts[i].standard_error.value_or(0.0), 2);
+    }
+    double some = 0.0;  // without the cancellation of 1 - none
+    double so_far = 1.0;
+    for (const ProbabilityResult& part : result_.parts) {
+      some += so_far * *part.estimate;
+      so_far *= 1.0 - *part.estimate;
+    }
+    result_.estimate = std::clamp(some, result_.any.lower, result_.any.upper);
+    result_.standard_error = std::sqrt(variance);
+  }
+
+  ProbabilityStatus statusOfParts() const {
+    if (stopped_) return *stopped_;
+    ProbabilityStatus common = ProbabilityStatus::exact;
+    for (const ProbabilityResult& part : result_.parts) {
+      if (part.status == ProbabilityStatus::exact) continue;
+      const bool within =
+          part.status == ProbabilityStatus::converged || part.status == ProbabilityStatus::decided;
+      if (!within) return part.status;
+      common = ProbabilityStatus::converged;
+    }
+    if (common == ProbabilityStatus::exact || isWithinTolerance()) return common;
+    return ProbabilityStatus::resolution_limit;
+  }
+
+  bool isWithinTolerance() const {
+    const bool sampled = result_.estimate && request_.method == ProbabilityMethod::estimate;
+    const double error = sampled ? *result_.standard_error : result_.any.width();
+    const double size = sampled ? *result_.estimate : result_.any.upper;
+    return error <= std::max(request_.absolute_tolerance, request_.relative_tolerance * size);
+  }
+
+  const ProbabilityRequest& request_;
+  const AskEvent& ask_;
+  CallBudget budget_;
+  std::vector<Bounds> bounds_;
+  RobotResult result_;
+  std::optional<ProbabilityStatus> stopped_;
+};
+
+}  // namespace
+
+RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask) {
+  return EventAnswers(count, request, ask).run();
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/robot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
+#include "geometry/validation.h"
+#include "robot/kinematics.h"
+#include "robot/urdf_shapes.h"
+#include "robot/urdf_text.h"
+
+namespace fcl_prob {
+
+struct Robot::Implementation {
+  Implementation(const urdf::ModelInterface& model, const std::string& path,
+                 const RobotOptions& options)
+      : name(model.getName()),
+        kinematics(model, path),
+        bodies(detail::bodiesOf(model, path, options)),
+        base(options.base) {
+    for (const RobotBody& body : bodies) links.push_back(kinematics.linkIndex(body.link));
+  }
+
+  void validate(const Eigen::VectorXd& values) const {
+    const auto& joints = kinematics.joints();
+    if (static_cast<std::size_t>(values.size()) != joints.size()) {
+      throw InvalidRequest(name + " has " + std::to_string(joints.size()) + " joints but " +
+                           std::to_string(values.size()) + " values");
+    }
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (std::isfinite(values[i])) continue;
+      throw InvalidRequest("joint " + joints[static_cast<std::size_t>(i)].name + ": its value is " +
+                           detail::numberText(values[i]));
+    }
+  }
+
+  std::string name;
+  detail::Kinematics kinematics;
+  std::vector<RobotBody> bodies;
+  std::vector<int> links;  ///< of the bodies
+  fcl::Transform3d base;
+};
+
+Robot::Robot(const std::string& urdf_file, const RobotOptions& options) {
+  detail::validatePose(options.base, "the robot's base");
+  const urdf::ModelInterfaceSharedPtr model = detail::parseUrdf(urdf_file);
+  implementation_ = std::make_shared<const Implementation>(*model, urdf_file, options);
+}
+
+const std::string& Robot::name() const { return implementation_->name; }
+const std::vector<RobotJoint>& Robot::joints() const {
+  return implementation_->kinematics.joints();
+}
+const std::vector<RobotBody>& Robot::bodies() const { return implementation_->bodies; }
+
+std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> Robot::geometries() const {
+  std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> result;
+  for (const RobotBody& body : bodies()) result.push_back(body.geometry);
+  return result;
+}
+
+Eigen::VectorXd Robot::values(const std::map<std::string, double>& by_name) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(joints().size()));
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < joints().size(); ++i) {
+    const RobotJoint& joint = joints()[i];
+    const auto named = by_name.find(joint.name);
+    found += named != by_name.end();
+    result[static_cast<Eigen::Index>(i)] =
+        named != by_name.end() ? named->second : std::clamp(0.0, joint.lower, joint.upper);
+  }
+  if (found < by_name.size()) {
+    for (const auto& [name, value] : by_name) {
+      const auto is_it = [&name = name](const RobotJoint& joint) { return joint.name == name; };
+      if (std::none_of(joints().begin(), joints().end(), is_it)) {
+        throw InvalidRequest(implementation_->name + " has no joint " + name +
+                             " that moves by itself");
+      }
+    }
+  }
+  implementation_->validate(result);
+  return result;
+}
+
+void Robot::validate(const Eigen::VectorXd& values) const { implementation_->validate(values); }
+
+bool Robot::isWithinLimits(const Eigen::VectorXd& values) const {
+  implementation_->validate(values);
+  for (std::size_t i = 0; i < joints().size(); ++i) {
+    const double value = values[static_cast<Eigen::Index>(i)];
+    if (value < joints()[i].lower || value > joints()[i].upper) return false;
+  }
+  return true;
+}
+
+std::vector<fcl::Transform3d> Robot::poses(const Eigen::VectorXd& values) const {
+  implementation_->validate(values);
+  const std::vector<fcl::Transform3d> links = implementation_->kinematics.linkPoses(values);
+  std::vector<fcl::Transform3d> result;
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    const auto link = static_cast<std::size_t>(implementation_->links[i]);
+    result.push_back(implementation_->base * links[link] * bodies()[i].in_link);
+  }
+  return result;
+}
+
+fcl::Transform3d Robot::linkPose(const std::string& link, const Eigen::VectorXd& values) const {
+  implementation_->validate(values);
+  const int index = implementation_->kinematics.linkIndex(link);
+  if (index < 0) throw InvalidRequest(implementation_->name + " has no link " + link);
+  return implementation_->base *
+         implementation_->kinematics.linkPoses(values)[static_cast<std::size_t>(index)];
+}
+
+}  // namespace fcl_prob

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// fcl_prob path, from outside.
+#ifdef FCL_PROB_HAS_ROBOT
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "command.h"
+
+using namespace fcl_prob_test;
+using nlohmann::json;
+
+namespace {
+
+json answerOf(std::vector<std::string> options) {
+  const TemporaryFolder folder;
+  options.insert(options.begin(), {"path", "--scene", dataFile("arm_path.json"), "--json"});
+  const CommandResult result = runCommand(options, folder);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  return json::parse(result.out);
+}
+
+}  // namespace
+
+TEST_CASE("path answers the motion that the project ships", "[cli]") {
+  const json decided = answerOf({});
+  CHECK(decided.at("decision") == "below");
+  CHECK(decided.at("waypoints").get<int>() > 10);
+  const json persistent = answerOf({"--method", "interval", "--threshold", "0.9999", "--by-body"});
+  CHECK(persistent.at("parts").size() == 2);
+  CHECK(persistent.at("bodies").size() == 10);
+  const json estimate = answerOf({"--method", "estimate", "--tolerance", "0.05"});
+  CHECK(estimate.at("estimate").get<double>() > 1e-4);
+  CHECK(estimate.at("standard_error").get<double>() > 0.0);
+  CHECK(estimate.at("lower").get<double>() <= persistent.at("upper").get<double>());
+  const json independent = answerOf({"--errors", "independent", "--tolerance", "0.5"});
+  CHECK(independent.at("upper").get<double>() >= persistent.at("lower").get<double>());
+  CHECK(independent.at("parts").size() == 2 * independent.at("waypoints").get<std::size_t>());
+}
+
+TEST_CASE("path says in one line what is wrong with a scene", "[cli]") {
+  const TemporaryFolder folder;
+  CHECK(runCommand({"path"}, folder).refused());
+  CHECK(runCommand({"path", "--scene", "none.json"}, folder).refused());
+  CHECK(runCommand({"path", "--scene", dataFile("two_boxes.json")}, folder).refused());
+  folder.write("r.urdf", "no XML");
+  folder.write("scene.json",
+               R"({"robot": {"urdf": "r.urdf"}, "joints": {}, "obstacles": [{"name": "o",)"
+               R"( "sphere": 1, "displacement": {"sigma": [1, 1, 1]}}]})");
+  CHECK(runCommand({"path", "--scene", "scene.json"}, folder).refused());
+}
+#endif
