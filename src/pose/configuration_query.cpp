@@ -190,7 +190,7 @@ class MixtureSum {
     const double error = part.standard_error.value_or(0.5 * (upper - lower));
     sum.estimate = *sum.estimate + weight * part.probability();
     sum.standard_error = std::hypot(*sum.standard_error, weight * error);
-    sum.lower = std::max(0.0, *sum.lower + weight * lower * (1.0 - kRounding) - kUnderflow);
+    sum.lower = std::max(0.0, *sum.lower + weight * lower * (1.0 - kRounding) - detail::kUnderflow);
     sum.upper = std::min(1.0, *sum.upper + weight * upper * (1.0 + kRounding));
     if (part.gradient) {
       sum.gradient = sum.gradient.value_or(Eigen::Vector3d::Zero()) + weight * *part.gradient;
