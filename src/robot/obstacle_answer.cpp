@@ -79,10 +79,8 @@ class EventAnswers {
 
   // Of 1 - Π(1 - e), to first order in the errors, which are independent.
   void addEstimate() {
-    double none = 1.0;
     for (const ProbabilityResult& part : result_.parts) {
       if (!part.estimate) return;
-      none *= 1.0 - *part.estimate;
     }
     double variance = 0.0;
     for (std::size_t i = 0; i < result_.parts.size(); ++i) {
@@ -92,7 +90,7 @@ class EventAnswers {
       }
       variance += std::pow(others * result_.parts[i].standard_error.value_or(0.0), 2);
     }
-    double some = 0.0;  // without the cancellation of 1 - none
+    double some = 0.0;  // not 1 - Π, which cancels
     double so_far = 1.0;
     for (const ProbabilityResult& part : result_.parts) {
       some += so_far * *part.estimate;

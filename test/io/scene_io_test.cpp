@@ -207,6 +207,8 @@ TEST_CASE("the scenes and meshes of data/ are sound", "[io]") {
   for (const auto& entry : std::filesystem::directory_iterator(data)) {
     bytes += entry.file_size();
     CAPTURE(entry.path().string());
+    // The arm and its motion are read in test/robot.
+    if (entry.path().stem().string().rfind("arm", 0) == 0) continue;
     if (entry.path().extension() != ".json") {
       loadMesh(entry.path().string());
       ++meshes;
