@@ -162,7 +162,7 @@ TEST_CASE("a sphere that turns about its centre has the interval of one that doe
   }
 }
 
-TEST_CASE("a sphere on a lever before a wall: the interval contains the closed form") {
+TEST_CASE("a sphere on a lever before a wall: the interval contains the closed form", "[slow]") {
   const double lever = 0.7, radius = 0.1, sigma = 0.05, gap = 0.06;
   const PreparedPoseQuery query(std::make_shared<fcl::Sphered>(radius),
                                 std::make_shared<fcl::Boxd>(4.0, 2.0, 4.0));
