@@ -36,7 +36,8 @@ Number intervalOf(Number lo, Number hi) {
 template <class Number>
 class DiscTruth {
  public:
-  DiscTruth(double x, double y, double r, double sx, double sy)
+  /// \param x, y  of the centre, not negative
+  DiscTruth(const Number& x, const Number& y, const Number& r, const Number& sx, const Number& sy)
       : x_(x), y_(y), r_(r), sx_(sx), sy_(sy) {}
 
   Number mass() const {
