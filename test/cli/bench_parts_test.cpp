@@ -190,7 +190,7 @@ void checkTable1(const std::string& only, std::size_t scenes) {
 
 }  // namespace
 
-TEST_CASE("by volume, spheres are the loosest and convex hulls the tightest", "[cli]") {
+TEST_CASE("by volume, spheres are the loosest and convex hulls the tightest", "[cli][slow]") {
   for (const char* const name : {"bunny_5110", "dragon_10000", "buddha_10000"}) {
     const auto model = modelOrSkip(std::string("benchmark/") + name + ".obj");
     if (!model) continue;
@@ -217,7 +217,7 @@ TEST_CASE("by volume, spheres are the loosest and convex hulls the tightest", "[
   }
 }
 
-TEST_CASE("every upper bound of table1 is above the certified P, on one scene", "[cli][slow]") {
+TEST_CASE("every upper bound of table1 is above the certified P, on one scene", "[cli][long]") {
   if (modelOrSkip("benchmark/bunny_5110.obj")) checkTable1("bunny_5cm", 1);
 }
 

@@ -103,7 +103,7 @@ void checkTightAnswers(std::uint64_t seed, std::uint64_t cases, std::size_t cell
 
 }  // namespace
 
-TEST_CASE("intervals as tight as rounding allows hold known probabilities", "[cli]") {
+TEST_CASE("intervals as tight as rounding allows hold known probabilities", "[cli][slow]") {
   checkTightAnswers(3, 4, 300);
 }
 

@@ -47,7 +47,7 @@ struct Cubes {
 
 }  // namespace
 
-TEST_CASE("check takes errors of a pose", "[cli]") {
+TEST_CASE("check takes errors of a pose", "[cli][slow]") {
   const Cubes cubes;
   const std::vector<std::string> base{cubes.file, cubes.file, "--pose-a", "1.2,0.13,0.07"};
   const auto with = [&](std::vector<std::string> more) {

@@ -27,6 +27,12 @@ struct CommandResult {
   }
 };
 
+/// The command of the build that the tests are run for.
+inline std::string commandPath() {
+  const char* path = std::getenv("FCL_PROB_CLI");
+  return path ? path : FCL_PROB_CLI;
+}
+
 inline std::string readWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -38,7 +44,7 @@ inline CommandResult runCommandIn(const std::string& before,
                                   const std::vector<std::string>& arguments,
                                   const TemporaryFolder& folder, const std::string& out_path = "") {
   const std::string out = out_path.empty() ? folder.path("stdout") : out_path;
-  std::string line = "cd '" + folder.path("") + "' && " + before + " && '" + FCL_PROB_CLI + "'";
+  std::string line = "cd '" + folder.path("") + "' && " + before + " && '" + commandPath() + "'";
   for (const std::string& argument : arguments) line += " '" + argument + "'";
   line += out[0] == '&' ? " >" + out : " >'" + out + "'";
   line += " 2>'" + folder.path("stderr") + "'";

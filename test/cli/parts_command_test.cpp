@@ -75,7 +75,7 @@ TEST_CASE("decompose writes one object a part", "[cli]") {
             .refused());
 }
 
-TEST_CASE("bounds with parts are above the certified lower bound", "[cli]") {
+TEST_CASE("bounds with parts are above the certified lower bound", "[cli][slow]") {
   const TemporaryFolder folder;
   const double lower =
       answerOf({"--method", "interval", "--contact", "fcl"}, folder).at("lower").get<double>();
@@ -98,7 +98,7 @@ TEST_CASE("bounds with parts are above the certified lower bound", "[cli]") {
         "below");
 }
 
-TEST_CASE("parts are refused where they prove nothing", "[cli]") {
+TEST_CASE("parts are refused where they prove nothing", "[cli][slow]") {
   const TemporaryFolder folder;
   const std::string mesh = angleFile(folder);
   const std::vector<std::string> scene{"check",     mesh,      mesh,         "--pose-b",

@@ -115,7 +115,7 @@ TEST_CASE("parts cover the surface, and the inside of a closed one", "[decomposi
   CHECK(missed == 0);
 }
 
-TEST_CASE("more parts fit better", "[decomposition]") {
+TEST_CASE("more parts fit better", "[decomposition][slow]") {
   const TriangleMesh bumpy = bumpyMesh(1.0, 16, 24, 3);
   double before = 1e300, first = 0.0;
   for (const std::size_t count : {1, 2, 4, 12}) {

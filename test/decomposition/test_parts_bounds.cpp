@@ -211,7 +211,7 @@ TEST_CASE("thresholds that sums decide start no partition", "[decomposition]") {
 }
 
 TEST_CASE("bounds with parts are never below the meshes' probability, on random scenes",
-          "[decomposition]") {
+          "[decomposition][slow]") {
   RandomBodies random(1);
   for (int i = 0; i < 25; ++i) {
     CAPTURE(i);

@@ -140,7 +140,7 @@ TEST_CASE("spheres moving along any line: the bounds hold 50 digits") {
   REQUIRE(widest < 1e-8);
 }
 
-TEST_CASE("spheres moving in any plane: the bounds hold 34 digits") {
+TEST_CASE("spheres moving in any plane: the bounds hold 34 digits", "[slow]") {
   RandomBodies random(612);
   for (int i = 0; i < 60; ++i) {
     const double deviation = random.logUniform(1e-3, 1e3);

@@ -98,7 +98,7 @@ TEST_CASE("spheres that move in one or two directions only") {
   CHECK(*run(a, kIdentity, b, at({0, 0, 0.71}), plane, withTolerance(1e-3)).upper < 1e-300);
 }
 
-TEST_CASE("estimate and gradient of curved pairs agree with the interval") {
+TEST_CASE("estimate and gradient of curved pairs agree with the interval", "[slow]") {
   RandomBodies random(2);
   const auto shapes = boundedShapes();
   int compared = 0;
