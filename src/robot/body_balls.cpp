@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -26,7 +27,9 @@ double gaussianUpper(const Ball& body, const Ball& obstacle,
       (1.0 + kRounding) * along.cwiseProduct(displacement.standardDeviations()).norm() +
       kRounding * displacement.standardDeviations().maxCoeff();
   if (!(deviation > 0.0)) return 0.0;
-  return std::min(1.0, (1.0 + 1e-9) * normalTailMass((1.0 - kRounding) * gap / deviation));
+  // A tail beyond 38 deviations is no double, but not nothing.
+  return std::min(1.0,
+                  (1.0 + 1e-9) * normalTailMass((1.0 - kRounding) * gap / deviation) + kUnderflow);
 }
 
 }  // namespace

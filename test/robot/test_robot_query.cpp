@@ -233,6 +233,10 @@ TEST_CASE("what is far is left out, and its bound is kept") {
   CHECK(far.any.lower == 0.0);
   CHECK(far.any.upper == far.far_upper);
   CHECK(far.any.upper < 1e-6);
+  // No double is as small as P at 100 deviations, but it is not 0.
+  obstacles[0].displacement = sigma(0.01, 0.01, 0.01);
+  CHECK(RobotQuery(arm, obstacles).state(arm.values({}), withTolerance(0.01)).any.upper > 0.0);
+  obstacles[0].displacement = sigma(0.1, 0.1, 0.1);
   ProbabilityRequest strict = withTolerance(0.5);
   strict.absolute_tolerance = 0.0;
   const RobotResult near = RobotQuery(arm, obstacles).state(arm.values({}), strict);
