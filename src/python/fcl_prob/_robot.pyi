@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the fcl_prob authors
+import os
+from typing import Any, Mapping, Optional, Sequence, Tuple, Union
+
+from ._core import (
+    GaussianDisplacement,
+    GaussianMixture,
+    Geometry,
+    ProbabilityResult,
+    QueryProgress,
+    TruncatedGaussian,
+)
+from ._types import AnyMesh, FloatArray, Numbers
+
+Values = Union[Numbers, Mapping[str, float]]
+Translation = Union[GaussianDisplacement, GaussianMixture, TruncatedGaussian]
+Obstacle = Union[
+    Tuple[str, Union[Geometry, AnyMesh], Translation],
+    Tuple[str, Union[Geometry, AnyMesh], Translation, Numbers],
+]
+
+class Robot:
+    def __init__(
+        self,
+        urdf: Union[str, os.PathLike[str]],
+        packages: Mapping[str, str] = ...,
+        links: Sequence[str] = ...,
+        base: Optional[Numbers] = None,
+    ) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def joints(self) -> list[str]: ...
+    @property
+    def limits(self) -> FloatArray: ...
+    @property
+    def links(self) -> list[str]: ...
+    def values(self, by_name: Mapping[str, float]) -> FloatArray: ...
+    def poses(self, values: Values) -> list[FloatArray]: ...
+    def link_pose(self, link: str, values: Values) -> FloatArray: ...
+
+class RobotResult:
+    @property
+    def probability(self) -> float: ...
+    @property
+    def lower(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def estimate(self) -> Optional[float]: ...
+    @property
+    def standard_error(self) -> Optional[float]: ...
+    @property
+    def decision(self) -> Optional[str]: ...
+    @property
+    def status(self) -> str: ...
+    @property
+    def parts(self) -> list[ProbabilityResult]: ...
+    @property
+    def far_bodies(self) -> int: ...
+    @property
+    def far_upper(self) -> float: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def __float__(self) -> float: ...
+
+class RobotQuery:
+    def __init__(self, robot: Robot, obstacles: Sequence[Obstacle]) -> None: ...
+    def state(
+        self,
+        values: Values,
+        *,
+        method: str = "auto",
+        contact: str = "fcl",
+        relative_tolerance: float = 0.01,
+        absolute_tolerance: float = 1e-6,
+        threshold: Optional[float] = None,
+        time_limit: Optional[float] = None,
+        max_cells: int = ...,
+        max_memory: int = ...,
+        confidence: float = 0.99,
+        samples: int = ...,
+        seed: int = 1,
+        threads: int = 1,
+        gradient: bool = False,
+        on_progress: Optional[QueryProgress] = None,
+    ) -> RobotResult: ...
+    def motion(
+        self,
+        waypoints: Union[Numbers, Sequence[Values]],
+        errors: str = "persistent",
+        largest_step: Optional[float] = None,
+        *,
+        method: str = "auto",
+        contact: str = "fcl",
+        relative_tolerance: float = 0.01,
+        absolute_tolerance: float = 1e-6,
+        threshold: Optional[float] = None,
+        time_limit: Optional[float] = None,
+        max_cells: int = ...,
+        max_memory: int = ...,
+        confidence: float = 0.99,
+        samples: int = ...,
+        seed: int = 1,
+        threads: int = 1,
+        gradient: bool = False,
+        on_progress: Optional[QueryProgress] = None,
+    ) -> RobotResult: ...
+
+def load_robot_scene(path: Union[str, os.PathLike[str]]) -> Tuple[RobotQuery, FloatArray]: ...

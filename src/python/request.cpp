@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "python/request.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "fcl_prob/exceptions.h"
+#include "python/arrays.h"
+
+namespace fcl_prob::python {
+namespace {
+
+[[noreturn]] void refuse(const char* name, const std::string& expected, py::handle value) {
+  throw py::type_error(std::string(name) + " must be " + expected + ", not " + textOf(value));
+}
+
+double numberFrom(const char* name, py::handle value) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (number == -1.0 && PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse(name, "a number", value);
+  }
+  return number;
+}
+
+template <class Count>
+Count countFrom(const char* name, py::handle value) {
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (!index) {
+    PyErr_Clear();
+    refuse(name, "a whole number", value);
+  }
+  const unsigned long long number = PyLong_AsUnsignedLongLong(index.ptr());
+  if (PyErr_Occurred() != nullptr || number > std::numeric_limits<Count>::max()) {
+    PyErr_Clear();
+    throw InvalidRequest(std::string(name) + " is " + textOf(value) + ", must be from 0 to " +
+                         std::to_string(std::numeric_limits<Count>::max()));
+  }
+  return static_cast<Count>(number);
+}
+
+std::string nameFrom(const char* name, py::handle value) {
+  if (!py::isinstance<py::str>(value)) refuse(name, "a name", value);
+  std::string text = py::cast<std::string>(value);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+void setMethod(Question& question, py::handle value) {
+  std::string name = nameFrom("method", value);
+  if (name == "automatic") name = "auto";
+  const auto method = methodFromString(name);
+  if (!method) {
+    std::string known;
+    for (const std::string& one : methodNames()) known += " " + one;
+    throw InvalidRequest("method is " + textOf(value) + ", must be one of" + known);
+  }
+  question.request.method = *method;
+}
+
+void setContact(Question& question, py::handle value) {
+  const std::string name = nameFrom("contact", value);
+  if (name != "fcl" && name != "solid") {
+    throw InvalidRequest("contact is " + textOf(value) + ", must be 'fcl' or 'solid'");
+  }
+  question.request.contact = name == "fcl" ? ContactMeaning::fcl : ContactMeaning::solid;
+}
+
+void setThreads(Question& question, py::handle value) {
+  question.request.threads = countFrom<unsigned>("threads", value);
+  question.threads_are_given = true;
+}
+
+void setProgress(Question& question, py::handle value) {
+  if (value.is_none()) return;
+  if (PyCallable_Check(value.ptr()) == 0) refuse("on_progress", "callable", value);
+  question.on_progress = py::reinterpret_borrow<py::function>(value);
+}
+
+void setGradient(Question& question, py::handle value) {
+  const int truth = PyObject_IsTrue(value.ptr());
+  if (truth < 0) throw py::error_already_set();
+  question.request.gradient = truth == 1;
+}
+
+template <double ProbabilityRequest::*field>
+void setNumber(Question& question, py::handle value, const char* name) {
+  question.request.*field = numberFrom(name, value);
+}
+
+template <std::optional<double> ProbabilityRequest::*field>
+void setOptional(Question& question, py::handle value, const char* name) {
+  if (!value.is_none()) question.request.*field = numberFrom(name, value);
+}
+
+template <std::size_t ProbabilityRequest::*field>
+void setCount(Question& question, py::handle value, const char* name) {
+  question.request.*field = countFrom<std::size_t>(name, value);
+}
+
+using Setter = void (*)(Question&, py::handle, const char*);
+
+struct Keyword {
+  const char* name;
+  Setter set;
+};
+
+using R = ProbabilityRequest;
+
+constexpr std::array<Keyword, 14> kKeywords = {{
+    {"method", [](Question& q, py::handle v, const char*) { setMethod(q, v); }},
+    {"contact", [](Question& q, py::handle v, const char*) { setContact(q, v); }},
+    {"relative_tolerance", setNumber<&R::relative_tolerance>},
+    {"absolute_tolerance", setNumber<&R::absolute_tolerance>},
+    {"threshold", setOptional<&R::threshold>},
+    {"time_limit", setOptional<&R::time_limit>},
+    {"max_cells", setCount<&R::max_cells>},
+    {"max_memory", setCount<&R::max_memory>},
+    {"confidence", setNumber<&R::confidence>},
+    {"samples", setCount<&R::samples>},
+    {"seed", [](Question& q, py::handle v,
+                const char* name) { q.request.seed = countFrom<std::uint64_t>(name, v); }},
+    {"threads", [](Question& q, py::handle v, const char*) { setThreads(q, v); }},
+    {"gradient", [](Question& q, py::handle v, const char*) { setGradient(q, v); }},
+    {"on_progress", [](Question& q, py::handle v, const char*) { setProgress(q, v); }},
+}};
+
+struct NamedConvention {
+  PoseConvention convention;
+  const char* name;
+};
+
+constexpr std::array<NamedConvention, 4> kConventions = {{
+    {PoseConvention::world_rotation_vector, "world"},
+    {PoseConvention::body_rotation_vector, "body"},
+    {PoseConvention::world_exponential, "world-exponential"},
+    {PoseConvention::body_exponential, "body-exponential"},
+}};
+
+}  // namespace
+
+Question questionFrom(const py::kwargs& keywords) {
+  Question question;
+  for (const auto& [key, value] : keywords) {
+    const std::string_view name = PyUnicode_AsUTF8(key.ptr());
+    const auto keyword = std::find_if(kKeywords.begin(), kKeywords.end(),
+                                      [&](const Keyword& one) { return name == one.name; });
+    if (keyword == kKeywords.end()) {
+      std::string known;
+      for (const Keyword& one : kKeywords) known += std::string(" ") + one.name;
+      throw py::type_error("unexpected keyword argument '" + std::string(name) +
+                           "'; those of a request are" + known);
+    }
+    keyword->set(question, value, keyword->name);
+  }
+  validateRequest(question.request);
+  return question;
+}
+
+PoseConvention conventionFrom(const std::string& name) {
+  for (const NamedConvention& named : kConventions) {
+    if (name == named.name) return named.convention;
+  }
+  throw InvalidRequest("convention is '" + name +
+                       "', must be one of world, body, world-exponential, body-exponential");
+}
+
+std::string toString(PoseConvention convention) {
+  for (const NamedConvention& named : kConventions) {
+    if (convention == named.convention) return named.name;
+  }
+  throw InvalidRequest("not a convention");
+}
+
+}  // namespace fcl_prob::python

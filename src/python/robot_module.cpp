@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The extension module fcl_prob._robot: robots from URDFs, which take urdfdom and Orocos KDL.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <sstream>
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/robot_query.h"
+#include "fcl_prob/robot_scene.h"
+#include "python/arrays.h"
+#include "python/displacements.h"
+#include "python/geometries.h"
+#include "python/results.h"
+#include "python/running.h"
+
+namespace fcl_prob::python {
+namespace {
+
+/// What loads a file, without the GIL.
+std::shared_ptr<Robot> loadRobot(const py::object& path,
+                                 const std::map<std::string, std::string>& packages,
+                                 const std::vector<std::string>& links, const py::object& base) {
+  const std::string name = pathFrom(path);
+  const RobotOptions options{packages, links, poseFrom(base, "base")};
+  const py::gil_scoped_release released;
+  return std::make_shared<Robot>(name, options);
+}
+
+/// (k,) values of joints, or a dict of them by name.
+Eigen::VectorXd jointValues(const Robot& robot, py::handle value, const std::string& name) {
+  if (py::isinstance<py::dict>(value)) {
+    return robot.values(value.cast<std::map<std::string, double>>());
+  }
+  const Numbers numbers(value, name);
+  if (numbers.dimensions() != 1) numbers.refuseShape("(k,), a value for each joint");
+  Eigen::VectorXd values(static_cast<Eigen::Index>(numbers.size(0)));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = numbers.at(static_cast<std::size_t>(i));
+  robot.validate(values);
+  return values;
+}
+
+std::vector<Eigen::VectorXd> waypointsFrom(const Robot& robot, const py::object& value) {
+  if (!py::isinstance<py::iterable>(value)) {
+    throw py::type_error("waypoints must be an array (n, k) or a list, not " + textOf(value));
+  }
+  std::vector<Eigen::VectorXd> waypoints;
+  for (const py::handle one : py::reinterpret_borrow<py::iterable>(value)) {
+    waypoints.push_back(
+        jointValues(robot, one, "waypoints[" + std::to_string(waypoints.size()) + "]"));
+  }
+  return waypoints;
+}
+
+py::object matrixOf(const fcl::Transform3d& pose) { return arrayOf(pose.matrix()); }
+
+void bindRobot(py::module_& module) {
+  py::class_<Robot, std::shared_ptr<Robot>>(
+      module, "Robot",
+      "Robot(urdf, packages={}, links=[], base=None): joints and collision elements of a robot.\n\n"
+      "packages: the folder of each package that the URDF names; links: those whose collision\n"
+      "elements are taken, all if there are none; base: pose of the root link, (4, 4), metres,\n"
+      "world frame. Immutable. Raises FileError, InvalidPose.")
+      .def(py::init(&loadRobot), py::arg("urdf"),
+           py::arg("packages") = std::map<std::string, std::string>(),
+           py::arg("links") = std::vector<std::string>(), py::arg("base") = py::none())
+      .def_property_readonly("name", &Robot::name)
+      .def_property_readonly(
+          "joints",
+          [](const Robot& robot) {
+            py::list names;
+            for (const RobotJoint& joint : robot.joints()) names.append(joint.name);
+            return names;
+          },
+          "Names of the joints that move, in the order of their values.")
+      .def_property_readonly(
+          "limits",
+          [](const Robot& robot) {
+            Eigen::MatrixXd limits(robot.joints().size(), 2);
+            for (Eigen::Index i = 0; i < limits.rows(); ++i) {
+              const RobotJoint& joint = robot.joints()[i];
+              limits.row(i) << joint.lower, joint.upper;
+            }
+            return arrayOf(limits);
+          },
+          "(k, 2) float64, radians or metres.")
+      .def_property_readonly(
+          "links",
+          [](const Robot& robot) {
+            py::list links;
+            for (const RobotBody& body : robot.bodies()) links.append(body.link);
+            return links;
+          },
+          "The link of each collision element.")
+      .def(
+          "values",
+          [](const Robot& robot, const py::dict& by_name) {
+            return vectorArray(jointValues(robot, by_name, "by_name"));
+          },
+          py::arg("by_name"), "(k,) float64 from values by name; the others are 0.")
+      .def(
+          "poses",
+          [](const Robot& robot, const py::object& values) {
+            py::list poses;
+            for (const auto& pose : robot.poses(jointValues(robot, values, "values"))) {
+              poses.append(matrixOf(pose));
+            }
+            return poses;
+          },
+          py::arg("values"), "A (4, 4) for each collision element, metres, world frame.")
+      .def(
+          "link_pose",
+          [](const Robot& robot, const std::string& link, const py::object& values) {
+            return matrixOf(robot.linkPose(link, jointValues(robot, values, "values")));
+          },
+          py::arg("link"), py::arg("values"), "(4, 4), metres, world frame.")
+      .def("__repr__", [](const Robot& robot) {
+        return "<Robot " + robot.name() + " with " + std::to_string(robot.joints().size()) +
+               " joints and " + std::to_string(robot.bodies().size()) + " collision elements>";
+      });
+}
+
+std::string reprOf(const RobotResult& result) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "<RobotResult P = " << result.probability();
+  if (result.standard_error) text << " ± " << *result.standard_error << " (standard error)";
+  text << ", certified in [" << result.any.lower << ", " << result.any.upper << "]";
+  if (result.decision != Decision::none) text << ", decision " << toString(result.decision);
+  text << ": " << toString(result.status) << ">";
+  return text.str();
+}
+
+void bindResult(py::module_& module) {
+  using R = RobotResult;
+  py::class_<R>(module, "RobotResult", "P(any body of the robot touches any obstacle).")
+      .def_property_readonly("probability", &R::probability)
+      .def_property_readonly(
+          "lower", [](const R& r) { return r.any.lower; }, "Certified.")
+      .def_property_readonly(
+          "upper", [](const R& r) { return r.any.upper; }, "Certified.")
+      .def_property_readonly("estimate", [](const R& r) { return orNone(r.estimate); })
+      .def_property_readonly("standard_error", [](const R& r) { return orNone(r.standard_error); })
+      .def_property_readonly("decision", [](const R& r) { return decisionOf(r.decision); })
+      .def_property_readonly("status", [](const R& r) { return toString(r.status); })
+      .def_property_readonly(
+          "parts", [](const R& r) { return r.parts; },
+          "ProbabilityResults by obstacle; with independent errors by waypoint, "
+          "and for each by obstacle.")
+      .def_property_readonly("far_bodies", [](const R& r) { return r.far_bodies; })
+      .def_property_readonly("far_upper", [](const R& r) { return r.far_upper; })
+      .def("to_dict",
+           [](const R& r) {
+             py::dict dict;
+             dict["probability"] = r.probability();
+             dict["lower"] = r.any.lower;
+             dict["upper"] = r.any.upper;
+             dict["estimate"] = orNone(r.estimate);
+             dict["standard_error"] = orNone(r.standard_error);
+             dict["decision"] = decisionOf(r.decision);
+             dict["status"] = toString(r.status);
+             dict["far_bodies"] = r.far_bodies;
+             dict["far_upper"] = r.far_upper;
+             py::list parts;
+             for (const ProbabilityResult& part : r.parts) {
+               parts.append(py::cast(part).attr("to_dict")());
+             }
+             dict["parts"] = parts;
+             return dict;
+           })
+      .def("__float__", &R::probability)
+      .def("__repr__", &reprOf);
+}
+
+/// (name, geometry, displacement) or (name, geometry, displacement, pose).
+Obstacle obstacleFrom(py::handle value, std::size_t number) {
+  const std::string name = "obstacles[" + std::to_string(number) + "]";
+  if (!py::isinstance<py::tuple>(value) || py::len(value) < 3 || py::len(value) > 4) {
+    throw py::type_error(name +
+                         " must be a tuple (name, geometry, displacement) or (name, "
+                         "geometry, displacement, pose), not " +
+                         textOf(value));
+  }
+  const auto parts = py::reinterpret_borrow<py::tuple>(value);
+  const Randomness randomness = randomnessFrom(parts[2], name + ": displacement");
+  if (std::holds_alternative<PoseError>(randomness)) {
+    throw py::type_error(name + ": an obstacle has a displacement, not a PoseError");
+  }
+  Obstacle obstacle;
+  obstacle.name = parts[0].cast<std::string>();
+  obstacle.geometry = geometryFrom(parts[1], name);
+  if (parts.size() == 4) obstacle.pose = poseFrom(parts[3], name + ": pose");
+  if (const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness)) {
+    obstacle.displacement = *gaussian;
+  } else if (const auto* mixture = std::get_if<GaussianMixture>(&randomness)) {
+    obstacle.displacement = *mixture;
+  } else {
+    obstacle.displacement = std::get<TruncatedGaussian>(randomness);
+  }
+  return obstacle;
+}
+
+std::shared_ptr<RobotQuery> makeQuery(const Robot& robot, const py::list& obstacles) {
+  std::vector<Obstacle> all;
+  for (const py::handle one : obstacles) all.push_back(obstacleFrom(one, all.size()));
+  const py::gil_scoped_release released;
+  return std::make_shared<RobotQuery>(robot, std::move(all));
+}
+
+ErrorsOverTime errorsFrom(const std::string& name) {
+  if (name == "persistent") return ErrorsOverTime::persistent;
+  if (name == "independent") return ErrorsOverTime::independent;
+  throw InvalidRequest("errors is '" + name + "', must be 'persistent' or 'independent'");
+}
+
+RobotResult motion(const RobotQuery& query, const py::object& waypoints, const std::string& errors,
+                   const std::optional<double>& largest_step, const py::kwargs& request) {
+  std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
+  if (largest_step) all = interpolated(all, *largest_step);
+  const ErrorsOverTime over_time = errorsFrom(errors);
+  return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
+    return query.motion(all, over_time, of);
+  });
+}
+
+/// What a robot's scene file asks: (query, waypoints (n, k)).
+py::tuple loadScene(const py::object& path) {
+  const std::string name = pathFrom(path);
+  std::shared_ptr<RobotQuery> query;
+  std::vector<Eigen::VectorXd> waypoints;
+  {
+    const py::gil_scoped_release released;
+    const RobotScene scene = loadRobotScene(name);
+    query = std::make_shared<RobotQuery>(loadRobotQuery(scene));
+    waypoints = waypointsOf(scene, query->robot());
+  }
+  Eigen::MatrixXd rows(waypoints.size(), query->robot().joints().size());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = waypoints[i];
+  return py::make_tuple(query, arrayOf(rows));
+}
+
+void bindQuery(py::module_& module) {
+  py::class_<RobotQuery, std::shared_ptr<RobotQuery>>(
+      module, "RobotQuery",
+      "RobotQuery(robot, obstacles): a robot among obstacles, each a tuple (name, geometry,\n"
+      "displacement) or (name, geometry, displacement, pose): displacements of the obstacle, "
+      "world\n"
+      "frame, independent of one another. May be used by several threads.")
+      .def(py::init(&makeQuery), py::arg("robot"), py::arg("obstacles"))
+      .def(
+          "state",
+          [](const RobotQuery& query, const py::object& values, const py::kwargs& request) {
+            const Eigen::VectorXd at = jointValues(query.robot(), values, "values");
+            return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
+              return query.state(at, of);
+            });
+          },
+          py::arg("values"),
+          "In one state: (k,) values of the joints, or a dict of them by name. request: as\n"
+          "collision_probability takes it; method 'auto', 'interval' or 'estimate'.")
+      .def("motion", &motion, py::arg("waypoints"), py::arg("errors") = "persistent",
+           py::arg("largest_step") = py::none(),
+           "At any of the waypoints (n, k). errors: 'persistent', drawn once, or 'independent',\n"
+           "drawn anew at each. largest_step: add waypoints such that no joint moves further at\n"
+           "once (radians, metres).");
+  module.def("load_robot_scene", &loadScene, py::arg("path"),
+             "The RobotQuery and the waypoints (n, k) of a scene file (docs/robots.md).");
+}
+
+}  // namespace
+}  // namespace fcl_prob::python
+
+PYBIND11_MODULE(_robot, module) {
+  // Of which geometries, displacements and results are.
+  pybind11::module_::import("fcl_prob._core");
+  fcl_prob::python::bindRobot(module);
+  fcl_prob::python::bindResult(module);
+  fcl_prob::python::bindQuery(module);
+}

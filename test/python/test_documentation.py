@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the fcl_prob authors
+"""Every Python block of the documentation runs, and prints what stands below it.
+
+Blocks of a page share their names. A `text` block right after one is its output; numbers may differ in their
+last digits.
+"""
+import contextlib
+import io
+import pathlib
+import re
+
+import pytest
+from scenes import SOURCE_DIR, needs_io, needs_robot
+
+BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n?```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+PAGES = ["README.md", *sorted(f"docs/{path.name}" for path in (SOURCE_DIR / "docs").glob("*.md"))]
+
+
+def blocks_of(page):
+    return BLOCK.findall((SOURCE_DIR / page).read_text())
+
+
+def assert_alike(printed, expected):
+    assert NUMBER.sub("#", printed) == NUMBER.sub("#", expected)
+    for one, other in zip(NUMBER.findall(printed), NUMBER.findall(expected)):
+        assert float(one) == pytest.approx(float(other), rel=1e-3, abs=1e-9)
+
+
+@needs_io
+@needs_robot
+@pytest.mark.parametrize("page", [page for page in PAGES if blocks_of(page)])
+def test_blocks_run(page, tmp_path, monkeypatch):
+    # Where the reader stands: beside data/, with files of one's own.
+    (tmp_path / "data").symlink_to(SOURCE_DIR / "data")
+    monkeypatch.chdir(tmp_path)
+    names = {"__name__": "__main__"}
+    for code, expected in blocks_of(page):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            exec(compile(code, page, "exec"), names)
+        if expected:
+            assert_alike(out.getvalue(), expected)
+
+
+def test_the_readme_has_a_block_that_answers():
+    (code, _), *_ = blocks_of("README.md")
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        exec(code, {})
+    lower, _, _, _, upper = out.getvalue().split()
+    assert float(lower) <= 0.10564977366658 <= float(upper) < 0.1057
+    assert len(code.splitlines()) == 5

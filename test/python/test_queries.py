@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the fcl_prob authors
+"""Answers: against closed forms, and against the command's to the last bit."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+from scenes import DATA, ERROR, FIXTURE, PART, box_mesh, boxes_truth, needs_command, needs_io, needs_robot, normal, pose, torus
+
+import fcl_prob
+
+
+@pytest.mark.parametrize("distance", [0.0, 0.35, 0.5, 0.9, 1.5])
+def test_boxes_have_their_closed_form(distance):
+    truth = boxes_truth(distance)
+    result = fcl_prob.collision_probability(PART, FIXTURE, ERROR, pose_a=[distance, 0, 0])
+    assert result.lower <= truth * (1 + 1e-12) and truth <= result.upper * (1 + 1e-12)
+    assert result.probability == pytest.approx(truth, rel=1e-9)
+    mesh = fcl_prob.Mesh(*box_mesh(0.4, 0.3, 0.2))
+    of_mesh = fcl_prob.collision_probability(
+        mesh, FIXTURE, ERROR, pose(distance), method="interval", relative_tolerance=1e-3, absolute_tolerance=1e-30
+    )
+    assert of_mesh.lower <= truth * (1 + 1e-12) and truth <= of_mesh.upper * (1 + 1e-12)
+
+
+def test_halfspace_with_every_kind_of_displacement():
+    ball, floor = fcl_prob.Sphere(0.1), fcl_prob.Halfspace([0, 0, 2], 0.0)
+    at = [0, 0, 0.2]
+    gaussian = fcl_prob.GaussianDisplacement(np.diag([1.0, 1.0, 0.01]))
+    ask = lambda displacement, **request: fcl_prob.collision_probability(ball, floor, displacement, at, **request)
+    assert ask(gaussian).probability == pytest.approx(normal(-1.0), rel=1e-9)
+    mixture = fcl_prob.GaussianMixture([0.25, 0.75], [gaussian, gaussian.with_mean([0, 0, 0.1])])
+    assert ask(mixture).probability == pytest.approx(0.25 * normal(-1) + 0.75 * normal(-2), rel=1e-2)
+    upright = fcl_prob.GaussianDisplacement(np.diag([0, 0, 0.01]))
+    truncated = fcl_prob.TruncatedGaussian(upright, 2.0)
+    truth = (normal(-1) - normal(-2)) / (1 - 2 * normal(-2))
+    result = ask(truncated, relative_tolerance=1e-6)
+    assert result.lower - 1e-12 <= truth <= result.upper + 1e-12
+    # A ball turns without moving.
+    turning = fcl_prob.PoseError.from_standard_deviations([1, 1, 0.1], [0.1, 0.1, 0.1])
+    assert ask(turning).probability == pytest.approx(normal(-1.0), rel=0.05)
+    result = ask(gaussian, gradient=True)
+    density = np.exp(-0.5) / np.sqrt(2 * np.pi)
+    assert result.gradient == pytest.approx([0, 0, -density / 0.1], abs=1e-9)
+
+
+def test_prepared_queries_groups_and_batches_agree_with_single_calls():
+    rng = np.random.default_rng(7)
+    mesh = torus()
+    query = fcl_prob.PreparedQuery(mesh, FIXTURE)
+    poses = np.stack([pose(*p) for p in rng.uniform(0.2, 0.4, (40, 3))])
+    spread = rng.normal(size=(40, 3, 3)) * 0.02
+    covariances = spread @ spread.transpose(0, 2, 1)
+    for threads in (1, 2, 7):
+        batch = query.collision_probabilities(pose_a=poses, covariances=covariances, threads=threads)
+        assert len(batch) == 40 and batch.done == 40 and not batch.cancelled
+        for i in range(40):
+            single = fcl_prob.collision_probability(
+                mesh, FIXTURE, fcl_prob.GaussianDisplacement(covariances[i]), poses[i]
+            )
+            assert (batch.lower[i], batch.upper[i]) == (single.lower, single.upper)
+            assert batch.status[i] == single.status and batch[i].method == single.method
+    assert batch.path[0] == batch.lower.max()
+    group = fcl_prob.GroupQuery([mesh], [FIXTURE])
+    of_group = group.collision_probability(fcl_prob.GaussianDisplacement(covariances[0]), poses[:1])
+    assert of_group.lower == batch.lower[0]
+
+
+def test_group_is_no_less_than_its_members():
+    group = fcl_prob.GroupQuery([PART, fcl_prob.Sphere(0.1)], [FIXTURE])
+    both = group.collision_probability(ERROR, np.stack([pose(0.5), pose(0.4)]), method="interval")
+    for shape, at in ((PART, 0.5), (fcl_prob.Sphere(0.1), 0.4)):
+        one = fcl_prob.collision_probability(shape, FIXTURE, ERROR, pose(at))
+        assert both.upper >= one.lower
+    turning = fcl_prob.PoseError.from_standard_deviations([0.08, 0.05, 0.02], [0.01, 0.01, 0.01])
+    turned = group.collision_probability(turning, np.stack([pose(0.5), pose(0.4)]), frame=pose(0.5))
+    assert abs(turned.estimate - both.probability) < 0.1
+
+
+def test_batches_of_pose_errors():
+    covariances = np.stack([np.diag([1e-4] * 3 + [s] * 3) for s in (0.0, 1e-4, 1e-3)])
+    batch = fcl_prob.collision_probabilities(PART, FIXTURE, covariances=covariances, pose_a=[0.41, 0, 0])
+    query = fcl_prob.PreparedQuery(PART, FIXTURE)
+    for i in range(3):
+        single = query.collision_probability(fcl_prob.PoseError(covariances[i]), [0.41, 0, 0])
+        assert batch[i].estimate == single.estimate and batch[i].lower == single.lower
+    assert batch.lower[0] == pytest.approx(normal(-1), rel=1e-9)
+
+
+def test_shapes_of_batches():
+    ask = lambda **arguments: fcl_prob.collision_probabilities(PART, FIXTURE, **arguments)
+    one = ask(displacement=ERROR, pose_a=[0.5, 0, 0])
+    assert len(one) == 1 and one.lower[0] == one[-1].lower
+    assert len(ask(displacement=[ERROR] * 3)) == 3
+    assert len(ask(displacement=ERROR, pose_b=np.zeros((5, 3)))) == 5
+    assert len(ask(displacement=ERROR, pose_b=np.tile([0, 0, 0, 1, 0, 0, 0], (6, 1)))) == 6
+    assert len(ask(covariances=np.eye(3), means=np.zeros((4, 3)))) == 4
+    empty = ask(displacement=ERROR, pose_a=np.zeros((0, 4, 4)))
+    assert len(empty) == 0 and empty.lower.shape == (0,) and empty.status.shape == (0,)
+    assert empty.path == (0.0, 0.0) and empty.gradient.shape == (0, 3)
+    with pytest.raises(ValueError, match="40 of pose_a, but 3 of displacements"):
+        ask(displacement=[ERROR] * 3, pose_a=np.zeros((40, 3)))
+    with pytest.raises(TypeError, match="either displacement or covariances"):
+        ask()
+    with pytest.raises(IndexError):
+        one[1]
+
+
+def command(*arguments):
+    run = subprocess.run([os.environ["FCL_PROB_CLI"], *arguments], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    return json.loads(run.stdout)
+
+
+@needs_command
+@needs_io
+@pytest.mark.parametrize(
+    "request_", [{}, {"method": "estimate", "seed": 5}, {"method": "monte-carlo", "samples": 500}, {"threshold": 0.05}]
+)
+def test_answers_are_those_of_the_command_to_the_bit(request_):
+    a, b = str(DATA / "gripper_finger.off"), str(DATA / "mug.obj")
+    options = [f"--{name.replace('_', '-')}={value}" for name, value in request_.items()]
+    of_command = command(
+        "check", a, b, "--pose-a=-0.06,0,0.135,1,-1,0,0", "--sigma=0.004,0.003,0.002", "--json", *options
+    )
+    error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.004, 0.003, 0.002])
+    arguments = (fcl_prob.load_mesh(a), fcl_prob.load_mesh(b), error, [-0.06, 0, 0.135, 1, -1, 0, 0])
+    for result in (
+        fcl_prob.collision_probability(*arguments, **request_),
+        fcl_prob.collision_probabilities(*arguments, **request_)[0],
+    ):
+        for key in ("lower", "upper", "estimate", "standard_error", "decision", "method", "status"):
+            assert getattr(result, key) == of_command[key], key
+        assert result.statistics["cells"] == of_command["statistics"]["cells"]
+
+
+@needs_command
+@needs_robot
+def test_robots_are_those_of_the_command_to_the_bit():
+    of_command = command("path", "--scene", str(DATA / "arm_path.json"), "--json", "--tolerance=0.2", "--threshold=0.9")
+    query, waypoints = fcl_prob.load_robot_scene(DATA / "arm_path.json")
+    result = query.motion(waypoints, relative_tolerance=0.2, threshold=0.9)
+    assert (result.lower, result.upper) == (of_command["lower"], of_command["upper"])
+    assert len(waypoints) == of_command["waypoints"]
+
+
+@needs_robot
+def test_robot_from_parts():
+    robot = fcl_prob.Robot(DATA / "arm.urdf")
+    assert len(robot.poses(np.zeros(len(robot.joints)))) == len(robot.links)
+    values = robot.values({"turn": 0.2})
+    assert values[robot.joints.index("turn")] == 0.2
+    ball = ("ball", fcl_prob.Sphere(0.05), ERROR, [0.5, 0, 0.2])
+    query = fcl_prob.RobotQuery(robot, [ball])
+    result = query.state({"turn": 0.2}, method="interval", relative_tolerance=0.2)
+    assert 0.0 <= result.lower <= result.upper <= 1.0 and len(result.parts) == 1
+    assert result.to_dict()["lower"] == result.lower
+    with pytest.raises(fcl_prob.InvalidRequest, match="nowhere"):
+        query.state({"nowhere": 1.0})
+    with pytest.raises(TypeError, match="obstacles\\[0\\]"):
+        fcl_prob.RobotQuery(robot, [fcl_prob.Sphere(1)])
+    with pytest.raises(fcl_prob.FileError):
+        fcl_prob.Robot(DATA / "mug.obj")
