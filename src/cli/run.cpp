@@ -15,6 +15,7 @@
 #ifdef FCL_PROB_HAS_ROBOT
 #include "cli/path_command.h"
 #endif
+#include "cli/sweep_command.h"
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::cli {
@@ -36,6 +37,7 @@ int parseAndRun(int argc, const char* const* argv) {
   addBenchCommand(app, exit_code);
   addExportCommand(app, exit_code);
   addDecomposeCommand(app, exit_code);
+  addSweepCommand(app, exit_code);
 #ifdef FCL_PROB_HAS_ROBOT
   addPathCommand(app, exit_code);
 #endif

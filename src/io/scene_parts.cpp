@@ -103,8 +103,7 @@ PoseError readPoseError(StrictObject object) {
   });
 }
 
-ProbabilityRequest readRequest(StrictObject object) {
-  ProbabilityRequest request;
+ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request) {
   if (object.has("method")) {
     const auto method = methodFromString(object.text("method"));
     if (!method) object.fail("method", "unknown method");

@@ -14,7 +14,9 @@ namespace fcl_prob::detail {
 SceneObject readObject(StrictObject object, const std::filesystem::path& folder);
 GaussianDisplacement readDisplacement(StrictObject object);
 PoseError readPoseError(StrictObject object);
-ProbabilityRequest readRequest(StrictObject object);
+
+/// \param request  what holds where the object says nothing
+ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request = {});
 
 /// The same of an object that has other keys besides: the caller calls finish().
 /// \param folder  that mesh paths are relative to

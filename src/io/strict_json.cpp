@@ -37,14 +37,17 @@ class DuplicateKeyWatch {
 
 }  // namespace
 
-Json parseJsonFile(const std::string& path) {
-  const std::string content = fileContent(path, kMaxFileBytes);
-  DuplicateKeyWatch watch(path);
+Json parseJson(const std::string& content, const std::string& where) {
+  DuplicateKeyWatch watch(where);
   try {
     return Json::parse(content, std::ref(watch));
   } catch (const Json::exception& error) {
-    throw FileError(path + ": not valid JSON: " + error.what());
+    throw FileError(where + ": not valid JSON: " + error.what());
   }
+}
+
+Json parseJsonFile(const std::string& path) {
+  return parseJson(fileContent(path, kMaxFileBytes), path);
 }
 
 StrictObject::StrictObject(const Json& value, std::string where)

@@ -14,6 +14,9 @@ namespace fcl_prob::detail {
 /// Parses a whole file. \throws FileError if it is not JSON or an object has a key twice.
 nlohmann::json parseJsonFile(const std::string& path);
 
+/// The same of a text. \param where  how messages begin
+nlohmann::json parseJson(const std::string& content, const std::string& where);
+
 /// One object of the document. Ask for what may be in it, then call finish().
 /// Every member throws FileError "file: key: fault".
 class StrictObject {

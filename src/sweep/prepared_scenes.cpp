@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "sweep/prepared_scenes.h"
+
+#include <sstream>
+
+namespace fcl_prob::sweep {
+
+ProbabilityResult PreparedPair::answer(const Scene& scene,
+                                       const ProbabilityRequest& request) const {
+  ProbabilityResult result;
+  if (scene.pose_error) {
+    std::call_once(once_, [this] { pose_query_ = std::make_unique<PreparedPoseQuery>(a_, b_); });
+    pose_query_->collisionProbability(scene.a.pose, scene.b.pose, *scene.pose_error, request,
+                                      result);
+  } else {
+    query_.collisionProbability(scene.a.pose, scene.b.pose, scene.displacement, request, result);
+  }
+  return result;
+}
+
+PreparedScenes::Geometry PreparedScenes::geometryOf(const SceneObject& object) {
+  if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) return *primitive;
+  const MeshFile& mesh = std::get<MeshFile>(object.shape);
+  std::ostringstream key;
+  key << std::hexfloat << mesh.options.scale << mesh.options.normalize << mesh.path;
+  return meshes_.get(key.str(), [&]() -> Geometry {
+    return buildModel<fcl::OBBRSSd>(loadMeshIsolated(mesh.path, mesh.options));
+  });
+}
+
+PreparedScene PreparedScenes::of(const QueryLine& query) {
+  const auto pairOf = [this](const Scene& scene) {
+    return std::make_shared<const PreparedPair>(geometryOf(scene.a), geometryOf(scene.b));
+  };
+  if (query.scene_file.empty()) {
+    PreparedScene inline_scene{sceneOf(query, {}), nullptr};
+    inline_scene.pair = pairs_.get(query.shapes_key, [&] { return pairOf(inline_scene.scene); });
+    return inline_scene;
+  }
+  const auto base = scenes_.get(query.scene_file, [&] {
+    const Scene scene = loadScene(query.scene_file);
+    return std::make_shared<const PreparedScene>(PreparedScene{scene, pairOf(scene)});
+  });
+  return {sceneOf(query, base->scene), base->pair};
+}
+
+}  // namespace fcl_prob::sweep
