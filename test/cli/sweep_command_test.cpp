@@ -66,12 +66,13 @@ double normal(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// Starts a sweep and kills it after a while. Returns whether it had ended by itself.
 bool killedAfter(const TemporaryFolder& folder, const std::string& output, int microseconds) {
+  const std::string command = commandPath();
   const pid_t child = ::fork();
   if (child == 0) {
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDERR_FILENO);
     if (::chdir(folder.path("").c_str()) != 0) ::_exit(1);
-    ::execl(FCL_PROB_CLI, FCL_PROB_CLI, "sweep", "queries.jsonl", "--output", output.c_str(),
+    ::execl(command.c_str(), command.c_str(), "sweep", "queries.jsonl", "--output", output.c_str(),
             "--resume", "--threads", "2", nullptr);
     ::_exit(1);
   }
