@@ -14,19 +14,25 @@ if(FCL_PROB_WITH_ROBOT)
   set(headers_of_robot)
 endif()
 install(TARGETS ${fcl_prob_installed} EXPORT fcl_prob-targets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library)
 if(FCL_PROB_BUILD_CLI)
-  install(TARGETS fcl_prob_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS fcl_prob_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
 endif()
-install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${headers_of_io}
-  ${headers_of_robot})
-install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR})
-install(FILES package.xml DESTINATION share/fcl_prob)
+if(FCL_PROB_BUILD_MPI)
+  install(TARGETS fcl_prob_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+endif()
+install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+  ${headers_of_io} ${headers_of_robot})
+install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR}
+  COMPONENT development)
+install(FILES package.xml DESTINATION share/fcl_prob COMPONENT development)
 
 configure_package_config_file(cmake/fcl_prob-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config.cmake INSTALL_DESTINATION ${FCL_PROB_CMAKE_DIR})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config-version.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config.cmake
-  ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config-version.cmake DESTINATION ${FCL_PROB_CMAKE_DIR})
+  ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config-version.cmake DESTINATION ${FCL_PROB_CMAKE_DIR}
+  COMPONENT development)

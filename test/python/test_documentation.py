@@ -7,11 +7,14 @@ last digits.
 """
 import contextlib
 import io
+import json
+import os
 import pathlib
 import re
+import subprocess
 
 import pytest
-from scenes import SOURCE_DIR, needs_io, needs_robot
+from scenes import SOURCE_DIR, needs_command, needs_io, needs_robot
 
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n?```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
@@ -26,6 +29,22 @@ def assert_alike(printed, expected):
     assert NUMBER.sub("#", printed) == NUMBER.sub("#", expected)
     for one, other in zip(NUMBER.findall(printed), NUMBER.findall(expected)):
         assert float(one) == pytest.approx(float(other), rel=1e-3, abs=1e-9)
+
+
+@needs_io
+@needs_command
+def test_queries_of_the_page_on_sweeps_are_answered(tmp_path):
+    page = (SOURCE_DIR / "docs/sweep.md").read_text()
+    queries = SOURCE_DIR / "data"
+    text = re.search(r"^```json\n(.*?)^```", page, re.DOTALL | re.MULTILINE)[1]
+    (tmp_path / "queries.jsonl").write_text(text.replace("finger_mug.json", str(queries / "finger_mug.json")))
+    command = [os.environ["FCL_PROB_CLI"], "sweep", "queries.jsonl", "--output", "results.jsonl"]
+    subprocess.run(command, check=True, cwd=tmp_path)
+    records = [json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines()]
+    assert len(records) == 4 and not any("error" in record for record in records)
+    assert records[3]["probability"] == pytest.approx(0.158655, rel=1e-3)
+    keys = re.findall(r"`(\w+)`", re.search(r"A result has (.*?), as", page, re.DOTALL)[1])
+    assert keys == list(records[0])
 
 
 @needs_io
