@@ -7,13 +7,15 @@
 #include <cmath>
 #include <limits>
 
+#include "partition/cell_layer.h"
+
 namespace fcl_prob::detail {
 
 namespace {
 
 // A pair that sticks out of the leader's half-space by less than this is settled with it: the
 // sliver between goes into the upper bound.
-constexpr double kSliver = 1e-11;
+constexpr double kSliver = kLayerMargin;
 
 // Accuracy, relative to the cell's mass, of the masses of cells that stay open and of those
 // settled.
@@ -89,30 +91,6 @@ void visitAround(Cell rest, const Cell& box, const Visit& visit) {
     rest.lo[k] = box.lo[k];
     rest.hi[k] = box.hi[k];
   }
-}
-
-// A box around the part of a cell with from <= m·y <= to; the cell must have such a part.
-Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to) {
-  Cell box = cell;
-  const double least = m.dot(cell.lowestCorner(m));
-  const double most = m.dot(cell.lowestCorner(-m));
-  for (int k = 0; k < cell.rank; ++k) {
-    const double slope = std::fabs(m[k]);
-    // Starting at either end of the cell along m, the planes are met after at least so much of k.
-    const double after_least = std::max(from - least - kSliver, 0.0);
-    const double before_most = std::max(most - to - kSliver, 0.0);
-    const double own = slope * (cell.hi[k] - cell.lo[k]);
-    const double others = most - least - own;
-    const double from_least = std::max(after_least - others, 0.0);
-    const double from_most = std::max(before_most - others, 0.0);
-    if (!(from_least + from_most < own)) continue;
-    double& near = m[k] > 0 ? box.lo[k] : box.hi[k];
-    double& far = m[k] > 0 ? box.hi[k] : box.lo[k];
-    const double sign = m[k] > 0 ? 1.0 : -1.0;
-    near += sign * from_least / slope;
-    far -= sign * from_most / slope;
-  }
-  return box;
 }
 
 double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
