@@ -289,19 +289,23 @@ void bindMemoryView(py::module_& module) {
 py::object readOnlyArray(MemoryView view) { return numpy("asarray")(py::cast(std::move(view))); }
 
 std::string pathFrom(py::handle value) {
-  return py::module_::import("os").attr("fsencode")(value).cast<std::string>();
+  const std::string path = py::module_::import("os").attr("fsencode")(value).cast<std::string>();
+  if (path.find('\0') != std::string::npos) {
+    throw py::value_error("there is a null byte in the path " + textOf(value));
+  }
+  return path;
 }
 
 std::string textOf(py::handle value) {
   constexpr std::size_t kLongest = 80;
-  std::string text = py::str(py::repr(value));
-  if (text.size() > kLongest) {
-    // Not within a character of several bytes.
-    std::size_t end = kLongest;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-    text = text.substr(0, end) + "...";
+  const auto representation = py::reinterpret_steal<py::object>(PyObject_ASCII(value.ptr()));
+  if (!representation) {
+    // Its fault shall not hide the one that is to be told.
+    PyErr_Clear();
+    return std::string("an object of type ") + Py_TYPE(value.ptr())->tp_name;
   }
-  return text;
+  const std::string text = representation.cast<std::string>();
+  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
 }  // namespace fcl_prob::python

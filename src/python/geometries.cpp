@@ -12,6 +12,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "geometry/validation.h"
@@ -60,13 +61,21 @@ std::shared_ptr<Model> meshFromArrays(py::handle vertices, py::handle triangles)
   return modelOf(mesh);
 }
 
+/// Nothing if there is none; what else goes wrong in getting it comes out.
+std::optional<py::object> attributeOf(py::handle object, const char* name) {
+  PyObject* value = PyObject_GetAttrString(object.ptr(), name);
+  if (value != nullptr) return py::reinterpret_steal<py::object>(value);
+  if (PyErr_ExceptionMatches(PyExc_AttributeError) == 0) throw py::error_already_set();
+  PyErr_Clear();
+  return std::nullopt;
+}
+
 /// What trimesh, Open3D and others have; nullptr if it is no mesh.
 std::shared_ptr<Model> meshFromObject(py::handle object) {
-  if (!py::hasattr(object, "vertices")) return nullptr;
+  const auto vertices = attributeOf(object, "vertices");
+  if (!vertices) return nullptr;
   for (const char* name : {"faces", "triangles"}) {
-    if (py::hasattr(object, name)) {
-      return meshFromArrays(object.attr("vertices"), object.attr(name));
-    }
+    if (const auto faces = attributeOf(object, name)) return meshFromArrays(*vertices, *faces);
   }
   return nullptr;
 }

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <string_view>
+#include <optional>
+#include <string>
 
 #include "fcl_prob/exceptions.h"
 #include "python/arrays.h"
@@ -42,9 +43,22 @@ Count countFrom(const char* name, py::handle value) {
   return static_cast<Count>(number);
 }
 
+/// Nothing if it is no text, or one that UTF-8 does not have.
+std::optional<std::string> utf8Of(py::handle value) {
+  if (!py::isinstance<py::str>(value)) return std::nullopt;
+  Py_ssize_t size = 0;
+  const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (text == nullptr) {
+    PyErr_Clear();
+    return std::nullopt;
+  }
+  return std::string(text, static_cast<std::size_t>(size));
+}
+
 std::string nameFrom(const char* name, py::handle value) {
-  if (!py::isinstance<py::str>(value)) refuse(name, "a name", value);
-  std::string text = py::cast<std::string>(value);
+  const std::optional<std::string> given = utf8Of(value);
+  if (!given) refuse(name, "a name", value);
+  std::string text = *given;
   std::replace(text.begin(), text.end(), '_', '-');
   return text;
 }
@@ -145,14 +159,14 @@ constexpr std::array<NamedConvention, 4> kConventions = {{
 Question questionFrom(const py::kwargs& keywords) {
   Question question;
   for (const auto& [key, value] : keywords) {
-    const std::string_view name = PyUnicode_AsUTF8(key.ptr());
+    const std::string name = utf8Of(key).value_or("");
     const auto keyword = std::find_if(kKeywords.begin(), kKeywords.end(),
                                       [&](const Keyword& one) { return name == one.name; });
     if (keyword == kKeywords.end()) {
       std::string known;
       for (const Keyword& one : kKeywords) known += std::string(" ") + one.name;
-      throw py::type_error("unexpected keyword argument '" + std::string(name) +
-                           "'; those of a request are" + known);
+      throw py::type_error("unexpected keyword argument " + textOf(key) +
+                           "; those of a request are" + known);
     }
     keyword->set(question, value, keyword->name);
   }

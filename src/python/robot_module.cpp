@@ -31,7 +31,11 @@ std::shared_ptr<Robot> loadRobot(const py::object& path,
 /// (k,) values of joints, or a dict of them by name.
 Eigen::VectorXd jointValues(const Robot& robot, py::handle value, const std::string& name) {
   if (py::isinstance<py::dict>(value)) {
-    return robot.values(value.cast<std::map<std::string, double>>());
+    try {
+      return robot.values(value.cast<std::map<std::string, double>>());
+    } catch (const py::cast_error&) {
+      throw py::type_error(name + " must have a number for each name, not " + textOf(value));
+    }
   }
   const Numbers numbers(value, name);
   if (numbers.dimensions() != 1) numbers.refuseShape("(k,), a value for each joint");
@@ -177,7 +181,8 @@ void bindResult(py::module_& module) {
 /// (name, geometry, displacement) or (name, geometry, displacement, pose).
 Obstacle obstacleFrom(py::handle value, std::size_t number) {
   const std::string name = "obstacles[" + std::to_string(number) + "]";
-  if (!py::isinstance<py::tuple>(value) || py::len(value) < 3 || py::len(value) > 4) {
+  if (!py::isinstance<py::tuple>(value) || py::len(value) < 3 || py::len(value) > 4 ||
+      !py::isinstance<py::str>(py::reinterpret_borrow<py::tuple>(value)[0])) {
     throw py::type_error(name +
                          " must be a tuple (name, geometry, displacement) or (name, "
                          "geometry, displacement, pose), not " +

@@ -155,6 +155,24 @@ def test_classes_of_others():
         Unfinished()
 
 
+class Faulty:
+    """Whose own faults come out instead of being taken for something else."""
+
+    faces = TRIANGLES
+
+    @property
+    def vertices(self):
+        raise ZeroDivisionError
+
+    def __array__(self, *arguments, **keywords):
+        raise ZeroDivisionError
+
+
+class Unspeakable:
+    def __repr__(self):
+        raise ZeroDivisionError
+
+
 NOT_FINITE = VERTICES.copy()
 NOT_FINITE[3, 1] = np.inf
 
@@ -189,6 +207,15 @@ REFUSED = [
     (fcl_prob.InvalidPose, "quaternion", lambda: answer(PART, [0, 0, 0, 0, 0, 0, 0])),
     (ValueError, r"\(5,\)", lambda: answer(PART, [1, 2, 3, 4, 5])),
     (TypeError, "pose_a", lambda: answer(PART, {})),
+    (ZeroDivisionError, "", lambda: fcl_prob.Mesh(Faulty())),
+    (ZeroDivisionError, "", lambda: answer(PART, Faulty())),
+    (TypeError, "of type Unspeakable", lambda: answer(Unspeakable())),
+    (TypeError, "dtype.'O'", lambda: answer(PART, np.array(None))),
+    (TypeError, "dtype", lambda: answer(PART, np.zeros(3, [("x", "f8")]))),
+    (TypeError, "a list of geometries", lambda: fcl_prob.GroupQuery(3, [PART])),
+    (TypeError, r"group_a\[1\]", lambda: fcl_prob.GroupQuery([PART, "x"], [PART])),
+    (fcl_prob.InvalidGeometry, "no members", lambda: fcl_prob.GroupQuery([], [PART])),
+    (fcl_prob.InvalidGeometry, "-1", lambda: fcl_prob.Sphere.__new__(fcl_prob.Sphere).__setstate__(((-1.0,), {}))),
     (TypeError, "displacement", lambda: fcl_prob.collision_probability(PART, FIXTURE, np.eye(3))),
 ]
 
@@ -201,6 +228,9 @@ def test_what_is_wrong_is_said(kind, words, call):
 
 REQUESTS = [
     (TypeError, "unexpected keyword argument 'tolerance'", {"tolerance": 1}),
+    (TypeError, "unexpected keyword argument '.udc00'", {"\udc00": 1}),
+    (TypeError, "method must be a name", {"method": "\udc00"}),
+    (TypeError, "samples must be a whole number", {"samples": np.array([5])}),
     (TypeError, "threshold must be a number, not 'high'", {"threshold": "high"}),
     (TypeError, "samples must be a whole number, not 1.5", {"samples": 1.5}),
     (TypeError, "method must be a name, not 3", {"method": 3}),

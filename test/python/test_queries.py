@@ -159,6 +159,10 @@ def test_robot_from_parts():
     assert result.to_dict()["lower"] == result.lower
     with pytest.raises(fcl_prob.InvalidRequest, match="nowhere"):
         query.state({"nowhere": 1.0})
+    with pytest.raises(TypeError, match="a number for each name"):
+        query.state({"turn": "left"})
+    with pytest.raises(ValueError, match="null byte"):
+        fcl_prob.Robot("a\0b")
     with pytest.raises(TypeError, match="obstacles\\[0\\]"):
         fcl_prob.RobotQuery(robot, [fcl_prob.Sphere(1)])
     with pytest.raises(fcl_prob.FileError):
