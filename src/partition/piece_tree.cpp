@@ -207,6 +207,11 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
       fillConvex(geometry, *tree);
   }
   makePart(error, *tree);
+  if (kindOf(geometry) == GeometryKind::mesh) {
+    const MeshView view = meshView(geometry);
+    tree->fan = convexFanOf(view, tree->vertices, tree->parts[0].origin);
+    tree->spans = spansOf(view);
+  }
   return tree;
 }
 

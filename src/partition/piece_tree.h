@@ -12,6 +12,7 @@
 
 #include "cobstacle/support_shape.h"
 #include "geometry/surface_caps.h"
+#include "partition/convex_fan.h"
 
 namespace fcl_prob::detail {
 
@@ -81,6 +82,10 @@ struct PieceTree {
 
   /// Of an octree: a cell is both occupied and free.
   bool any_cell_also_free = false;
+  /// Of a single mesh that is convex, relative to the origin of its part; else null.
+  std::shared_ptr<const ConvexFan> fan;
+  /// Of a single mesh: see spansOf().
+  std::vector<std::pair<int, int>> spans;
 
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A closed mesh that is convex up to the rounding of its vertices, as one polytope.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "geometry/mesh_visitor.h"
+
+namespace fcl_prob::detail {
+
+/// The convex hull P of a closed mesh that hardly deviates from it, by the normals of groups of
+/// triangles that lie in one plane as far as their vertices tell.
+///
+/// Every triangle of group f lies in { offsets[f] - depths[f] <= n·(v - centre) <= offsets[f] },
+/// and P in the upper half of that; the mesh winds around the centre. The groups around every
+/// vertex span a convex cone whose edges are among the arcs. From this alone follows what a
+/// polytope P ⊕ T contains (docs/rounding.md); that the groups are P's faces is nowhere assumed.
+struct ConvexFan {
+  Eigen::Vector3d centre;                 ///< metres, in the frame of the vertices given
+  double radius = 0.0;                    ///< of a ball around the centre with everything
+  std::vector<Eigen::Vector3d> vertices;  ///< each once, relative to the centre
+  std::vector<Eigen::Vector3d> normals;   ///< of the groups, outward, unit
+  std::vector<double> offsets;
+  std::vector<double> depths;
+  std::vector<std::pair<int, int>> arcs;  ///< pairs of neighbouring groups
+};
+
+/// Null if the mesh is not closed or not convex, or has more triangles than are looked at.
+/// \param vertices  the mesh's, perhaps moved; those of `view` say what is inside
+/// \param moved_by  vertices[i] is view.vertices[i] less this, up to rounding
+std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
+                                             const std::vector<Eigen::Vector3d>& vertices,
+                                             const Eigen::Vector3d& moved_by);
+
+/// Of every connected part of a mesh two vertices far apart; nothing if it has too many parts.
+std::vector<std::pair<int, int>> spansOf(const MeshView& view);
+
+}  // namespace fcl_prob::detail
