@@ -30,12 +30,6 @@ constexpr double kSamplesPerCell = 25;
 // larger more samples are drawn, so that a little more than half is quickest.
 constexpr double kDeviationShare = 0.6;
 
-// The share of the time limit that is for dividing cells; what remains is for sampling them.
-constexpr double kShareForDividing = 0.8;
-
-// Cells between two looks at the clock and at the caller's wishes.
-constexpr std::size_t kPollEvery = 16;
-
 // The density changes over one standard deviation, a smaller C-obstacle over its own width.
 Eigen::Vector3d scalesOf(const WhitenedPair& pair) {
   const NodeBox box = obstacleBox(pair, {0, 0});
@@ -55,7 +49,7 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
       examiner_(pair, obstacles_, solids, request.gradient, statistics),
       ball_(ball),
       scales_(scalesOf(pair)),
-      started_(std::chrono::steady_clock::now()) {
+      limits_(request, statistics) {
   Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
   const double reach = ball ? std::min(kReach, 1.001 * ball->radius()) : kReach;
   for (int i = 0; i < rank; ++i) {
@@ -215,30 +209,10 @@ double PartitionEngine::samplesToDraw(ProbabilityStatus status) const {
   return std::min(samplesNeeded(), samplesAffordable());
 }
 
-double PartitionEngine::secondsSoFar() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-}
-
 std::size_t PartitionEngine::memory() const { return obstacles_.memory() + cell_memory_; }
 
-bool PartitionEngine::cancelled(const Bounds& now) const {
-  if (!request_.on_progress) return false;
-  ProbabilityProgress progress;
-  progress.interval = now;
-  progress.fraction =
-      static_cast<double>(statistics_.cells) / static_cast<double>(request_.max_cells);
-  progress.seconds = secondsSoFar();
-  return !request_.on_progress(progress);
-}
-
-bool PartitionEngine::timeIsUp(double share) const {
-  return request_.time_limit && secondsSoFar() >= share * *request_.time_limit;
-}
-
 std::optional<ProbabilityStatus> PartitionEngine::interruption() const {
-  if (timeIsUp(1.0)) return ProbabilityStatus::time_limit;
-  if (cancelled(interval())) return ProbabilityStatus::cancelled;
-  return std::nullopt;
+  return limits_.interruption(interval());
 }
 
 // Dividing a cell examines two.
@@ -249,9 +223,7 @@ bool PartitionEngine::hasCellsLeft(std::size_t awaited) const {
 
 std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
   if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
-  if (timeIsUp(estimate ? kShareForDividing : 1.0)) return ProbabilityStatus::time_limit;
-  if (cancelled(interval())) return ProbabilityStatus::cancelled;
-  return std::nullopt;
+  return limits_.interruption(interval(), estimate ? EngineLimits::kShareForDividing : 1.0);
 }
 
 ProbabilityStatus PartitionEngine::run(bool estimate) {
@@ -264,7 +236,7 @@ ProbabilityStatus PartitionEngine::run(bool estimate) {
       status = satisfied(estimate);
     }
     if (!status && !hasCellsLeft(0)) status = ProbabilityStatus::cell_limit;
-    if (!status && step % kPollEvery == 0) status = limited(estimate);
+    if (!status && step % EngineLimits::kCellsBetweenPolls == 0) status = limited(estimate);
     if (!status) divideLargest();
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
   }

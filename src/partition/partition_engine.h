@@ -3,7 +3,6 @@
 // The best-first queue over open cells, and the totals of everything settled.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "fcl_prob/probability_result.h"
 #include "partition/ball_truncation.h"
 #include "partition/cell_sampling.h"
+#include "partition/engine_limits.h"
 
 namespace fcl_prob::detail {
 
@@ -76,10 +76,7 @@ class PartitionEngine {
   double samplesNeeded() const;
   double samplesAffordable() const;
   std::optional<ProbabilityStatus> limited(bool estimate) const;
-  bool cancelled(const Bounds& now) const;
-  bool timeIsUp(double share) const;
   bool hasCellsLeft(std::size_t awaited) const;  ///< beyond those that will be examined anyway
-  double secondsSoFar() const;
   std::size_t memory() const;
 
   const ProbabilityRequest& request_;
@@ -96,7 +93,7 @@ class PartitionEngine {
   bool indivisible_ = false;
   std::size_t cell_memory_ = 0;
   std::size_t changes_since_recount_ = 0;
-  std::chrono::steady_clock::time_point started_;
+  EngineLimits limits_;
 };
 
 }  // namespace fcl_prob::detail

@@ -130,3 +130,33 @@ TEST_CASE("The checker finds claims that are wrong") {
   CHECK(violations(larger) > 0);
   CHECK(violations(smaller) > 0);
 }
+
+TEST_CASE("Claims of convex meshes that are taken whole") {
+  RandomBodies random(1203);
+  ClaimReport sum;
+  for (int i = 0; i < 16; ++i) {
+    TriangleMesh body = i % 4 == 0 ? boxMesh({0.3, 0.2, 0.15}) : sphereMesh(0.2, 4 + i, 5 + i);
+    body = transformed(body, random.pose(0.2));
+    if (i % 2 == 0) {
+      for (Eigen::Vector3d& v : body.vertices) v = v.cast<float>().cast<double>();
+    }
+    const auto convex = makeModel<fcl::OBBRSSd>(body);
+    const auto other = makeModel<fcl::OBBRSSd>(bumpyMesh(0.6, 10, 12, 7 + i));
+    const fcl::Transform3d pose_a(random.pose(0.3)), pose_b(random.pose(0.9));
+    ProbabilityRequest request = interval(i % 3 == 0 ? ContactMeaning::solid : ContactMeaning::fcl);
+    request.relative_tolerance = 0.005;
+    const oracle::Placed a{convex.get(), pose_a};
+    const oracle::Placed b{other.get(), pose_b};
+    const bool swapped = i % 4 == 1;
+    const ClaimReport report =
+        checkClaims(swapped ? b : a, swapped ? a : b, randomDisplacement(random, 0.02, 0.2),
+                    request, ClaimBudget{600, 2, 2}, random.integer(0, 1 << 30));
+    INFO("scene " << i);
+    checkReport(report);
+    sum += report;
+  }
+  INFO(sum.table());
+  CHECK(sum.by_method["planes of a fat pair"].checked > 500);
+  CHECK(sum.by_method["no fat pair"].checked > 500);
+  CHECK(sum.total().undecided < 100);
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The partition for one convex object beside a mesh: cells are convex polytopes that are divided
+// along the planes of the C-obstacles themselves.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+#include "partition/cell_polytope.h"
+#include "partition/claim_observer.h"
+#include "partition/containment.h"
+#include "partition/engine_limits.h"
+#include "partition/fat_obstacles.h"
+
+namespace fcl_prob::detail {
+
+/// The obstacles that may meet a cell without covering it, each with those of its planes over which
+/// the cell sticks out.
+struct ObstacleList {
+  struct Entry {
+    int triangle;
+    std::size_t first;  ///< of its planes
+    std::size_t last;   ///< one behind the last
+  };
+  std::vector<Entry> entries;
+  std::vector<ObstaclePlane> planes;
+  std::size_t counted = 0;  ///< bytes, by whoever counts them
+
+  std::size_t memory() const {
+    return entries.capacity() * sizeof(Entry) + planes.capacity() * sizeof(ObstaclePlane);
+  }
+};
+
+/// In { n·y <= outer } a cell may meet obstacles that it is taken to be free of: their mass is in
+/// the upper bound already.
+struct CarvedLayer {
+  Eigen::Vector3d n;
+  double outer;
+  double mass;                                ///< no less than its own
+  std::shared_ptr<const CarvedLayer> before;  ///< of the cell that this one was cut from
+};
+
+/// A cell that is still open.
+struct CarvedCell {
+  CellPolytope body;
+  Bounds mass;
+  double inner = 0.0;  ///< certified mass of a part that collides
+
+  /// Of the cell that it was cut from, or a box's nodes of the mesh's tree.
+  std::shared_ptr<const ObstacleList> list;
+  std::optional<Cell> box;
+  std::shared_ptr<const std::vector<int>> nodes;
+
+  /// The cell lies behind this plane of obstacle `outside_of`: -1 if there is none.
+  Eigen::Vector3d behind = Eigen::Vector3d::Zero();
+  int outside_of = -1;
+
+  std::shared_ptr<const CarvedLayer> layers;
+  bool dropped = false;  ///< it may also meet such obstacles elsewhere
+
+  int best = -1;             ///< the obstacle of that part; -1: there is none
+  double inner_error = 0.0;  ///< how much more that part may weigh
+
+  double gap() const { return mass.upper - inner; }
+};
+
+/// What is inside the best obstacle of a cell is settled; what is outside is cut into convex cells
+/// along that obstacle's planes, as long as they cut off much.
+class CarvingEngine {
+ public:
+  /// Keeps references to all arguments.
+  CarvingEngine(FatObstacles& obstacles, const SolidContact* solids,
+                const ProbabilityRequest& request, ProbabilityStatistics& statistics);
+
+  /// Divides cells until the request is satisfied or a limit is reached; says which.
+  ProbabilityStatus run();
+
+  /// Certified; valid at every moment.
+  Bounds interval() const;
+
+ private:
+  /// How much may be wrong in one of the tetrahedra of a cell, as a share of what it was cut from.
+  static constexpr double kOpenFloor = 0.01;
+
+  using List = ObstacleList;
+  enum class Relation { covered, free, cut };
+
+  void push(CarvedCell&& cell);
+  void divideLargest();
+  void divideBox(CarvedCell&& cell);
+  void gatherNodes(const Cell& box, const std::vector<int>& from, bool to_leaves,
+                   std::vector<int>& into) const;
+  void resolve(CarvedCell&& cell);
+  Relation listBox(const CarvedCell& cell, const std::vector<int>& triangles, List& into);
+  Relation addFromBox(const CellBox& box, int triangle, List& into);
+  Relation refine(const CarvedCell& cell, List& into);
+  Relation examine(const CarvedCell& cell, List& into);
+  std::size_t bestEntry(const CarvedCell& cell, const List& list);
+  std::shared_ptr<List> makeList();
+  void count(List& list);
+  void carve(CarvedCell& cell, const std::shared_ptr<List>& list);
+  void carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
+               const CellPolytope& inside);
+  /// What is left of a cell around its best obstacle.
+  struct Rest {
+    CellPolytope body;
+    std::vector<ObstaclePlane> planes;  ///< along which it was not cut yet
+    double mass;                        ///< no less than its own
+    int obstacle;
+  };
+  static std::optional<ObstaclePlane> nextPlane(Rest& rest);
+  void cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list, const ObstaclePlane& plane,
+              Rest& rest);
+  bool clip(const CellPolytope& body, const List& list, std::size_t entry, CellPolytope& inside);
+  void dropEntry(CarvedCell& cell, List& list, std::size_t entry);
+  void split(CarvedCell& cell, const std::shared_ptr<List>& list);
+  void settle(const Bounds& mass);
+  void settleFree(const CarvedCell& cell);
+  void settleContained(const CarvedCell& cell);
+  void claim(const char* method, bool collides, const CellPolytope& body,
+             const CarvedLayer* layers = nullptr) const;
+  double allowLayer(const CarvedCell& outside, const ObstaclePlane& plane);
+  Bounds settledMass(const CellPolytope& body) const;
+  Bounds openMass(const CellPolytope& body, double parent) const;
+  void allowSlivers(const CellPolytope& body, std::size_t cuts);
+  void recount();
+  std::optional<ProbabilityStatus> satisfied() const;
+  std::optional<ProbabilityStatus> limited() const;
+  std::size_t memory() const { return obstacles_.memory() + cell_memory_ + list_memory_; }
+
+  ClaimObserver* const observer_ = claim_observer;
+  FatObstacles& obstacles_;
+  const SolidContact* solids_;
+  const ProbabilityRequest& request_;
+  ProbabilityStatistics& statistics_;
+  double accuracy_;                ///< relative, of what is settled
+  std::size_t list_memory_ = 0;    // before the cells that refer to it
+  std::vector<CarvedCell> queue_;  ///< a heap by gap
+  Bounds settled_;
+  double slivers_ = 0.0;  ///< what may lie between cells or belong to two
+  Bounds open_;
+  std::size_t cell_memory_ = 0;
+  std::size_t changes_since_recount_ = 0;
+  EngineLimits limits_;
+
+  PolytopeCutter cutter_;
+  CellPolytope layer_;
+  std::vector<Eigen::Vector3d> samples_;  // of a cell, and what they stand for
+  std::vector<double> weights_;
+  std::vector<double> face_lo_;  // of a box, along the normals of P
+  std::vector<double> face_hi_;
+};
+
+}  // namespace fcl_prob::detail
