@@ -131,14 +131,14 @@ void CarvingEngine::settle(const Bounds& mass) {
 }
 
 // Of a few points, as cells of next to no size: near the vertices the claim is boldest. A body that
-// is hardly thicker than those cells is left out.
+// is hardly thicker than those cells is left out, by what its faces tell to 1e-8.
 void CarvingEngine::claim(const char* method, bool collides, const CellPolytope& body,
                           const CarvedLayer* layers) const {
   if (!observer_) return;
   constexpr double kNearVertex = 0.99;
   constexpr double kHalf = 1e-11;
   const Eigen::Vector3d middle = body.middle();
-  if (!((1.0 - kNearVertex) * body.depth(middle) > 4 * kHalf)) return;
+  if (!((1.0 - kNearVertex) * body.depth(middle) > 1e3 * kHalf)) return;
   for (const Eigen::Vector3d& v : body.vertices()) {
     const Eigen::Vector3d point = middle + kNearVertex * (v - middle);
     if (!isBeyond(layers, point)) continue;

@@ -40,12 +40,15 @@ double CellPolytope::depth(const Eigen::Vector3d& point) const {
   for (std::size_t f = 0; f < first_.size(); ++f) {
     const Eigen::Vector3d& apex = vertices_[corners_[first_[f]]];
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for (int i = first_[f] + 1; i + 1 < end(f); ++i) {
-      normal += (vertices_[corners_[i]] - apex).cross(vertices_[corners_[i + 1]] - apex);
+    double longest = 0.0;
+    for (int i = first_[f] + 1; i < end(f); ++i) {
+      const Eigen::Vector3d side = vertices_[corners_[i]] - apex;
+      longest = std::max(longest, side.norm());
+      if (i + 1 < end(f)) normal += side.cross(vertices_[corners_[i + 1]] - apex);
     }
-    if (normal.squaredNorm() > 0.0) {
-      least = std::min(least, normal.normalized().dot(apex - point));
-    }
+    const double size = normal.norm();
+    if (!(size > kThinFace * longest)) return 0.0;
+    least = std::min(least, normal.dot(apex - point) / size);
   }
   return least;
 }

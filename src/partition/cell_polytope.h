@@ -18,6 +18,9 @@ class CellPolytope {
   /// Vertices closer to a plane than this count as in it.
   static constexpr double kSnap = 1e-13;
 
+  /// A face has a plane if it is wider.
+  static constexpr double kThinFace = 1e-6;
+
   CellPolytope() = default;
   explicit CellPolytope(const Cell& box);
 
@@ -35,7 +38,8 @@ class CellPolytope {
 
   Eigen::Vector3d middle() const;
 
-  /// How far a point is behind the nearest of its faces' planes, about; negative outside.
+  /// How far a point is behind the nearest of its faces' planes, about; negative outside. 0 if a
+  /// face is too thin for its plane to be known.
   double depth(const Eigen::Vector3d& point) const;
 
   /// Around it.

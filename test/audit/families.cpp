@@ -65,6 +65,22 @@ std::vector<Family> shapeFamilies() {
                    t.mesh.thin = 0.2;
                    t.mesh.flat = 0.3;
                  }),
+          family("convex meshes", of(kMesh, kMesh),
+                 [](Traits& t) {
+                   t.solid = 0.4;
+                   t.smaller = 0.3;
+                   t.ranks = {3, 3, 3, 3, 3, 3, 3, 2, 1};
+                   t.mesh.convex = 0.7;
+                   t.mesh.dented = 0.3;
+                   t.mesh.most_shells = 2;
+                   t.mesh.nested = 0.5;
+                   t.mesh.stray_point = 0.1;
+                   t.mesh.degenerate = 0.25;
+                   t.mesh.stray_far = 0.1;
+                   t.mesh.open = 0.1;
+                   t.mesh.thin = 0.1;
+                   t.on_grid = 0.0;
+                 }),
           family("solids of several shells", of(kMesh, kBounded),
                  [](Traits& t) {
                    t.solid = 1.0;

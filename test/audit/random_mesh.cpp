@@ -48,7 +48,41 @@ TriangleMesh tetrahedronMesh(RandomBodies& random) {
   return mesh;
 }
 
-TriangleMesh anyShell(RandomBodies& random) {
+/// A prism or a pyramid: faces of many corners.
+TriangleMesh drumMesh(RandomBodies& random) {
+  const int sides = random.integer(3, 12);
+  const double top = chance(random, 0.3) ? 0.0 : random.uniform(0.1, 0.5);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * M_PI * i / sides;
+    const Eigen::Vector2d p(std::cos(angle), std::sin(angle));
+    points.emplace_back(0.5 * p[0], 0.5 * p[1], -0.3);
+    points.emplace_back(top * p[0], top * p[1], 0.3);
+  }
+  return hullMesh(points);
+}
+
+TriangleMesh convexShell(RandomBodies& random, const MeshStructure& structure) {
+  TriangleMesh mesh;
+  switch (random.integer(0, 3)) {
+    case 0:
+      mesh = drumMesh(random);
+      break;
+    case 1:
+      mesh = boxMesh({random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1)});
+      break;
+    default:
+      mesh = hullMesh(random.onSphere(random.integer(4, 30), 0.5));
+  }
+  if (chance(random, structure.dented)) {
+    const int last = static_cast<int>(mesh.vertices.size()) - 1;
+    mesh.vertices[random.integer(0, last)] += random.logUniform(1e-12, 1e-2) * random.direction();
+  }
+  return mesh;
+}
+
+TriangleMesh anyShell(RandomBodies& random, const MeshStructure& structure) {
+  if (chance(random, structure.convex)) return convexShell(random, structure);
   switch (random.integer(0, 6)) {
     case 0:
       return tetrahedronMesh(random);
@@ -81,8 +115,9 @@ void openShell(RandomBodies& random, TriangleMesh& shell) {
   }
 }
 
-void move(TriangleMesh& mesh, double scale, const Vector3d& by, const Eigen::Matrix3d& rotation) {
-  for (Vector3d& v : mesh.vertices) v = snapped(scale * (rotation * v) + by);
+void move(TriangleMesh& mesh, double scale, const Vector3d& by, const Eigen::Matrix3d& rotation,
+          int bits) {
+  for (Vector3d& v : mesh.vertices) v = snapped(scale * (rotation * v) + by, bits);
 }
 
 Vector3d strayPosition(RandomBodies& random, const MeshStructure& structure) {
@@ -129,10 +164,10 @@ void addDegenerate(RandomBodies& random, const MeshStructure& structure, Triangl
 
 }  // namespace
 
-Vector3d snapped(const Vector3d& v) {
-  return Vector3d(std::nearbyint(std::ldexp(v[0], 20)), std::nearbyint(std::ldexp(v[1], 20)),
-                  std::nearbyint(std::ldexp(v[2], 20))) *
-         std::ldexp(1.0, -20);
+Vector3d snapped(const Vector3d& v, int bits) {
+  return Vector3d(std::nearbyint(std::ldexp(v[0], bits)), std::nearbyint(std::ldexp(v[1], bits)),
+                  std::nearbyint(std::ldexp(v[2], bits))) *
+         std::ldexp(1.0, -bits);
 }
 
 TriangleMesh hullMesh(const std::vector<Vector3d>& points) {
@@ -155,7 +190,7 @@ TriangleMesh randomMesh(RandomBodies& random, const MeshStructure& structure) {
   double size = 1.0;
   Vector3d at = Vector3d::Zero();
   for (int i = 0; i < shells; ++i) {
-    TriangleMesh shell = anyShell(random);
+    TriangleMesh shell = anyShell(random, structure);
     if (i > 0 && chance(random, structure.nested)) {
       size *= random.uniform(0.1, 0.5);
     } else if (i > 0) {
@@ -165,7 +200,9 @@ TriangleMesh randomMesh(RandomBodies& random, const MeshStructure& structure) {
     }
     const bool rotated = chance(random, 0.5);
     const Eigen::Matrix3d rotation = random.rotation();
-    move(shell, size, at, rotated ? rotation : Eigen::Matrix3d::Identity());
+    // Faces of more than three corners stay flat to what files round them by.
+    move(shell, size, at, rotated ? rotation : Eigen::Matrix3d::Identity(),
+         structure.convex > 0.0 ? 40 : 20);
     flatten(random, structure, shell);
     if (chance(random, structure.inside_out)) shell = reversed(shell);
     if (chance(random, structure.open)) openShell(random, shell);

@@ -23,17 +23,20 @@ struct MeshStructure {
   double stray_far = 0.3;    ///< of what strays: many sizes away
   double thin = 0.0;         ///< a shell is flattened along an axis
   double least_thinness = 1e-9;
-  double flat = 0.0;  ///< ... to nothing
+  double flat = 0.0;    ///< ... to nothing
+  double convex = 0.0;  ///< a shell is a hull, with many vertices at times
+  double dented = 0.0;  ///< of such a shell: but for one vertex, by 1e-12 to 1e-2
 };
 
 /// About 1 m wide around its origin (without what is far away), at most some dozens of triangles.
-/// Coordinates are multiples of 2^-20 but for thin ones. Shells are closed unless `open` says so.
+/// Coordinates are multiples of 2^-20 (of 2^-40 where shells may be convex) but for thin ones.
+/// Shells are closed unless `open` says so.
 TriangleMesh randomMesh(RandomBodies& random, const MeshStructure& structure);
 
 /// The faces of the hull of some points.
 TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points);
 
-/// To multiples of 2^-20.
-Eigen::Vector3d snapped(const Eigen::Vector3d& v);
+/// To multiples of 2^-bits.
+Eigen::Vector3d snapped(const Eigen::Vector3d& v, int bits = 20);
 
 }  // namespace fcl_prob_audit
