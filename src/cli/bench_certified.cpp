@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench certified: what a certificate costs, measured in fcl::collide.
 #include "cli/bench_scenes.h"
+#include "cli/bench_task.h"
 #include "cli/benchmark.h"
 #include "cli/fcl_loop.h"
 #include "cli/json_values.h"
@@ -13,31 +14,16 @@ namespace {
 
 constexpr std::size_t kFclSamples = 10'000;
 
-/// One line of the table besides that of FCL.
-struct Task {
-  std::string name;
-  ProbabilityMethod method;
-  double relative_tolerance;
-  std::optional<double> threshold;
-};
-
-const std::vector<Task>& allTasks() {
-  static const std::vector<Task> tasks{
-      {"interval 10 %", ProbabilityMethod::interval, 0.1, std::nullopt},
-      {"interval 1 %", ProbabilityMethod::interval, 0.01, std::nullopt},
-      {"interval 0.1 %", ProbabilityMethod::interval, 0.001, std::nullopt},
-      {"estimate 1 %", ProbabilityMethod::estimate, 0.01, std::nullopt},
-      {"estimate 0.3 %", ProbabilityMethod::estimate, 0.003, std::nullopt},
-      {"estimate 0.1 %", ProbabilityMethod::estimate, 0.001, std::nullopt},
-      {"decision P < 5 %", ProbabilityMethod::interval, 1e-9, 0.05},
-  };
+/// The lines of the table besides that of FCL.
+const std::vector<BenchTask>& allTasks() {
+  static const std::vector<BenchTask> tasks{
+      intervalTask(0.1),   intervalTask(0.01),  intervalTask(0.001), estimateTask(0.01),
+      estimateTask(0.003), estimateTask(0.001), decisionTask(0.05)};
   return tasks;
 }
 
-const std::vector<Task>& growthTasks() {
-  static const std::vector<Task> tasks{
-      {"interval 1 %", ProbabilityMethod::interval, 0.01, std::nullopt},
-  };
+const std::vector<BenchTask>& growthTasks() {
+  static const std::vector<BenchTask> tasks{intervalTask(0.01)};
   return tasks;
 }
 
@@ -64,10 +50,10 @@ class CertifiedTable {
   }
 
   void addScene(const std::string& name, const PreparedScene& scene,
-                const std::vector<Task>& tasks) {
+                const std::vector<BenchTask>& tasks) {
     const FclLoop loop = timeFclLoop(scene, kFclSamples, options_.seed);
     addLoop(name, loop);
-    for (const Task& task : tasks) addTask(name, scene, task, loop);
+    for (const BenchTask& task : tasks) addTask(name, scene, task, loop);
   }
 
   BenchReport take() { return std::move(report_); }
@@ -86,15 +72,9 @@ class CertifiedTable {
                                {"time_ms", loop.time_ms}});
   }
 
-  void addTask(const std::string& name, const PreparedScene& scene, const Task& task,
+  void addTask(const std::string& name, const PreparedScene& scene, const BenchTask& task,
                const FclLoop& loop) {
-    ProbabilityRequest request;
-    request.method = task.method;
-    request.relative_tolerance = task.relative_tolerance;
-    request.absolute_tolerance = 0.0;
-    request.threshold = task.threshold;
-    request.seed = options_.seed;
-    const TimedResult timed = scene.quickestOfThree(request);
+    const TimedResult timed = scene.quickestOfThree(task.request(options_.seed));
     const ProbabilityResult& result = timed.result;
     const double p = result.probability();
     const double error = result.standard_error.value_or(
@@ -132,7 +112,7 @@ struct Job {
   BenchScene scene;
   std::string name;
   double extra_offset;
-  const std::vector<Task>& tasks;
+  const std::vector<BenchTask>& tasks;
 };
 
 std::vector<Job> jobsFor(const BenchOptions& options) {

@@ -69,9 +69,9 @@ class ConjunctionTable {
 
   BenchReport take() {
     report_.title = "Encounters of satellites";
-    report_.table = TextTable({"P", "encounters", "width: median", "largest", "us: median",
-                               "largest", "Pc: median", "largest", "Pc_approx: median", "largest",
-                               "Pc_max / P: median", "least"});
+    report_.table = TextTable({"P", "encounters", "width: median", "90 %", "largest", "us: median",
+                               "90 %", "largest", "Pc: median", "largest", "Pc_approx: median",
+                               "largest", "Pc_max / P: median", "least"});
     for (std::size_t k = 0; k < kLeast.size(); ++k) addRow(k);
     report_.notes = "All together: " + numberText(total_, 3) +
                     " ms. `width` is upper - lower over P; Pc and Pc_approx are the file's columns "
@@ -92,7 +92,8 @@ class ConjunctionTable {
     const auto text = [](double value) { return numberText(value, 3); };
     report_.table.add({kLeast[k] > 0.0 ? "from " + text(kLeast[k]) : "below",
                        std::to_string(row.times.size()), text(quantile(row.widths, 0.5)),
-                       text(quantile(row.widths, 1.0)), text(quantile(row.times, 0.5)),
+                       text(quantile(row.widths, 0.9)), text(quantile(row.widths, 1.0)),
+                       text(quantile(row.times, 0.5)), text(quantile(row.times, 0.9)),
                        text(quantile(row.times, 1.0)), text(quantile(row.stated, 0.5)),
                        text(largestSize(row.stated)), text(quantile(row.approximations, 0.5)),
                        text(largestSize(row.approximations)), text(quantile(row.maxima, 0.5)),

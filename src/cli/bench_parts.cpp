@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cli/bench_task.h"
 #include "cli/benchmark.h"
 #include "cli/fcl_loop.h"
 #include "cli/json_values.h"
@@ -40,21 +41,10 @@ const std::vector<Part>& parts() {
   return all;
 }
 
-struct PartsTask {
-  std::string name;
-  ProbabilityMethod method;
-  double relative_tolerance;
-  std::optional<double> threshold;
-};
-
-const std::vector<PartsTask>& tasks() {
-  static const std::vector<PartsTask> all{
-      {"interval 10 %", ProbabilityMethod::interval, 0.1, std::nullopt},
-      {"interval 1 %", ProbabilityMethod::interval, 0.01, std::nullopt},
-      {"interval 0.1 %", ProbabilityMethod::interval, 0.001, std::nullopt},
-      {"estimate 1 %", ProbabilityMethod::estimate, 0.01, std::nullopt},
-      {"decision P < 5 %", ProbabilityMethod::interval, 1e-9, 0.05},
-  };
+const std::vector<BenchTask>& tasks() {
+  static const std::vector<BenchTask> all{intervalTask(0.1), intervalTask(0.01),
+                                          intervalTask(0.001), estimateTask(0.01),
+                                          decisionTask(0.05)};
   return all;
 }
 
@@ -91,7 +81,7 @@ class PartsTable {
       if (loop.estimate() < kLeastProbability) continue;
       std::size_t row = 0;
       for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
-        for (const PartsTask& task : tasks()) addTask(part, scene, contact, task, loop, row++);
+        for (const BenchTask& task : tasks()) addTask(part, scene, contact, task, loop, row++);
       }
       ++scenes_;
       return;
@@ -164,14 +154,9 @@ class PartsTable {
   }
 
   void addTask(std::size_t part, const PreparedScene& scene, ContactMeaning contact,
-               const PartsTask& task, const FclLoop& loop, std::size_t row) {
-    ProbabilityRequest request;
-    request.method = task.method;
-    request.relative_tolerance = task.relative_tolerance;
-    request.absolute_tolerance = 0.0;
-    request.threshold = task.threshold;
+               const BenchTask& task, const FclLoop& loop, std::size_t row) {
+    ProbabilityRequest request = task.request(options_.seed);
     request.contact = contact;
-    request.seed = options_.seed;
     const TimedResult timed = scene.quickestOfThree(request);
     const ProbabilityResult& result = timed.result;
     const double p = result.probability();
