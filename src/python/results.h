@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,16 @@ py::object orNone(const std::optional<Value>& value) {
   return value ? py::cast(*value) : py::none();
 }
 
+// In the order of their values.
+inline constexpr std::array<Decision, 4> kDecisions = {Decision::none, Decision::below,
+                                                       Decision::above, Decision::undecided};
+inline constexpr std::array<ProbabilityStatus, 10> kStatuses = {
+    ProbabilityStatus::converged,        ProbabilityStatus::exact,
+    ProbabilityStatus::decided,          ProbabilityStatus::bound_only,
+    ProbabilityStatus::sampled,          ProbabilityStatus::time_limit,
+    ProbabilityStatus::cell_limit,       ProbabilityStatus::memory_limit,
+    ProbabilityStatus::resolution_limit, ProbabilityStatus::cancelled};
+
 /// None, "below", "above" or "undecided".
 py::object decisionOf(Decision decision);
 
@@ -29,5 +40,6 @@ struct BatchResult {
 };
 
 void bindResults(py::module_& module);
+void bindBatchResult(py::module_& module);
 
 }  // namespace fcl_prob::python
