@@ -2,8 +2,8 @@
 # Copyright (c) 2026, the fcl_prob authors
 """Every Python block of the documentation runs, and prints what stands below it.
 
-Blocks of a page share their names. A `text` block right after one is its output; numbers may differ in their
-last digits.
+Blocks of a page share their names. A `text` block right after one is its output; numbers may differ by
+what the queries' tolerance of 1 % leaves open.
 """
 import contextlib
 import io
@@ -28,7 +28,7 @@ def blocks_of(page):
 def assert_alike(printed, expected):
     assert NUMBER.sub("#", printed) == NUMBER.sub("#", expected)
     for one, other in zip(NUMBER.findall(printed), NUMBER.findall(expected)):
-        assert float(one) == pytest.approx(float(other), rel=1e-3, abs=1e-9)
+        assert float(one) == pytest.approx(float(other), rel=0.02)
 
 
 @needs_io
