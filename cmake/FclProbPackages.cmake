@@ -25,6 +25,11 @@ set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Collision probabilities for FCL: the li
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 
+if(FCL_PROB_WITH_ROBOT)
+  # Debian 12's own lists of what libraries belong to leave this one out.
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS liburdfdom-model3.0)
+endif()
+
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfcl-prob-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Collision probabilities for FCL: headers and CMake files")
