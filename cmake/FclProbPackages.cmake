@@ -26,7 +26,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 
 if(FCL_PROB_WITH_ROBOT)
-  # Debian 12's own lists of what libraries belong to leave this one out.
+  # dpkg-shlibdeps does not name this one, though the library is linked with it.
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS liburdfdom-model3.0)
 endif()
 
