@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cobstacle/convex_body_data.h"
 
+#include <algorithm>
+
 #include "geometry/validation.h"
 
 namespace fcl_prob::detail {
@@ -54,11 +56,30 @@ double ConvexBodyData::size() const {
   return size;
 }
 
+double ConvexBodyData::largestCoordinate() const {
+  double largest = 0.0;
+  const auto include = [&largest](const Eigen::Vector3d& v) {
+    largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  };
+  if (!rounded) {
+    for (const Eigen::Vector3d& v : set().outerMesh().vertices) include(v);
+    return largest;
+  }
+  include(rounded->core.centre());
+  for (int i = 0; i < rounded->core.generatorCount(); ++i) include(rounded->core.generator(i));
+  return std::max(largest, rounded->radius);
+}
+
 PairFrame pairFrame(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                     const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement) {
   validatePose(pose_a, "pose of A");
   validatePose(pose_b, "pose of B");
-  PairFrame frame(displacement, pose_a, a.data().size(), pose_b, b.data().size());
+  const double size_a = a.data().size();
+  const double size_b = b.data().size();
+  if (displacement.rank() > 0 && std::max(size_a, size_b) < kLeastSize) {
+    requireMeasurable(a.data().largestCoordinate(), b.data().largestCoordinate());
+  }
+  PairFrame frame(displacement, pose_a, size_a, pose_b, size_b);
   frame.error += a.data().slack() + b.data().slack();
   return frame;
 }

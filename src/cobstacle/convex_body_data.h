@@ -29,6 +29,9 @@ struct ConvexBodyData {
   /// Length of the longest position vector of the body or the polytope around it.
   double size() const;
 
+  /// Of its vertices or generators: not 0 where size() is, by underflow.
+  double largestCoordinate() const;
+
   /// The body reaches out of its polytope by no more than this (metres): 0 or rounding.
   double slack() const { return rounded ? 0.0 : set().slack(); }
 
@@ -37,7 +40,8 @@ struct ConvexBodyData {
   mutable std::unique_ptr<const ConvexSet> set_;
 };
 
-/// The frame of a pair of bodies. \throws InvalidPose if a pose is not finite or not rigid
+/// The frame of a pair of bodies. \throws InvalidPose if a pose is not finite or not rigid;
+/// InvalidGeometry if both are too small to be measured (geometry/validation.h)
 PairFrame pairFrame(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                     const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 

@@ -13,6 +13,7 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -169,6 +170,15 @@ void validateGeometry(const fcl::CollisionGeometryd* geometry, const std::string
   } else {
     validateShape(*geometry, full_name);
   }
+}
+
+void requireMeasurable(double size_a, double size_b) {
+  const double larger = std::max(size_a, size_b);
+  if (larger >= kLeastSize || larger == 0.0) return;
+  std::ostringstream out;
+  out << "both objects are smaller than " << kLeastSize << " m, the larger one is " << larger
+      << " m: squares of such lengths are no numbers";
+  throw InvalidGeometry(out.str());
 }
 
 void validatePose(const fcl::Transform3d& pose, const std::string& name) {

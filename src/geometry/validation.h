@@ -24,6 +24,14 @@ void validateGeometry(const fcl::CollisionGeometryd* geometry, const std::string
 /// know. \throws InvalidGeometry
 void validateMeshView(const MeshView& mesh, const std::string& name);
 
+/// Lengths are compared by their squares and products, which are no numbers where both objects are
+/// smaller than this, in metres. (One of them may be, and deviations are divided by.)
+inline constexpr double kLeastSize = 1e-140;
+
+/// \param size_a, size_b  largest coordinates of the two objects, in metres, each from within it
+/// \throws InvalidGeometry if both are below kLeastSize and one of them is not 0
+void requireMeasurable(double size_a, double size_b);
+
 /// \throws InvalidPose if `pose` is not finite, or its linear part not a rotation to 1e-9.
 void validatePose(const fcl::Transform3d& pose, const std::string& name);
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "gaussian/constants.h"
+#include "geometry/validation.h"
 #include "partition/carved_partition.h"
 #include "partition/cell_sampling.h"
 #include "partition/claim_observer.h"
@@ -77,7 +79,8 @@ constexpr const char* kNoGradient =
 void fillGradient(const QueryFrame& frame, const MomentBounds& moment, ProbabilityResult& result) {
   const Eigen::Matrix3d moving = frame.whitening.matrix();
   const Eigen::Vector3d middle = 0.5 * (moment.lower + moment.upper);
-  const Eigen::Vector3d half = 0.5 * (moment.upper - moment.lower);
+  // A moment may be no double and still be one of metres, which deviations divide it to.
+  const Eigen::Vector3d half = (0.5 * (moment.upper - moment.lower)).array() + kUnderflow;
   const Eigen::Vector3d gradient = moving.transpose() * middle;
   const Eigen::Vector3d radius = moving.cwiseAbs().transpose() * half +
                                  1e-14 * (moving.cwiseAbs().transpose() * middle.cwiseAbs());
@@ -216,6 +219,9 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
                                        const BallTruncation* ball) {
   if (a.tree->isEmpty() || b.tree->isEmpty()) {
     return withoutContact(whole_request, "an octree without occupied cells collides with nothing");
+  }
+  if (displacement.rank() > 0 && std::max(a.tree->radius(), b.tree->radius()) < kLeastSize) {
+    requireMeasurable(a.tree->largestCoordinate(), b.tree->largestCoordinate());
   }
   ProbabilityResult result;
   StageClock clock(result.statistics);

@@ -221,6 +221,12 @@ double PieceTree::radius() const {
   return largest;
 }
 
+double PieceTree::largestCoordinate() const {
+  double largest = radius();
+  for (const Eigen::Vector3d& v : vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  return largest;
+}
+
 double PieceTree::error() const {
   double largest = 0.0;
   for (const Part& part : parts) largest = std::max(largest, part.error);

@@ -69,7 +69,8 @@ Derived rescaled(const Scene& scene, Choice choice) {
       if (displacement.sigma[k] > 0.0) least = std::min(least, displacement.sigma[k]);
     }
   }
-  if (largest > 1e148 || least < 1e-250) return std::nullopt;
+  // Smaller scenes are refused.
+  if (largest > 1e148 || largest < 1e-138 || least < 1e-250) return std::nullopt;
   return result;
 }
 
