@@ -10,6 +10,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/constants.h"
 #include "partition/cell_split.h"
+#include "partition/rounded_sum.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -219,11 +220,9 @@ void CarvingEngine::recount() {
 }
 
 Bounds CarvingEngine::interval() const {
-  const double rounding = 1.2e-16 * (16.0 * static_cast<double>(statistics_.cells) + 64.0);
-  const double lower = settled_.lower + open_.lower - slivers_;
-  const double upper = settled_.upper + open_.upper + slivers_;
-  return {std::clamp(lower * (1.0 - rounding), 0.0, 1.0),
-          std::clamp(upper * (1.0 + rounding) + 1e-320, 0.0, 1.0)};
+  return roundedSum(settled_.lower + open_.lower - slivers_,
+                    settled_.upper + open_.upper + slivers_,
+                    16.0 * static_cast<double>(statistics_.cells) + 64.0);
 }
 
 std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {

@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "gaussian/constants.h"
 #include "geometry/validation.h"
 #include "partition/carved_partition.h"
 #include "partition/cell_sampling.h"
@@ -79,8 +78,7 @@ constexpr const char* kNoGradient =
 void fillGradient(const QueryFrame& frame, const MomentBounds& moment, ProbabilityResult& result) {
   const Eigen::Matrix3d moving = frame.whitening.matrix();
   const Eigen::Vector3d middle = 0.5 * (moment.lower + moment.upper);
-  // A moment may be no double and still be one of metres, which deviations divide it to.
-  const Eigen::Vector3d half = (0.5 * (moment.upper - moment.lower)).array() + kUnderflow;
+  const Eigen::Vector3d half = 0.5 * (moment.upper - moment.lower);
   const Eigen::Vector3d gradient = moving.transpose() * middle;
   const Eigen::Vector3d radius = moving.cwiseAbs().transpose() * half +
                                  1e-14 * (moving.cwiseAbs().transpose() * middle.cwiseAbs());

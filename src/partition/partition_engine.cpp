@@ -7,6 +7,7 @@
 
 #include "gaussian/constants.h"
 #include "partition/cell_split.h"
+#include "partition/rounded_sum.h"
 
 namespace fcl_prob::detail {
 
@@ -137,17 +138,14 @@ void PartitionEngine::recount() {
 
 // The sums of up to `cells` rounded terms each, with up to as many removals since the last recount.
 Bounds PartitionEngine::interval() const {
-  const double rounding = 1.2e-16 * (4.0 * static_cast<double>(statistics_.cells) + 16.0);
-  const double lower = settled_.mass.lower + open_.lower;
-  const double upper = settled_.mass.upper + open_.upper;
-  // What lies beyond kReach is below the smallest double.
-  return {std::clamp(lower * (1.0 - rounding) - kUnderflow, 0.0, 1.0),
-          std::clamp(upper * (1.0 + rounding) + kUnderflow, 0.0, 1.0)};
+  return roundedSum(settled_.mass.lower + open_.lower, settled_.mass.upper + open_.upper,
+                    4.0 * static_cast<double>(statistics_.cells) + 16.0);
 }
 
 MomentBounds PartitionEngine::moment() const {
   MomentBounds bounds{settled_.moment, settled_.moment};
-  double error = settled_.moment_error;
+  // What is no double here may be one after the division by a deviation.
+  double error = settled_.moment_error + kUnderflow;
   for (const OpenCell& open : queue_) {
     const SettledMass part = examiner_.coveredPart(open);
     error += part.moment_error;

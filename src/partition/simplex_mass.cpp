@@ -47,7 +47,12 @@ constexpr double kWeight[3] = {0.11268792571801585080, 0.073493043116361949544,
 // 0.347⁸ / 8! · e^0.347 < 7.4e-9.
 constexpr double kExpError = 8e-9;
 
-// exp(-s) for 0 <= s <= 700, quicker than to the last digit: in loops it becomes vector
+// Exponents are cut off there, so that exp() below needs no special cases: what lies farther out is
+// taken to be as dense as that, and wrong by no more.
+constexpr double kMostExponent = 700.0;
+constexpr double kLeastDensity = 1e-304;  // exp(-kMostExponent), rounded up
+
+// exp(-s) for 0 <= s <= kMostExponent, quicker than to the last digit: in loops it becomes vector
 // instructions.
 inline double fastExp(double s) {
   constexpr double kMagic = 0x1.8p52;  // added, it leaves the integer in the lowest bits
@@ -76,7 +81,7 @@ double weightedSum(const double* x, const double* y, const double* z, const doub
   double values[count];
   for (int i = 0; i < count; ++i) {
     const double square = 0.5 * (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-    values[i] = weight[i] * fastExp(square < 700.0 ? square : 700.0);
+    values[i] = weight[i] * fastExp(square < kMostExponent ? square : kMostExponent);
   }
   double sum = 0.0;
   for (int i = 0; i < count; ++i) sum += values[i];
@@ -193,7 +198,9 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   const Eigen::Vector3d middle = 0.25 * (v[0] + v[1] + v[2] + v[3]);
   double x = 0.0;
   double q = 0.0;
+  double farthest = 0.0;
   for (const Eigen::Vector3d& corner : v) {
+    farthest = std::max(farthest, 0.5 * corner.squaredNorm());
     const Eigen::Vector3d off = corner - middle;
     x = std::max(x, std::fabs(off.dot(middle)));
     q = std::max(q, 0.5 * off.squaredNorm());
@@ -216,6 +223,7 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   mass_ += volume * mean;
   const double rounding = kExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
   error_ += around * tail + std::fabs(volume) * rounding * mean + 16 * kEpsilon * size * mean;
+  if (farthest > 0.99 * kMostExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
 }
 
 // Halves the longest edge.
