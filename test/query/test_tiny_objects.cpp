@@ -34,6 +34,7 @@ struct TwoCubes {
     ProbabilityRequest request;
     request.method = method;
     request.relative_tolerance = 0.05;
+    request.max_cells = 200;  // what is 1e100 times smaller than the other is not resolved
     ProbabilityResult result;
     collisionProbability(&a, &b, displacement, request, result);
     return {result.lower.value_or(0.0), *result.upper};
