@@ -44,7 +44,9 @@ TriangleMesh loadMesh(const std::string& path, const MeshOptions& options = {},
                       const ImportLimits& limits = {});
 
 /// The same in a forked child process (POSIX): a crash, an endless loop or a memory hog of the
-/// importer becomes a FileError.
+/// importer becomes a FileError. Where other threads run, the C library has to let a forked child
+/// allocate memory (glibc does; AddressSanitizer does not always, and the child then waits until
+/// its time is over): load meshes before threads are started.
 TriangleMesh loadMeshIsolated(const std::string& path, const MeshOptions& options = {},
                               const ImportLimits& limits = {});
 

@@ -40,13 +40,15 @@ class PendingLines {
   /// The next one that is pending, in the order of the file.
   std::optional<NumberedLine> next();
 
+  /// Begins again with the first one.
+  void rewind();
+
   /// That paths in the queries are relative to.
   std::filesystem::path folder() const { return std::filesystem::path(path_).parent_path(); }
 
  private:
   bool read(NumberedLine& line);
   bool nextOfShard(NumberedLine& line);
-  void rewind();
 
   std::string path_;
   Shard shard_;

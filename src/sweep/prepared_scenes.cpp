@@ -29,6 +29,28 @@ PreparedScenes::Geometry PreparedScenes::geometryOf(const SceneObject& object) {
   });
 }
 
+void PreparedScenes::loadMeshes(const QueryLine& query) {
+  if (query.scene_file.empty()) {
+    loadMesh(*query.a);
+    loadMesh(*query.b);
+  } else if (loaded_files_.insert(query.scene_file).second) {
+    try {
+      const Scene scene = loadScene(query.scene_file);
+      loadMesh(scene.a);
+      loadMesh(scene.b);
+    } catch (const std::exception&) {
+    }
+  }
+}
+
+void PreparedScenes::loadMesh(const SceneObject& object) {
+  if (!std::holds_alternative<MeshFile>(object.shape)) return;
+  try {
+    geometryOf(object);
+  } catch (const std::exception&) {
+  }
+}
+
 PreparedScene PreparedScenes::of(const QueryLine& query) {
   const auto pairOf = [this](const Scene& scene) {
     return std::make_shared<const PreparedPair>(geometryOf(scene.a), geometryOf(scene.b));

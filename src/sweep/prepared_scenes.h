@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include "fcl_prob/collision_probability.h"
@@ -88,10 +89,16 @@ class PreparedScenes {
   /// The scene as the query wants it. \throws what loading and preparing throw
   PreparedScene of(const QueryLine& query);
 
+  /// Reads the meshes that the query needs, which then are there for of(). Whatever goes wrong is
+  /// left to of().
+  void loadMeshes(const QueryLine& query);
+
  private:
   using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
   Geometry geometryOf(const SceneObject& object);
+  void loadMesh(const SceneObject& object);
 
+  std::set<std::string> loaded_files_;  // scenes whose meshes have been asked for
   MadeOnce<fcl::CollisionGeometryd> meshes_;
   MadeOnce<PreparedScene> scenes_;
   MadeOnce<PreparedPair> pairs_;

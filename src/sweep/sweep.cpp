@@ -28,8 +28,9 @@ class Sweep {
   }
 
   SweepProgress run(std::size_t threads) {
-    std::vector<std::thread> others;
     const std::size_t count = std::clamp<std::size_t>(lines_.pending(), 1, threads);
+    if (count > 1) loadMeshes();
+    std::vector<std::thread> others;
     for (std::size_t i = 1; i < count; ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
@@ -40,6 +41,21 @@ class Sweep {
 
  private:
   bool goesOn() const { return !stopped_ && goes_on_(); }
+
+  /// Every mesh is read in a child process. That is forked while there is no other thread, which
+  /// might hold a lock then that nobody opens again in the child.
+  void loadMeshes() {
+    for (auto line = lines_.next(); line && goesOn(); line = lines_.next()) {
+      QueryLine query;
+      try {
+        readQueryLine(*line, lines_.folder(), query);
+      } catch (const std::exception&) {
+        continue;  // answer() says so
+      }
+      scenes_.loadMeshes(query);
+    }
+    lines_.rewind();
+  }
 
   void work() {
     try {
