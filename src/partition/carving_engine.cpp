@@ -168,7 +168,7 @@ void CarvingEngine::settleFree(const CarvedCell& cell) {
 // Nothing is said of its layers.
 void CarvingEngine::settleContained(const CarvedCell& cell) {
   claim("containment", true, cell.body, cell.layers.get());
-  Bounds mass = settledMass(cell.body);
+  Bounds mass = cell.box ? cell.mass : settledMass(cell.body);
   for (const CarvedLayer* layer = cell.layers.get(); layer; layer = layer->before.get()) {
     mass.lower -= layer->mass;
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "gaussian/constants.h"
 
@@ -222,7 +223,8 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   const double size = length * length * (length + middle.norm());
   mass_ += volume * mean;
   const double rounding = kExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
-  error_ += around * tail + std::fabs(volume) * rounding * mean + 16 * kEpsilon * size * mean;
+  error_ += std::max(around, std::numeric_limits<double>::denorm_min()) * tail +
+            std::fabs(volume) * rounding * mean + 16 * kEpsilon * size * mean;
   if (farthest > 0.99 * kMostExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Boxes as closed meshes, from near to so far that P is no double, against products of Φ in 50
-// digits.
+// Boxes as closed meshes, of any size in deviations and so far that P is no double, against
+// products of Φ in 50 digits.
 #include "../gaussian/high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
@@ -22,6 +22,10 @@ Eigen::Vector3d sides(RandomBodies& random) {
 struct FarBoxes {
   FarBoxes(RandomBodies& random, double deviations, int apart)
       : a(sides(random)), b(sides(random)), sigma(0.5 * sides(random)) {
+    place(random, deviations, apart);
+  }
+
+  void place(RandomBodies& random, double deviations, int apart) {
     for (int k = 0; k < 3; ++k) {
       const double touching = 0.5 * (a[k] + b[k]);
       offset[k] = k < apart ? touching + sigma[k] * deviations / std::sqrt(apart)
@@ -75,6 +79,27 @@ TEST_CASE("convex meshes up to 52 deviations apart: the bounds hold 50 digits") 
     }
   }
   CHECK(by_polytopes > 20);
+}
+
+// What is inside may be millions of deviations wide then.
+TEST_CASE("convex meshes of up to 1e8 deviations: the bounds hold 50 digits, after few cells") {
+  RandomBodies random(39);
+  for (int i = 0; i < 100; ++i) {
+    FarBoxes boxes(random, 0.0, 0);
+    boxes.sigma *= random.logUniform(1e-8, 1.0);
+    boxes.place(random, random.uniform(-3.0, 3.0), i % 4);
+    ProbabilityRequest request;
+    request.method = ProbabilityMethod::interval;
+    request.contact = ContactMeaning::solid;
+    request.relative_tolerance = 0.1;
+    const ProbabilityResult result = boxes.ask(request);
+    const HighPrecision truth = boxes.truth();
+    CAPTURE(i, boxes.sigma, truth.str(6), *result.lower, *result.upper);
+    CHECK(HighPrecision(*result.lower) <= truth);
+    CHECK(HighPrecision(*result.upper) >= truth);
+    CHECK(result.status == ProbabilityStatus::converged);
+    CHECK(result.statistics.cells < 5000);
+  }
 }
 
 }  // namespace
