@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/length.h"
 #include "geometry/validation.h"
 
 namespace fcl_prob::detail {
@@ -50,36 +51,17 @@ const ConvexSet& ConvexBodyData::set() const {
 
 double ConvexBodyData::size() const {
   if (!rounded) return set().size();
-  double size = rounded->core.centre().norm() + kCircumscribed * rounded->radius;
+  double size = lengthOf(rounded->core.centre()) + kCircumscribed * rounded->radius;
   for (int i = 0; i < rounded->core.generatorCount(); ++i)
-    size += rounded->core.generator(i).norm();
+    size += lengthOf(rounded->core.generator(i));
   return size;
-}
-
-double ConvexBodyData::largestCoordinate() const {
-  double largest = 0.0;
-  const auto include = [&largest](const Eigen::Vector3d& v) {
-    largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  };
-  if (!rounded) {
-    for (const Eigen::Vector3d& v : set().outerMesh().vertices) include(v);
-    return largest;
-  }
-  include(rounded->core.centre());
-  for (int i = 0; i < rounded->core.generatorCount(); ++i) include(rounded->core.generator(i));
-  return std::max(largest, rounded->radius);
 }
 
 PairFrame pairFrame(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                     const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement) {
   validatePose(pose_a, "pose of A");
   validatePose(pose_b, "pose of B");
-  const double size_a = a.data().size();
-  const double size_b = b.data().size();
-  if (displacement.rank() > 0 && std::max(size_a, size_b) < kLeastSize) {
-    requireMeasurable(a.data().largestCoordinate(), b.data().largestCoordinate());
-  }
-  PairFrame frame(displacement, pose_a, size_a, pose_b, size_b);
+  PairFrame frame(displacement, pose_a, a.data().size(), pose_b, b.data().size());
   frame.error += a.data().slack() + b.data().slack();
   return frame;
 }

@@ -29,9 +29,6 @@ struct ConvexBodyData {
   /// Length of the longest position vector of the body or the polytope around it.
   double size() const;
 
-  /// Of its vertices or generators: not 0 where size() is, by underflow.
-  double largestCoordinate() const;
-
   /// The body reaches out of its polytope by no more than this (metres): 0 or rounding.
   double slack() const { return rounded ? 0.0 : set().slack(); }
 

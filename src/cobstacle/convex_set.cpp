@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/length.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -56,7 +58,7 @@ double inradius(const Points& points, bool disk) {
 
 double ConvexSet::size() const {
   double largest = 0.0;
-  for (const Eigen::Vector3d& v : outerMesh().vertices) largest = std::max(largest, v.norm());
+  for (const Eigen::Vector3d& v : outerMesh().vertices) largest = std::max(largest, lengthOf(v));
   return largest;
 }
 

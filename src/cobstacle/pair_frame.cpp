@@ -7,6 +7,8 @@
 
 #include "gaussian/power_of_two.h"
 #include "geometry/exact_sum.h"
+#include "geometry/length.h"
+#include "geometry/validation.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -25,9 +27,6 @@ constexpr double kLargestWhitened = 1e100;
 /// The coordinates that do not move are in about the largest length that there is, so that nothing
 /// depends on the scale; a power of two, of which the square is finite.
 double lengthUnit(double largest) { return powerOfTwoAt(std::clamp(largest, 1e-150, 1e150)); }
-
-/// Also of vectors so short that their squares underflow.
-double lengthOf(const Eigen::Vector3d& v) { return std::max(v.norm(), v.cwiseAbs().maxCoeff()); }
 
 /// From the origin of A, displaced by the mean, to that of B. Exact but for one rounding: far
 /// positions may cancel.
@@ -59,6 +58,7 @@ PairFrame::PairFrame(const GaussianDisplacement& displacement, const fcl::Transf
       same_rotation(rotation_a == rotation_b),
       ball_stretch(std::max(stretchOf(rotation_a), stretchOf(rotation_b))),
       offset(offsetBetween(pose_a.translation(), pose_b.translation(), displacement.mean())) {
+  if (rank > 0) requireMeasurable(size_a, size_b);
   const double largest = size_a + size_b + lengthOf(offset);
   const double unit = lengthUnit(largest);
   whitening = Whitening(displacement, unit).matrix();

@@ -19,6 +19,7 @@ struct PairFrame {
   /// \param size_a, size_b  no coordinate of a point used is larger (metres, own frame); they set
   /// how
   ///                        far rounding can move a point.
+  /// \throws InvalidGeometry if both are below kLeastSize and one of them is not 0
   PairFrame(const GaussianDisplacement& displacement, const fcl::Transform3d& pose_a, double size_a,
             const fcl::Transform3d& pose_b, double size_b);
 

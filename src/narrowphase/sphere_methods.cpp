@@ -14,6 +14,7 @@
 #include "gaussian/constants.h"
 #include "gaussian/number_text.h"
 #include "geometry/geometry_kind.h"
+#include "geometry/length.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
 
@@ -102,8 +103,8 @@ PairFrame frameOf(const BoundingSphere& a, const fcl::Transform3d& pose_a, const
   validatePose(pose_a, "pose of A");
   validatePose(pose_b, "pose of B");
   requireDensity(displacement);
-  return PairFrame(displacement, pose_a, a.centre.norm() + a.radius, pose_b,
-                   b.centre.norm() + b.radius);
+  return PairFrame(displacement, pose_a, lengthOf(a.centre) + a.radius, pose_b,
+                   lengthOf(b.centre) + b.radius);
 }
 
 std::vector<Eigen::Vector3d> usedVertices(const MeshView& mesh) {

@@ -12,6 +12,7 @@
 #include "cobstacle/bounding_volumes.h"
 #include "cobstacle/convex_body_data.h"
 #include "fcl_prob/convex_body.h"
+#include "geometry/length.h"
 
 namespace fcl_prob::detail {
 
@@ -90,7 +91,7 @@ class ModelTree final : public BoundingTree {
   double size() const override {
     double largest = 0.0;
     for (int i = 0; i < model_.num_vertices; ++i) {
-      largest = std::max(largest, model_.vertices[i].norm());
+      largest = std::max(largest, lengthOf(model_.vertices[i]));
     }
     return kReach * largest;
   }

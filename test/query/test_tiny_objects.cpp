@@ -8,7 +8,9 @@
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
+#include "mesh_shapes.h"
 #include "random_bodies.h"
+#include "shapes.h"
 
 namespace {
 
@@ -20,15 +22,19 @@ using fcl_prob_test::RandomBodies;
 struct TwoCubes {
   double size, size_b, gap;
   int rank;
+  bool meshes = false;
+
+  std::shared_ptr<fcl::CollisionGeometryd> cube(double half) const {
+    const Eigen::Vector3d sides = Eigen::Vector3d::Constant(2 * half);
+    if (meshes) return fcl_prob_test::makeModel<fcl::OBBRSSd>(fcl_prob_test::boxMesh(sides));
+    return std::make_shared<fcl::Boxd>(sides);
+  }
 
   Bounds ask(ProbabilityMethod method) const {
     fcl::Transform3d pose_a = fcl::Transform3d::Identity(), pose_b = pose_a;
     pose_a.translation().x() = size + gap;
     pose_b.translation().x() = -size_b;
-    const fcl::CollisionObjectd a(std::make_shared<fcl::Boxd>(2 * size, 2 * size, 2 * size),
-                                  pose_a);
-    const fcl::CollisionObjectd b(std::make_shared<fcl::Boxd>(2 * size_b, 2 * size_b, 2 * size_b),
-                                  pose_b);
+    const fcl::CollisionObjectd a(cube(size), pose_a), b(cube(size_b), pose_b);
     const auto displacement = GaussianDisplacement::fromStandardDeviations(
         {size, rank > 1 ? 1e-3 * size : 0.0, rank > 2 ? 1e-3 * size : 0.0});
     ProbabilityRequest request;
@@ -45,9 +51,10 @@ struct TwoCubes {
   }
 };
 
-const std::vector<ProbabilityMethod> kMethods{ProbabilityMethod::automatic,
-                                              ProbabilityMethod::interval, ProbabilityMethod::exact,
-                                              ProbabilityMethod::convex_pcd};
+const std::vector<ProbabilityMethod> kMethods{
+    ProbabilityMethod::automatic,   ProbabilityMethod::interval,
+    ProbabilityMethod::exact,       ProbabilityMethod::convex_pcd,
+    ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min};
 
 TEST_CASE("boxes down to 1e-139 m have the probability of larger ones") {
   RandomBodies random(5);
@@ -77,6 +84,19 @@ TEST_CASE("smaller boxes are refused, unless the other one is larger") {
       const Bounds bounds = one.ask(method);
       CHECK(bounds.lower <= one.truth() * (1 + 1e-9));
       CHECK(bounds.upper >= one.truth() * (1 - 1e-9));
+    }
+  }
+}
+
+TEST_CASE("meshes are refused as boxes are, whatever the method") {
+  for (const double size : {1e-141, 1e-160, 1e-200}) {
+    for (const int rank : {1, 2, 3}) {
+      for (const ProbabilityMethod method : kMethods) {
+        if (method == ProbabilityMethod::exact) continue;  // not of meshes
+        CAPTURE(size, rank, toString(method));
+        const TwoCubes cubes{size, size, 0.5 * size, rank, true};
+        CHECK_THROWS_AS(cubes.ask(method), InvalidGeometry);
+      }
     }
   }
 }
