@@ -4,6 +4,7 @@
 // methods and the bounds of convex pairs by themselves; meshes from arrays.
 #pragma once
 
+#include "fcl_prob/band.h"
 #include "fcl_prob/batch.h"
 #include "fcl_prob/broadphase.h"
 #include "fcl_prob/collision_probability.h"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_prob/band.h"
 #include "fcl_prob/bounds.h"
 
 namespace fcl_prob {
@@ -74,9 +75,17 @@ struct ProbabilityRequest {
   /// ProbabilityResult::gradient for where there is one).
   bool gradient = false;
 
+  /// How far the true shapes of A and B may be from their geometries (of every member, for groups):
+  /// the certified interval then holds for all shapes within. For methods `automatic` and `interval`
+  /// of pairs, groups, mixtures and batches; others refuse it.
+  Band band_a;
+  Band band_b;
+
   /// Called now and then from the calling thread; returning false cancels the query, whose result is
   /// valid all the same (status `cancelled`).
   std::function<bool(const ProbabilityProgress&)> on_progress;
+
+  bool hasBand() const { return !band_a.isZero() || !band_b.isZero(); }
 };
 
 /// Checks every field, whether or not the method uses it.

@@ -29,7 +29,8 @@ enum class ProbabilityStatus {
   cell_limit,      ///< as above
   memory_limit,    ///< as above
   resolution_limit,///< as above: what is left cannot be divided further in double precision
-  cancelled        ///< as above, by on_progress
+  cancelled,       ///< as above, by on_progress
+  band_limit       ///< the interval is about as narrow as the bands around the shapes allow
 };
 
 /// What the query did. Counters that a method does not use stay 0.

@@ -29,6 +29,7 @@ using PrimitiveShape = std::shared_ptr<fcl::CollisionGeometryd>;
 struct SceneObject {
   std::variant<MeshFile, PrimitiveShape> shape;
   fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
+  Band band;  ///< metres, after scale and normalisation; of the request, too
 };
 
 struct Scene {

@@ -6,6 +6,7 @@
 
 #include "cli/number_text.h"
 #include "fcl_prob/exceptions.h"
+#include "request/refuse_band.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -56,6 +57,7 @@ PartsScene::PartsScene(const LoadedObject& a, const LoadedObject& b,
 
 ProbabilityResult PartsScene::answer(PartsUse use, const ProbabilityRequest& request) const {
   validateRequest(request);
+  detail::refuseBand(request, "sums over convex parts");
   if (request.contact == ContactMeaning::solid && (a_.tree || b_.tree)) {
     throw UnsupportedGeometry(
         "parts are proven to cover the surfaces of meshes, not the solids that they enclose");

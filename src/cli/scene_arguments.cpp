@@ -39,6 +39,11 @@ std::optional<fcl::Transform3d> poseOption(const std::string& option, const std:
   return ofOption(option, [&] { return detail::poseFrom(numbersFrom(text)); });
 }
 
+std::optional<Band> bandOption(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return ofOption(option, [&] { return detail::bandFrom(numbersFrom(text)); });
+}
+
 GaussianDisplacement displacementFrom(const SceneArguments& arguments) {
   const Eigen::Vector3d mean =
       arguments.mean.empty() ? Eigen::Vector3d::Zero() : ofOption("--mean", [&] {
@@ -162,6 +167,10 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--scale-b", arguments.scale_b, "Factor on the coordinates of B");
   command.add_option("--pose-a", arguments.pose_a, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
   command.add_option("--pose-b", arguments.pose_b, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
+  command.add_option("--band-a", arguments.band_a,
+                     "How far the true shape of A may be from its model: d or outward,inward in "
+                     "metres");
+  command.add_option("--band-b", arguments.band_b, "The same of B");
   auto* covariance = command.add_option("--covariance", arguments.covariance,
                                         "xx,xy,xz,yy,yz,zz in square metres");
   auto* sigma = command.add_option("--sigma", arguments.sigma,
@@ -220,6 +229,8 @@ Scene sceneFrom(const SceneArguments& arguments) {
   applyMeshOptions("--scale-a", arguments.normalize, arguments.scale_a, scene.a);
   applyMeshOptions("--scale-b", arguments.normalize, arguments.scale_b, scene.b);
   if (const auto pose = poseOption("--pose-a", arguments.pose_a)) scene.a.pose = *pose;
+  if (const auto band = bandOption("--band-a", arguments.band_a)) scene.request.band_a = *band;
+  if (const auto band = bandOption("--band-b", arguments.band_b)) scene.request.band_b = *band;
   if (const auto pose = poseOption("--pose-b", arguments.pose_b)) scene.b.pose = *pose;
   applyDisplacement(arguments, scene);
   applyRequest(arguments, scene.request);

@@ -25,6 +25,8 @@ struct SceneArguments {
   std::optional<double> scale_b;
   std::string pose_a;
   std::string pose_b;
+  std::string band_a;
+  std::string band_b;
   std::string covariance;
   std::string sigma;
   std::string sigma_axes;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -60,6 +61,19 @@ Eigen::Matrix3d covarianceFrom(const Numbers& numbers) {
       numbers[1], numbers[3], numbers[4],            //
       numbers[2], numbers[4], numbers[5];
   return covariance;
+}
+
+Band bandFrom(const Numbers& numbers) {
+  if (numbers.empty() || numbers.size() > 2) {
+    throw InvalidRequest("a band needs 1 or 2 numbers, not " + std::to_string(numbers.size()));
+  }
+  for (const double number : numbers) {
+    if (!std::isfinite(number) || number < 0.0) {
+      throw InvalidRequest("a band of " + numberText(number) +
+                           " m: must be finite and not negative");
+    }
+  }
+  return {numbers.front(), numbers.back()};
 }
 
 PoseError::Vector6 sixFrom(const Numbers& numbers, const std::string& name) {

@@ -44,6 +44,10 @@ PoseError poseErrorFrom(const PoseError::Vector6& sigma, PoseConvention conventi
 /// "world", "body", "world-exponential" and "body-exponential".
 std::optional<PoseConvention> poseConventionFromString(const std::string& name);
 
+/// A distance, or one outwards and one inwards. \throws InvalidRequest if there are not so many, or
+/// one is negative or not finite.
+Band bandFrom(const Numbers& numbers);
+
 /// "fcl" and "solid".
 std::optional<ContactMeaning> contactFromString(const std::string& name);
 

@@ -29,6 +29,8 @@ Scene loadScene(const std::string& path) {
   }
   if (root.has("request")) scene.request = detail::readRequest(root.object("request"));
   root.finish();
+  scene.request.band_a = scene.a.band;
+  scene.request.band_b = scene.b.band;
   return scene;
 }
 

@@ -55,6 +55,10 @@ SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& 
 
 SceneObject readObject(StrictObject object, const std::filesystem::path& folder) {
   SceneObject result = readShapeAndPose(object, folder);
+  if (object.has("band")) {
+    const std::vector<double> numbers = object.numbers("band");
+    result.band = located(object, "band", [&] { return bandFrom(numbers); });
+  }
   object.finish();
   return result;
 }

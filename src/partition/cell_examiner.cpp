@@ -271,7 +271,9 @@ ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& m
   std::array<ObstaclePart, kMostMeasured> best;
   int tried = 0;
   for (const CuttingPair& cutting : front_.cutting()) {
-    if (cutting.sides > most || cutting.layered || front_.slabs(cutting.pair).outer_only) continue;
+    if (cutting.sides > most || (cutting.layered && !pair_.band) ||
+        front_.slabs(cutting.pair).outer_only)
+      continue;
     if (++tried > kMostTried) break;
     ObstaclePart part = obstaclePart(front_.slabs(cutting.pair), open.cell, most);
     for (ObstaclePart& other : best) {

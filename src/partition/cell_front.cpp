@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cobstacle/cell_section.h"
+#include "gaussian/constants.h"
+#include "partition/band_margin.h"
 
 namespace fcl_prob::detail {
 
@@ -100,6 +101,7 @@ void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
   cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
   cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
   cutting.inner.s = cutting.outer + slabs.margin()[i];
+  cutting.layered = pair_.band && slabs.margin()[i] > kThinLayer;
   cutting.depth = depthOf(cutting.inner);
 }
 
@@ -121,11 +123,11 @@ void CellFront::coverAll() {
 void CellFront::gatherSection(const FrontPair& pair) {
   const SupportObstacle obstacle = obstacles_.support(pair.nodes);
   CuttingPair cutting{pair, 2, -1.0, {}, 0.0, 2.0};
-  if (least_depth_ < kDeepest && -obstacle.supportUpper(-deepest_.m) >= deepest_.s) {
+  if (least_depth_ < kDeepest && lowestOf(obstacle, deepest_.m) >= deepest_.s) {
     cutting_.push_back(cutting);
     return;
   }
-  const CellSection section = sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  const CellSection section = sectionOfPair(obstacle);
   if (section.relation == CellSection::Relation::outside) return;
   if (section.relation == CellSection::Relation::inside) return coverAll();
   if (!section.normal.isZero(0.0)) {
@@ -138,6 +140,31 @@ void CellFront::gatherSection(const FrontPair& pair) {
     noteDepth(cutting);
   }
   cutting_.push_back(cutting);
+}
+
+// Within a band V loses, from inside, what is closer to its boundary than that: what a plane leaves
+// of a cell that is larger by the band all around is known to be V's.
+CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle) const {
+  if (!pair_.band) return sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  Eigen::Vector3d grown;
+  for (int k = 0; k < 3; ++k) grown[k] = pair_.band->inwardAlong(Eigen::Vector3d::Unit(k));
+  const int rank = grown.isZero(0.0) ? cell_.rank : 3;
+  CellSection section = sectionOf(obstacle, cell_.lo - grown, cell_.hi + grown, rank);
+  if (section.normal.isZero(0.0)) return section;
+  const Eigen::Vector3d& n = section.normal;
+  const double rounding = 64 * kEpsilon * (kReach + std::fabs(section.outer));
+  section.outer += pair_.band->outwardAlong(n) + rounding;
+  section.inner -= pair_.band->inwardAlong(n) + rounding;
+  section.relation =
+      n.dot(cell_.lowestCorner(n)) - rounding > section.outer     ? CellSection::Relation::outside
+      : n.dot(cell_.lowestCorner(-n)) + rounding <= section.inner ? CellSection::Relation::inside
+                                                                  : CellSection::Relation::cut;
+  return section;
+}
+
+// Lower bound of m·y over the C-obstacle of two pieces.
+double CellFront::lowestOf(const SupportObstacle& obstacle, const Eigen::Vector3d& m) const {
+  return -obstacle.supportUpper(-m) - (pair_.band ? pair_.band->outwardAlong(m) : 0.0);
 }
 
 double CellFront::depthOf(const CellPlane& plane) const {
@@ -314,7 +341,7 @@ double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m)
   const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
   const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
   if (!slabs.outer_only) return lowest;
-  return std::max(lowest, -obstacles_.support(pair.nodes).supportUpper(-m));
+  return std::max(lowest, lowestOf(obstacles_.support(pair.nodes), m));
 }
 
 // Lower bound of m·y over the C-obstacle of two nodes of meshes from their vertices. Calls with the
@@ -323,7 +350,8 @@ double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
   const double a = support_a_.along(m, nodes.a);
   const double b = -support_b_.along(-m, nodes.b);
-  const double error = 4 * (pair_.a.errorAlong(m, nodes.a) + pair_.b.errorAlong(m, nodes.b)) +
+  const double error = 4 * m.cwiseAbs().dot(slabError(pair_, nodes)) +
+                       (pair_.band ? pair_.band->outwardAlong(m) : 0.0) +
                        1e-15 * (std::fabs(a) + std::fabs(b));
   return b - a - error;
 }

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "cobstacle/cell_section.h"
 #include "fcl_prob/probability_result.h"
 #include "partition/node_support.h"
 #include "partition/obstacle_table.h"
@@ -85,6 +86,8 @@ class CellFront {
   void gather(const std::vector<FrontPair>& inherited);
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
+  CellSection sectionOfPair(const SupportObstacle& obstacle) const;
+  double lowestOf(const SupportObstacle& obstacle, const Eigen::Vector3d& m) const;
   void setPlane(const CellCut& cut, CuttingPair& cutting) const;
   void coverAll();
   void noteDepth(const CuttingPair& cutting);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gaussian/constants.h"
+#include "partition/band_margin.h"
 
 namespace fcl_prob::detail {
 
@@ -89,7 +90,8 @@ int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) 
 
 }  // namespace
 
-CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid) : solid_(solid) {
+CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid)
+    : solid_(solid), band_(pair.band) {
   if (!pair.a.tree->caps || !pair.b.tree->caps) return;
   const auto add = [this](const WhitenedTree& inner, const WhitenedTree& outer, double sign) {
     std::vector<Candidate> candidates;
@@ -297,7 +299,8 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
       lo = lo.cwiseMin(v);
       hi = hi.cwiseMax(v);
     }
-    of_vertices += m.cwiseAbs().dot(motion);
+    // A band counts once, at the end.
+    if (!band_) of_vertices += m.cwiseAbs().dot(motion);
     double of_box = 0.0;
     for (int k = 0; k < 3; ++k) {
       const double pad = outer.error[k] + motion[k];
@@ -308,7 +311,7 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
     highest = std::max(highest, std::min(of_vertices, of_box));
   }
   return highest + 4 * (side.inner.mesh().errorAlong(m) + outer.errorAlong(m)) +
-         m.cwiseAbs().dot(side.inner.mesh().motionOf(vertex)) +
+         (band_ ? band_->inwardAlong(m) : m.cwiseAbs().dot(side.inner.mesh().motionOf(vertex))) +
          64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
 }
 

@@ -83,6 +83,7 @@ class CrossingWitness {
   bool certify(const Attempt& attempt, const Cell& cell);
 
   bool solid_;
+  std::shared_ptr<const BandMargin> band_;
   std::vector<Side> sides_;
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gaussian/constants.h"
+#include "partition/band_margin.h"
 #include "partition/piece_slabs.h"
 #include "partition/support_slabs.h"
 
@@ -116,8 +117,9 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
 SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
   const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
-  const Eigen::Vector3d error = pair_.a.errorOf(leaves.a) + pair_.b.errorOf(leaves.b);
+  const Eigen::Vector3d error = slabError(pair_, leaves);
   slabKernels().triangleSlabs(a.data(), b.data(), error.data(), data);
+  if (pair_.band) pair_.band->widen(data, kTriangleSlabs);
   return {data, kTriangleSlabs};
 }
 
@@ -126,6 +128,7 @@ SlabArrays ObstacleTable::buildPieces(NodePair leaves) {
   const PieceSlabs slabs = few ? pieceSlabs(pair_, leaves) : supportSlabs(support(leaves));
   double* data = allocate(slabs.count);
   std::copy(slabs.data.begin(), slabs.data.end(), data);
+  if (pair_.band) pair_.band->widen(data, slabs.count);
   return {data, slabs.count, !few};
 }
 
@@ -151,7 +154,7 @@ Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
   const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
                                 largestCoordinates(pair_.b.boxes[leaves.b]) +
                                 Eigen::Vector3d::Constant(kReach);
-  return 4 * (pair_.a.errorOf(leaves.a) + pair_.b.errorOf(leaves.b)) + 32 * kEpsilon * reach;
+  return 4 * slabError(pair_, leaves) + 32 * kEpsilon * reach;
 }
 
 SupportObstacle ObstacleTable::support(NodePair leaves) const {

@@ -10,7 +10,10 @@
 #include <string>
 #include <utility>
 
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
 #include "geometry/validation.h"
+#include "partition/band_margin.h"
 #include "partition/carved_partition.h"
 #include "partition/cell_sampling.h"
 #include "partition/claim_observer.h"
@@ -55,17 +58,51 @@ struct QueryFrame {
   WhitenedPair pair;
 };
 
+// The objects with the bands of the request among their motions.
+class BandedPair {
+ public:
+  BandedPair(const PartitionObject& a, const PartitionObject& b, const ProbabilityRequest& request)
+      : a_(a), b_(b), request_(request) {
+    if (!request.hasBand()) return;
+    if (a.motion || b.motion) throw InvalidRequest("bands around shapes that turn at random");
+    of_a_.ball = std::max(request.band_a.outward, request.band_a.inward);
+    of_b_.ball = std::max(request.band_b.outward, request.band_b.inward);
+    a_.motion = &of_a_;
+    b_.motion = &of_b_;
+  }
+
+  BandedPair(const BandedPair&) = delete;
+  BandedPair& operator=(const BandedPair&) = delete;
+
+  void whiten(const Whitening& whitening, WhitenedPair& pair) const {
+    detail::whiten(a_, b_, whitening, pair);
+    if (!request_.hasBand()) return;
+    pair.band = std::make_shared<const BandMargin>(
+        request_.band_a.outward + request_.band_b.outward,
+        request_.band_a.inward + request_.band_b.inward, whitening.matrix());
+  }
+
+ private:
+  PartitionObject a_;
+  PartitionObject b_;
+  const ProbabilityRequest& request_;
+  PointMotion of_a_;
+  PointMotion of_b_;
+};
+
 QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
-                      const GaussianDisplacement& displacement) {
+                      const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening plain(displacement, unit);
-  WhitenedPair pair = whiten(a, b, plain);
+  const BandedPair banded(a, b, request);
+  WhitenedPair pair;
+  banded.whiten(plain, pair);
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
     return {plain, std::move(pair)};
   }
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
-  whiten(a, b, rotated, pair);
+  banded.whiten(rotated, pair);
   return {rotated, std::move(pair)};
 }
 
@@ -126,6 +163,12 @@ void describe(const QueryFrame& frame, bool solids, const ProbabilityRequest& re
                           std::to_string(3 - rank) + " axes left out of the cells");
   }
   if (request.gradient && rank < 3) result.plan.push_back(kNoGradient);
+  if (request.hasBand()) {
+    result.plan.push_back(
+        "holds for all shapes within bands of " +
+        numberText(request.band_a.outward + request.band_b.outward) + " m outwards and " +
+        numberText(request.band_a.inward + request.band_b.inward) + " m inwards, added up");
+  }
   if (solids) result.plan.push_back("containment decided once for every free cell");
 }
 
@@ -225,7 +268,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   StageClock clock(result.statistics);
   ProbabilityRequest request = whole_request;
   Bounds known{0.0, 1.0};
-  bool may_be_carved = !ball && mayBeCarved(a, b, displacement, request);
+  bool may_be_carved = !ball && !request.hasBand() && mayBeCarved(a, b, displacement, request);
   const auto carved = [&] {
     return carveInTime(a, b, displacement, whole_request, clock, known, result);
   };
@@ -233,7 +276,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
     if (carved()) return result;
     may_be_carved = false;
   }
-  const QueryFrame frame = queryFrame(a, b, displacement);
+  const QueryFrame frame = queryFrame(a, b, displacement, request);
   std::unique_ptr<SolidContact> solids;
   if (hasSolids(a) || hasSolids(b)) {
     solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);

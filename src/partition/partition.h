@@ -16,6 +16,9 @@ namespace fcl_prob::detail {
 /// `estimate` also an estimate; decision and gradient as the request asks. Poses must be
 /// rigid and the request valid. Objects with a `solid` count as solids, others as surfaces.
 ///
+/// With the request's bands the interval holds for all shapes within them; the objects may then
+/// have no motion of their own.
+///
 /// With a `ball` the interval is that of the probability of meeting and being within that ball of
 /// the whitened frame at once; neither an estimate nor a gradient may then be asked for.
 ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gaussian/constants.h"
+#include "partition/band_margin.h"
 #include "partition/cell_split.h"
 #include "partition/rounded_sum.h"
 
@@ -31,6 +32,11 @@ constexpr double kSamplesPerCell = 25;
 // larger more samples are drawn, so that a little more than half is quickest.
 constexpr double kDeviationShare = 0.6;
 
+// With bands around the shapes, cells after which the interval is looked at, again whenever there
+// are twice as many: what has left this share of its width is all that bands leave.
+constexpr std::size_t kFirstLookAtBand = 4000;
+constexpr double kStalled = 0.97;
+
 // The density changes over one standard deviation, a smaller C-obstacle over its own width.
 Eigen::Vector3d scalesOf(const WhitenedPair& pair) {
   const NodeBox box = obstacleBox(pair, {0, 0});
@@ -50,6 +56,8 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
       examiner_(pair, obstacles_, solids, request.gradient, statistics),
       ball_(ball),
       scales_(scalesOf(pair)),
+      band_(pair.band),
+      next_look_(kFirstLookAtBand),
       limits_(request, statistics) {
   Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
   const double reach = ball ? std::min(kReach, 1.001 * ball->radius()) : kReach;
@@ -72,12 +80,23 @@ void PartitionEngine::add(Examination&& examination) {
   settled_ += examination.settled;
   if (!examination.open) return;
   OpenCell& cell = *examination.open;
+  if (band_ && band_->isAllThatIsLeft(cell)) {
+    left_by_band_ += cell.gap();
+    return settleAsItIs(cell);
+  }
   open_.lower += cell.lower;
   open_.upper += cell.upper;
   open_deviation_ += cell.samplingDeviation();
   cell_memory_ += cell.memory();
   queue_.push_back(std::move(cell));
   std::push_heap(queue_.begin(), queue_.end(), smallerGap);
+}
+
+// Its gap stays for good.
+void PartitionEngine::settleAsItIs(const OpenCell& cell) {
+  settled_.mass.lower += cell.lower;
+  settled_.mass.upper += cell.upper;
+  settled_.moment_error += cell.upper * (1.0 + kReach);
 }
 
 void PartitionEngine::remove(const OpenCell& cell) {
@@ -100,12 +119,8 @@ void PartitionEngine::divideLargest() {
 void PartitionEngine::divide(const OpenCell& parent, double soon, int levels, std::size_t awaited) {
   const CellSplit split = chooseSplit(parent, scales_);
   if (split.axis < 0) {
-    // Its gap stays for good.
-    settled_.mass.lower += parent.lower;
-    settled_.mass.upper += parent.upper;
-    settled_.moment_error += parent.upper * (1.0 + kReach);
     indivisible_ = true;
-    return;
+    return settleAsItIs(parent);
   }
   for (const bool upper : {false, true}) {
     Cell half = parent.cell;
@@ -166,12 +181,14 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
       return ProbabilityStatus::decided;
     }
   }
-  if (queue_.empty()) {
+  if (queue_.empty() && !(left_by_band_ > 0.0)) {
     return indivisible_ ? ProbabilityStatus::resolution_limit : ProbabilityStatus::exact;
   }
   const double tolerance =
       std::max(request_.absolute_tolerance, request_.relative_tolerance * now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
+  const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
+  if (band_ && all_is_band) return ProbabilityStatus::band_limit;
   if (estimate && samplesNeeded() <= samplesAffordable()) return ProbabilityStatus::converged;
   return std::nullopt;
 }
@@ -224,9 +241,18 @@ std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
   return limits_.interruption(interval(), estimate ? EngineLimits::kShareForDividing : 1.0);
 }
 
+void PartitionEngine::lookAtBand() {
+  if (statistics_.cells < next_look_) return;
+  next_look_ = 2 * statistics_.cells;
+  const Bounds now = interval();
+  stalled_ = now.width() > kStalled * at_last_look_.width();
+  at_last_look_ = now;
+}
+
 ProbabilityStatus PartitionEngine::run(bool estimate) {
   std::optional<ProbabilityStatus> status;
   for (std::size_t step = 0; !status; ++step) {
+    if (band_) lookAtBand();
     if (++changes_since_recount_ * 4 > queue_.size()) recount();
     status = satisfied(estimate);
     if (status && changes_since_recount_ > 0) {

@@ -70,12 +70,14 @@ class PartitionEngine {
   void divideLargest();
   void divide(const OpenCell& parent, double soon, int levels, std::size_t awaited);
   void add(Examination&& examination);
+  void settleAsItIs(const OpenCell& cell);
   void remove(const OpenCell& cell);
   void recount();
   std::optional<ProbabilityStatus> satisfied(bool estimate) const;
   double samplesNeeded() const;
   double samplesAffordable() const;
   std::optional<ProbabilityStatus> limited(bool estimate) const;
+  void lookAtBand();
   bool hasCellsLeft(std::size_t awaited) const;  ///< beyond those that will be examined anyway
   std::size_t memory() const;
 
@@ -91,6 +93,11 @@ class PartitionEngine {
   double open_deviation_ = 0.0;  ///< sum over queue_ of bounds on the deviation of one sample
   double deviation_share_ = 1.0;
   bool indivisible_ = false;
+  std::shared_ptr<const BandMargin> band_;
+  double left_by_band_ = 0.0;  ///< of the width of the interval: what the bands leave open
+  bool stalled_ = false;       ///< the bands leave nearly all that is open
+  Bounds at_last_look_{0.0, 1.0};
+  std::size_t next_look_;
   std::size_t cell_memory_ = 0;
   std::size_t changes_since_recount_ = 0;
   EngineLimits limits_;

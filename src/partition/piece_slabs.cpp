@@ -166,8 +166,7 @@ PieceSlabs pieceSlabs(const WhitenedPair& pair, NodePair leaves) {
   for (const Edge& p : first.edges) {
     for (const Edge& q : second.edges) factors.add(p, q);
   }
-  PieceSlabs slabs =
-      factors.planes(extentOf(first, second, pair.a.errorOf(leaves.a) + pair.b.errorOf(leaves.b)));
+  PieceSlabs slabs = factors.planes(extentOf(first, second, slabError(pair, leaves)));
   mergeEqualNormals(slabs);
   double* out = slabs.data.data();
   for (int i = 0; i < slabs.count; ++i) {

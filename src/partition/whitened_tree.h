@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "fcl_prob/whitening.h"
@@ -95,9 +96,14 @@ struct WhitenedTree {
 /// Around tree->bodies[body], padded as the boxes of nodes.
 NodeBox bodyBox(const WhitenedTree& whitened, int body);
 
+class BandMargin;
+
 struct WhitenedPair {
   WhitenedTree a;
   WhitenedTree b;
+
+  /// What the bands around the two shapes do, which are all of their motions; null without bands.
+  std::shared_ptr<const BandMargin> band;
 };
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening);
@@ -111,6 +117,12 @@ struct NodePair {
   int a;
   int b;
 };
+
+/// Bound on the error of b - a over the points of two nodes, without what `band` pays for.
+inline Eigen::Vector3d slabError(const WhitenedPair& pair, NodePair nodes) {
+  if (pair.band) return pair.a.error + pair.b.error;
+  return pair.a.errorOf(nodes.a) + pair.b.errorOf(nodes.b);
+}
 
 /// Whether both nodes are leaves.
 inline bool areLeaves(const WhitenedPair& pair, NodePair nodes) {

@@ -14,6 +14,7 @@
 #include "montecarlo/sample_loop.h"
 #include "pose/configuration_estimate.h"
 #include "query/single_collide.h"
+#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {
@@ -232,6 +233,7 @@ double ConfigurationQuery::collisionProbability(const std::vector<Weighted>& mix
                                                 const ProbabilityRequest& request,
                                                 ProbabilityResult& result) const {
   validateRequest(request);
+  detail::refuseBand(request, "random configurations");
   const std::vector<double> weights = validatedWeights(mixture);
   if (request.method == ProbabilityMethod::monte_carlo) {
     result = implementation_->count(mixture, weights, request);

@@ -8,6 +8,7 @@
 #include "pose/configuration_estimate.h"
 #include "pose/pose_interval.h"
 #include "query/pair_query.h"
+#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {
@@ -62,6 +63,7 @@ double PreparedPoseQuery::collisionProbability(const fcl::Transform3d& pose_a,
                                           request);
     return result.probability();
   }
+  detail::refuseBand(request, "errors of a rotation");
   switch (request.method) {
     case ProbabilityMethod::automatic:
     case ProbabilityMethod::estimate:

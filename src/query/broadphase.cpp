@@ -12,6 +12,7 @@
 #include "query/call_budget.h"
 #include "query/object_pairs.h"
 #include "query/pair_query.h"
+#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {
@@ -106,6 +107,7 @@ class Broadphase {
 double answer(const ObjectPairs::Objects& a, const ObjectPairs::Objects& b,
               const BroadphaseRequest& request, BroadphaseResult& result) {
   validateRequest(request.query);
+  detail::refuseBand(request.query, "managers, which cull by the shapes as they are");
   result = Broadphase(a, b, request).answer();
   return result.any.middle();
 }
@@ -133,6 +135,7 @@ double collisionProbability(const Manager* manager, const BroadphaseRequest& req
 bool collisionProbabilityCallback(Object* a, Object* b, void* data) {
   auto& [request, result] = *static_cast<ProbabilityCallbackData*>(data);
   if (request.considers && !request.considers(*a, *b)) return false;
+  detail::refuseBand(request.query, "managers, which cull by the shapes as they are");
   const PreparedQuery query(a->collisionGeometry(), b->collisionGeometry());
   const auto displacement = GaussianDisplacement::fromIndependent(
       detail::displacementOf(*a, request), detail::displacementOf(*b, request));

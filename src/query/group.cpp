@@ -227,10 +227,13 @@ struct GroupQuery::Implementation {
     const detail::CallBudget budget(request);
     PlacedGroup placed_a(a, poses_a, request.contact);
     PlacedGroup placed_b(b, poses_b, request.contact);
+    if (request.hasBand() && (a.anyUnbounded() || b.anyUnbounded())) {
+      throw UnsupportedGeometry("a group with unbounded members knows no bands around its shapes");
+    }
     const double most = sumOfRootBounds(poses_a, poses_b, displacement, request);
     if (auto far = intervalOfSum(most, request)) return *far;
     // Those bounds are of contact, not of contact within an ellipsoid.
-    if (!ball) {
+    if (!ball && !request.hasBand()) {
       if (auto decided = decidedByPairs(poses_a, poses_b, displacement, request)) return *decided;
     }
     // At most one of the two has unbounded members.
@@ -239,7 +242,7 @@ struct GroupQuery::Implementation {
     ProbabilityResult result =
         detail::partitionProbability(placed_a.object(), placed_b.object(), displacement,
                                      detail::withTimeLeft(request, budget), ball);
-    if (displacement.rank() == 0 && *result.lower < *result.upper) {
+    if (displacement.rank() == 0 && !request.hasBand() && *result.lower < *result.upper) {
       return collided(poses_a, poses_b, displacement.mean(), request);
     }
     result.upper = std::max(*result.lower, std::min(*result.upper, most));
@@ -267,7 +270,8 @@ struct GroupQuery::Implementation {
   double sumOfRootBounds(const Poses& poses_a, const Poses& poses_b,
                          const GaussianDisplacement& displacement,
                          const ProbabilityRequest& request) const {
-    const bool wanted = !request.gradient && request.method != ProbabilityMethod::estimate;
+    const bool wanted =
+        !request.gradient && !request.hasBand() && request.method != ProbabilityMethod::estimate;
     if (!wanted || !a.haveRootBodies() || !b.haveRootBodies()) return 1.0;
     detail::RequestLimits limits(request, kShareOfRootBounds);
     // A larger sum ends no query.

@@ -54,6 +54,9 @@ struct QueryPair {
                             pair.name() + ": " + why);
 }
 
+constexpr const char* kSurfacesOnly =
+    "meshes are surfaces, as in fcl::collide: containment left out";
+
 QueryPlan planWithoutMotion(const QueryPair& pair, const ProbabilityRequest& request) {
   const std::string reason = "the covariance is 0: nothing is random";
   if (pair.anyUnbounded()) return {Route::unbounded_pair, false, {reason}};
@@ -64,6 +67,18 @@ QueryPlan planWithoutMotion(const QueryPair& pair, const ProbabilityRequest& req
   }
   return {
       Route::partition, false, {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
+}
+
+// Roots and shapes as they are say nothing of those within a band.
+QueryPlan planBanded(const QueryPair& pair, const ProbabilityRequest& request) {
+  if (!pair.anyUnbounded()) {
+    QueryPlan plan{Route::partition, false, {}};
+    if (request.contact == ContactMeaning::fcl && pair.anyMesh()) {
+      plan.notes.push_back(kSurfacesOnly);
+    }
+    return plan;
+  }
+  return {Route::unbounded_pair, false, {"a half-space or plane: closed form, bands included"}};
 }
 
 QueryPlan planUnbounded() {
@@ -83,7 +98,7 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
   if (request.contact == ContactMeaning::fcl && pair.anyMesh()) {
-    plan.notes.push_back("meshes are surfaces, as in fcl::collide: containment left out");
+    plan.notes.push_back(kSurfacesOnly);
   }
   return plan;
 }
@@ -137,6 +152,7 @@ QueryPlan planGeneralPcd(const QueryPair& pair, const ProbabilityRequest& reques
 QueryPlan planQuery(const PreparedGeometry& a, const PreparedGeometry& b,
                     const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   const QueryPair pair{a, b};
+  if (request.hasBand()) return planBanded(pair, request);
   if (displacement.rank() == 0) return planWithoutMotion(pair, request);
   switch (request.method) {
     case ProbabilityMethod::automatic:

@@ -3,6 +3,7 @@
 // Pairs whose displacement stays within an ellipsoid.
 #include <memory>
 
+#include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
@@ -56,6 +57,10 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
     result = answerOfGaussian(pose_a, pose_b, gaussian, truncated.requestOfContact());
     truncated.ofContact(result);
   } else {
+    if (request.hasBand() && (!a_->hasPieces() || !b_->hasPieces())) {
+      throw UnsupportedGeometry(
+          "bands around shapes, beside a half-space or plane: not for truncated displacements");
+    }
     PairSide side_a, side_b;
     if (a_->hasPieces()) side_a = boundedSide(*a_, pose_a, request.contact);
     if (b_->hasPieces()) side_b = boundedSide(*b_, pose_b, request.contact);

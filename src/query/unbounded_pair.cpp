@@ -166,6 +166,32 @@ void fillGradient(const DisplacementAlong& along, const ContactSet& set,
   result.gradient_upper = middle + half;
 }
 
+// The interval of each piece grows and shrinks at its ends; from below only one of them counts,
+// since the shapes may come apart where two of them meet.
+Bounds massWithBands(const DisplacementAlong& along, const ContactSet& set,
+                     const ProbabilityRequest& request) {
+  const double length = (1.0 + 1e-12) * set.normal.norm();
+  const double outward = length * (request.band_a.outward + request.band_b.outward);
+  const double inward = length * (request.band_a.inward + request.band_b.inward);
+  const auto grown = [](const LineInterval& interval, double by) -> LineInterval {
+    const auto rounding = [](double end) {
+      return std::isinf(end) ? 0.0 : 4 * kEpsilon * std::fabs(end);
+    };
+    const double sign = by < 0.0 ? -1.0 : 1.0;
+    return {interval.lo - by - sign * rounding(interval.lo),
+            interval.hi + by + sign * rounding(interval.hi)};
+  };
+  std::vector<LineInterval> possible;
+  double lower = 0.0;
+  for (const LineInterval& interval : set.intervals) {
+    possible.push_back(grown(interval, outward));
+    const LineInterval certain = grown(interval, -inward);
+    if (!(certain.lo < certain.hi)) continue;
+    lower = std::max(lower, along.mass({certain}, set.error).lower);
+  }
+  return {lower, along.mass(possible, set.error).upper};
+}
+
 }  // namespace
 
 ProbabilityResult unboundedPairProbability(const PlacedPair& pair,
@@ -176,7 +202,8 @@ ProbabilityResult unboundedPairProbability(const PlacedPair& pair,
   pair.b.solid(request.contact);
   const ContactSet set = contactSet(pair, displacement.mean());
   const DisplacementAlong along(displacement.withMean(Eigen::Vector3d::Zero()), set.normal);
-  const Bounds mass = along.mass(set.intervals, set.error);
+  const Bounds mass =
+      request.hasBand() ? massWithBands(along, set, request) : along.mass(set.intervals, set.error);
   ProbabilityResult result;
   result.method = ProbabilityMethod::exact;
   result.lower = mass.lower;
@@ -188,10 +215,15 @@ ProbabilityResult unboundedPairProbability(const PlacedPair& pair,
   const double tolerance =
       std::max(request.absolute_tolerance, request.relative_tolerance * mass.upper);
   // Where nothing moves across a plane that is touched, rounding decides.
-  result.status =
-      mass.width() <= tolerance ? ProbabilityStatus::exact : ProbabilityStatus::resolution_limit;
+  result.status = mass.width() <= tolerance ? ProbabilityStatus::exact
+                  : request.hasBand()       ? ProbabilityStatus::band_limit
+                                            : ProbabilityStatus::resolution_limit;
   result.decision = decisionOf(mass, request);
-  if (request.gradient) fillGradient(along, set, result);
+  if (request.gradient && request.hasBand()) {
+    result.plan.push_back("no gradient beside a half-space or plane with bands");
+  } else if (request.gradient) {
+    fillGradient(along, set, result);
+  }
   return result;
 }
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "fcl_prob/exceptions.h"
+#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {
@@ -56,6 +58,27 @@ void validateLimits(const ProbabilityRequest& request) {
   if (request.threads == 0) refuse("threads", 0.0, "at least 1");
 }
 
+void validateBand(const std::string& name, const Band& band) {
+  // Sums of a few of them must not overflow.
+  constexpr double kWidest = 1e100;
+  const auto require = [&](const char* side, double value) {
+    if (value >= 0.0 && value <= kWidest) return;
+    refuse((name + side).c_str(), value, "finite and not negative (metres)");
+  };
+  require(".outward", band.outward);
+  require(".inward", band.inward);
+}
+
+void validateBands(const ProbabilityRequest& request) {
+  validateBand("band_a", request.band_a);
+  validateBand("band_b", request.band_b);
+  const bool known = request.method == ProbabilityMethod::automatic ||
+                     request.method == ProbabilityMethod::interval;
+  if (!request.hasBand() || known) return;
+  throw InvalidRequest("method " + toString(request.method) +
+                       " knows no bands around the shapes: interval does");
+}
+
 }  // namespace
 
 void validateRequest(const ProbabilityRequest& request) {
@@ -71,6 +94,11 @@ void validateRequest(const ProbabilityRequest& request) {
     refuse("confidence", request.confidence, "between 0 and 1, both excluded");
   }
   validateLimits(request);
+  validateBands(request);
+}
+
+void detail::refuseBand(const ProbabilityRequest& request, const std::string& by) {
+  if (request.hasBand()) throw InvalidRequest("bands around the shapes: not for " + by);
 }
 
 std::string toString(ProbabilityMethod method) {

@@ -51,6 +51,8 @@ std::string toString(ProbabilityStatus status) {
       return "resolution-limit";
     case ProbabilityStatus::cancelled:
       return "cancelled";
+    case ProbabilityStatus::band_limit:
+      return "band-limit";
   }
   throw InvalidRequest("not a ProbabilityStatus: " + std::to_string(static_cast<int>(status)));
 }

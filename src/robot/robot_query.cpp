@@ -10,6 +10,7 @@
 #include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "query/prepared_geometry.h"
+#include "request/refuse_band.h"
 #include "robot/body_balls.h"
 #include "robot/obstacle_answer.h"
 
@@ -87,6 +88,7 @@ struct RobotQuery::Implementation {
   void validate(const std::vector<Eigen::VectorXd>& waypoints,
                 const ProbabilityRequest& request) const {
     validateRequest(request);
+    detail::refuseBand(request, "robots");
     if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
     for (const Eigen::VectorXd& values : waypoints) robot.validate(values);
   }
@@ -191,6 +193,7 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
                                const ProbabilityRequest& request) const {
   validateRequest(request);
+  detail::refuseBand(request, "robots");
   if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
   for (const Eigen::VectorXd& values : waypoints) robot().isWithinLimits(values);  // validates
   if (errors == ErrorsOverTime::persistent)

@@ -47,6 +47,37 @@ struct Cubes {
 
 }  // namespace
 
+TEST_CASE("check widens by bands around the shapes", "[cli]") {
+  const Cubes cubes;
+  const std::vector<std::string> base{cubes.file,      cubes.file, "--pose-a",
+                                      "1.2,0.13,0.07", "--sigma",  "0.1,0,0"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    return more;
+  };
+  const auto tail = [](double deviations) { return fcl_prob::normalTailMass(deviations); };
+  const json both = checkJson(with({"--band-a", "0.006", "--band-b", "0.004,0.014"}), cubes.folder);
+  CHECK(both.at("status") == "band-limit");
+  CHECK(both.at("upper").get<double>() >= tail(1.9));
+  CHECK(both.at("upper").get<double>() <= 1.1 * tail(1.9));
+  CHECK(both.at("lower").get<double>() <= tail(2.2));
+  CHECK(both.at("lower").get<double>() >= 0.9 * tail(2.2));
+
+  const std::string file =
+      cubes.folder.write("scene.json", R"({"a": {"mesh": "cube.obj", "pose": [1.2, 0.13, 0.07],
+      "band": [0.01]}, "b": {"mesh": "cube.obj"}, "displacement": {"sigma": [0.1, 0, 0]}})");
+  const json scene = checkJson({"--scene", file}, cubes.folder);
+  CHECK(scene.at("upper").get<double>() >= tail(1.9));
+  CHECK(scene.at("lower").get<double>() <= tail(2.1));
+
+  for (const char* bad : {"-0.1", "x", "1,2,3", "nan"}) {
+    const CommandResult refused = runCommand(
+        {"check", cubes.file, cubes.file, "--sigma", "0.1,0,0", "--band-a", bad}, cubes.folder);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("--band-a") != std::string::npos);
+  }
+}
+
 TEST_CASE("check takes errors of a pose", "[cli][slow]") {
   const Cubes cubes;
   const std::vector<std::string> base{cubes.file, cubes.file, "--pose-a", "1.2,0.13,0.07"};
@@ -137,8 +168,7 @@ TEST_CASE("the JSON of check has every field of the contract", "[cli]") {
 TEST_CASE("a gradient is computed only when asked for, and its price is told", "[cli]") {
   const TemporaryFolder folder;
   const auto answer = [&](std::vector<std::string> more) {
-    more.insert(more.begin(),
-                {"--scene", dataFile("two_boxes.json"), "--sigma", "0.08,0.05,0.02"});
+    more.insert(more.begin(), {"--scene", dataFile("two_boxes.json"), "--sigma", "0.08,0.05,0.02"});
     return checkJson(more, folder);
   };
   const json without = answer({});
