@@ -16,6 +16,9 @@
 #include "cli/path_command.h"
 #endif
 #include "cli/sweep_command.h"
+#ifdef FCL_PROB_HAS_CLOUD
+#include "cli/reconstruct_command.h"
+#endif
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::cli {
@@ -40,6 +43,9 @@ int parseAndRun(int argc, const char* const* argv) {
   addSweepCommand(app, exit_code);
 #ifdef FCL_PROB_HAS_ROBOT
   addPathCommand(app, exit_code);
+#endif
+#ifdef FCL_PROB_HAS_CLOUD
+  addReconstructCommand(app, exit_code);
 #endif
   try {
     app.parse(argc, argv);

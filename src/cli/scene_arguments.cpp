@@ -6,23 +6,9 @@
 
 #include "cli/geometry.h"
 #include "io/quantities.h"
-#include "io/text_reader.h"
 
 namespace fcl_prob::cli {
 namespace {
-
-detail::Numbers numbersFrom(const std::string& text) {
-  detail::Numbers numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string_view word = std::string_view(text).substr(begin, end - begin);
-    const std::optional<double> number = detail::parseNumber(word);
-    if (!number) throw InvalidRequest(detail::inQuotes(word) + " is not a number");
-    numbers.push_back(*number);
-    begin = end + 1;
-  }
-  return numbers;
-}
 
 /// Runs `convert` and puts the name of the option before whatever it complains of.
 template <typename Convert>
@@ -36,30 +22,31 @@ auto ofOption(const std::string& option, const Convert& convert) {
 
 std::optional<fcl::Transform3d> poseOption(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  return ofOption(option, [&] { return detail::poseFrom(numbersFrom(text)); });
+  return ofOption(option, [&] { return detail::poseFrom(detail::numberList(text)); });
 }
 
 std::optional<Band> bandOption(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  return ofOption(option, [&] { return detail::bandFrom(numbersFrom(text)); });
+  return ofOption(option, [&] { return detail::bandFrom(detail::numberList(text)); });
 }
 
 GaussianDisplacement displacementFrom(const SceneArguments& arguments) {
   const Eigen::Vector3d mean =
       arguments.mean.empty() ? Eigen::Vector3d::Zero() : ofOption("--mean", [&] {
-        return detail::vectorFrom(numbersFrom(arguments.mean), "a mean");
+        return detail::vectorFrom(detail::numberList(arguments.mean), "a mean");
       });
   if (!arguments.covariance.empty()) {
     return ofOption("--covariance", [&] {
-      return GaussianDisplacement(mean, detail::covarianceFrom(numbersFrom(arguments.covariance)));
+      return GaussianDisplacement(mean,
+                                  detail::covarianceFrom(detail::numberList(arguments.covariance)));
     });
   }
   const Eigen::Quaterniond axes =
       arguments.sigma_axes.empty() ? Eigen::Quaterniond::Identity() : ofOption("--sigma-axes", [&] {
-        return detail::quaternionFrom(numbersFrom(arguments.sigma_axes));
+        return detail::quaternionFrom(detail::numberList(arguments.sigma_axes));
       });
   return ofOption("--sigma", [&] {
-    const Eigen::Vector3d sigma = detail::vectorFrom(numbersFrom(arguments.sigma), "sigma");
+    const Eigen::Vector3d sigma = detail::vectorFrom(detail::numberList(arguments.sigma), "sigma");
     return GaussianDisplacement::fromStandardDeviations(sigma, axes, mean);
   });
 }
@@ -71,12 +58,12 @@ PoseError poseErrorFrom(const SceneArguments& arguments) {
   }
   if (!arguments.pose_covariance.empty()) {
     return ofOption("--pose-covariance", [&] {
-      return PoseError(detail::poseCovarianceFrom(numbersFrom(arguments.pose_covariance)),
+      return PoseError(detail::poseCovarianceFrom(detail::numberList(arguments.pose_covariance)),
                        convention);
     });
   }
   return ofOption("--pose-sigma", [&] {
-    return detail::poseErrorFrom(detail::sixFrom(numbersFrom(arguments.pose_sigma), "it"),
+    return detail::poseErrorFrom(detail::sixFrom(detail::numberList(arguments.pose_sigma), "it"),
                                  convention, PoseError::Vector6::Zero());
   });
 }
@@ -99,7 +86,8 @@ void applyDisplacement(const SceneArguments& arguments, Scene& scene) {
   if (!arguments.mean.empty()) {
     if (scene.pose_error) throw InvalidRequest("--mean: the scene file has a pose_error");
     scene.displacement = ofOption("--mean", [&] {
-      return scene.displacement.withMean(detail::vectorFrom(numbersFrom(arguments.mean), "a mean"));
+      return scene.displacement.withMean(
+          detail::vectorFrom(detail::numberList(arguments.mean), "a mean"));
     });
   }
 }

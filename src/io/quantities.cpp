@@ -2,10 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "io/quantities.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
+#include "io/text_reader.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -18,6 +20,19 @@ bool allFinite(const Numbers& numbers) {
 }
 
 }  // namespace
+
+Numbers numberList(const std::string& text) {
+  Numbers numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string_view word = std::string_view(text).substr(begin, end - begin);
+    const std::optional<double> number = parseNumber(word);
+    if (!number) throw InvalidRequest(inQuotes(word) + " is not a number");
+    numbers.push_back(*number);
+    begin = end + 1;
+  }
+  return numbers;
+}
 
 Eigen::Quaterniond quaternionFrom(const Numbers& numbers) {
   if (numbers.size() != 4 || !allFinite(numbers)) {

@@ -16,6 +16,9 @@ namespace fcl_prob::detail {
 
 using Numbers = std::vector<double>;
 
+/// Numbers with commas between them. \throws InvalidRequest naming what is none
+Numbers numberList(const std::string& text);
+
 /// x, y, z or x, y, z, qw, qx, qy, qz in metres; the quaternion is normalised.
 /// \throws InvalidPose if there are not 3 or 7 finite numbers, or the quaternion is zero.
 fcl::Transform3d poseFrom(const Numbers& numbers);

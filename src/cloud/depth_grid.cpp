@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cloud/depth_grid.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fcl_prob/exceptions.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Neighbours farther apart in depth than so many times their distance across are no surface: seen
+// at less than 11°; nor are those beyond so many deviations of the noise.
+constexpr double kSteepest = 5.0;
+constexpr double kNoiseJump = 5.0;
+
+constexpr std::array<std::array<int, 2>, 4> kNeighbours{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Of an image the rays turn the same way from pixel to pixel.
+void requireImage(const DepthGrid& grid) {
+  std::size_t right = 0, left = 0;
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u + 1 < grid.width; ++u) {
+      if (!grid.has(u, v) || !grid.has(u + 1, v)) continue;
+      const double turn = grid.rays[grid.at(u + 1, v)].x() - grid.rays[grid.at(u, v)].x();
+      ++(turn > 0.0 ? right : left);
+    }
+  }
+  const std::size_t all = right + left;
+  if (all > 0 && 20 * std::min(right, left) > all) {
+    throw InvalidGeometry(
+        "an organised cloud whose points do not lie on rays from its viewpoint: where was the "
+        "sensor?");
+  }
+}
+
+double pitchOf(const DepthGrid& grid) {
+  std::vector<double> steps;
+  for (int v = 0; v < grid.height; v += 3) {
+    for (int u = 0; u + 1 < grid.width; u += 3) {
+      if (!grid.has(u, v) || !grid.has(u + 1, v)) continue;
+      steps.push_back((grid.rays[grid.at(u + 1, v)] - grid.rays[grid.at(u, v)]).norm());
+    }
+  }
+  return median(std::move(steps));
+}
+
+// Calls function(neighbour pixel) for the four neighbours that belong to the image.
+template <typename Function>
+void visitNeighbours(const DepthGrid& grid, int pixel, const Function& function) {
+  const int u = pixel % grid.width, v = pixel / grid.width;
+  for (const auto& [du, dv] : kNeighbours) {
+    if (u + du < 0 || v + dv < 0 || u + du >= grid.width || v + dv >= grid.height) continue;
+    function(grid.at(u + du, v + dv));
+  }
+}
+
+}  // namespace
+
+bool DepthGrid::connected(int p, int q, int apart) const {
+  if (!(inverse[p] > 0.0) || !(inverse[q] > 0.0)) return false;
+  const double near = 1.0 / std::max(inverse[p], inverse[q]);
+  const double far = 1.0 / std::min(inverse[p], inverse[q]);
+  const double noise = kNoiseJump * std::max(deviation[p], deviation[q]);
+  return far - near <= std::max(kSteepest * apart * pitch * far, noise);
+}
+
+DepthGrid depthGrid(const PointCloud& cloud, const std::vector<std::uint8_t>& keep) {
+  DepthGrid grid;
+  grid.width = static_cast<int>(cloud.width);
+  grid.height = static_cast<int>(cloud.height);
+  grid.sensor = cloud.sensor;
+  const std::size_t count = cloud.points.size();
+  grid.rays.assign(count, Eigen::Vector3d::Zero());
+  grid.inverse.assign(count, 0.0);
+  grid.deviation.assign(count, 0.0);
+  grid.incidence.assign(count, 0.0);
+  grid.region.assign(count, -1);
+  const Eigen::Isometry3d to_sensor = cloud.sensor.inverse();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!keep[i]) continue;
+    const Eigen::Vector3d q = to_sensor * cloud.points[i];
+    const double depth = std::fabs(q.z());
+    if (!(depth > 1e-6 * q.norm())) continue;
+    grid.rays[i] = q / depth;
+    grid.inverse[i] = 1.0 / depth;
+  }
+  requireImage(grid);
+  grid.pitch = pitchOf(grid);
+  return grid;
+}
+
+void judgeNoise(const SensorModel& sensor, DepthGrid& grid) {
+  // A first look without slopes, by which pixels are told to be on one surface.
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (grid.inverse[i] > 0.0) grid.deviation[i] = sensor(1.0 / grid.inverse[i], 0.0).axial;
+  }
+  DepthGrid smooth = grid;
+  average(2, smooth);
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      const int pixel = grid.at(u, v);
+      if (!grid.has(u, v)) continue;
+      Eigen::Vector3d along[2];
+      for (int axis = 0; axis < 2; ++axis) {
+        const int du = axis == 0 ? 1 : 0, dv = 1 - du;
+        int from = pixel, to = pixel;
+        if (grid.has(u - du, v - dv) && smooth.connected(grid.at(u - du, v - dv), pixel)) {
+          from = grid.at(u - du, v - dv);
+        }
+        if (grid.has(u + du, v + dv) && smooth.connected(grid.at(u + du, v + dv), pixel)) {
+          to = grid.at(u + du, v + dv);
+        }
+        along[axis] =
+            smooth.rays[to] / smooth.inverse[to] - smooth.rays[from] / smooth.inverse[from];
+      }
+      const Eigen::Vector3d normal = along[0].cross(along[1]);
+      const double cosine = normal.norm() > 0.0 ? std::fabs(normal.dot(smooth.rays[pixel])) /
+                                                      (normal.norm() * smooth.rays[pixel].norm())
+                                                : 1.0;
+      const double incidence = std::acos(std::clamp(cosine, 0.0, 1.0));
+      const PointNoise noise = sensor(1.0 / grid.inverse[pixel], incidence);
+      const double slope = std::min(std::tan(std::min(incidence, 1.45)), kSteepest);
+      grid.incidence[pixel] = incidence;
+      grid.deviation[pixel] = std::hypot(noise.axial, slope * noise.lateral);
+    }
+  }
+}
+
+double average(int window, DepthGrid& grid) {
+  if (window <= 0) return 1.0;
+  std::vector<double> inverse(grid.size(), 0.0), deviation(grid.size(), 0.0);
+  double averaged = 0.0;
+  std::size_t pixels = 0;
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      const int pixel = grid.at(u, v);
+      if (!grid.has(u, v)) continue;
+      Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+      Eigen::Vector3d right = Eigen::Vector3d::Zero();
+      int count = 0;
+      for (int dv = -window; dv <= window; ++dv) {
+        for (int du = -window; du <= window; ++du) {
+          if (!grid.has(u + du, v + dv)) continue;
+          const int other = grid.at(u + du, v + dv);
+          if (!grid.connected(pixel, other, std::max(std::abs(du), std::abs(dv)))) continue;
+          const Eigen::Vector3d basis(1.0, du, dv);
+          normal += basis * basis.transpose();
+          right += basis * grid.inverse[other];
+          ++count;
+        }
+      }
+      inverse[pixel] = grid.inverse[pixel];
+      deviation[pixel] = grid.deviation[pixel];
+      ++pixels;
+      averaged += count;
+      // In a line, or nearly so, there is no plane through them.
+      if (count < 6 || normal.determinant() < 1e-3 * count) continue;
+      const Eigen::Matrix3d solved = normal.inverse();
+      const double value = solved.row(0).dot(right);
+      if (!(value > 0.0)) continue;
+      inverse[pixel] = value;
+      deviation[pixel] = grid.deviation[pixel] * std::sqrt(std::min(1.0, solved(0, 0)));
+    }
+  }
+  grid.inverse.swap(inverse);
+  grid.deviation.swap(deviation);
+  return pixels == 0 ? 1.0 : averaged / static_cast<double>(pixels);
+}
+
+std::vector<std::size_t> findRegions(std::size_t least, DepthGrid& grid) {
+  std::vector<std::size_t> sizes;
+  std::vector<int> stack, members;
+  std::vector<std::uint8_t> seen(grid.size(), 0);
+  grid.region.assign(grid.size(), -1);
+  for (int start = 0; start < static_cast<int>(grid.size()); ++start) {
+    if (seen[start] || !(grid.inverse[start] > 0.0)) continue;
+    stack.assign(1, start);
+    members.clear();
+    seen[start] = 1;
+    while (!stack.empty()) {
+      const int pixel = stack.back();
+      stack.pop_back();
+      members.push_back(pixel);
+      visitNeighbours(grid, pixel, [&](int other) {
+        if (seen[other] || !grid.connected(pixel, other)) return;
+        seen[other] = 1;
+        stack.push_back(other);
+      });
+    }
+    const bool kept = members.size() >= least;
+    for (const int pixel : members) {
+      if (kept) {
+        grid.region[pixel] = static_cast<int>(sizes.size());
+      } else {
+        grid.inverse[pixel] = 0.0;
+      }
+    }
+    if (kept) sizes.push_back(members.size());
+  }
+  return sizes;
+}
+
+namespace {
+
+/// Connected pixels without depth that do not reach the border.
+std::vector<std::vector<int>> holesOf(const DepthGrid& grid) {
+  std::vector<std::vector<int>> holes;
+  std::vector<std::uint8_t> seen(grid.size(), 0);
+  std::vector<int> stack;
+  for (int start = 0; start < static_cast<int>(grid.size()); ++start) {
+    if (seen[start] || grid.inverse[start] > 0.0) continue;
+    std::vector<int> members;
+    bool at_border = false;
+    stack.assign(1, start);
+    seen[start] = 1;
+    while (!stack.empty()) {
+      const int pixel = stack.back();
+      stack.pop_back();
+      members.push_back(pixel);
+      const int u = pixel % grid.width, v = pixel / grid.width;
+      at_border = at_border || u == 0 || v == 0 || u == grid.width - 1 || v == grid.height - 1;
+      visitNeighbours(grid, pixel, [&](int other) {
+        if (seen[other] || grid.inverse[other] > 0.0) return;
+        seen[other] = 1;
+        stack.push_back(other);
+      });
+    }
+    if (!at_border) holes.push_back(std::move(members));
+  }
+  return holes;
+}
+
+// The least depth around a hole, as an inverse.
+double nearestAround(const DepthGrid& grid, const std::vector<int>& hole) {
+  double nearest = 0.0;
+  for (const int pixel : hole) {
+    visitNeighbours(grid, pixel,
+                    [&](int other) { nearest = std::max(nearest, grid.inverse[other]); });
+  }
+  return nearest;
+}
+
+// The rays of pixels without depth, by the linear model that fits those of the others.
+void fillRays(DepthGrid& grid) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
+  for (int pixel = 0; pixel < static_cast<int>(grid.size()); ++pixel) {
+    if (!(grid.inverse[pixel] > 0.0)) continue;
+    const Eigen::Vector3d basis(1.0, pixel % grid.width, pixel / grid.width);
+    normal += basis * basis.transpose();
+    right += basis * grid.rays[pixel].transpose();
+  }
+  const Eigen::Matrix3d model = normal.fullPivLu().solve(right);
+  for (int pixel = 0; pixel < static_cast<int>(grid.size()); ++pixel) {
+    if (grid.inverse[pixel] > 0.0) continue;
+    grid.rays[pixel] =
+        model.transpose() * Eigen::Vector3d(1.0, pixel % grid.width, pixel / grid.width);
+  }
+}
+
+}  // namespace
+
+double largestHole(const DepthGrid& grid) {
+  double largest = 0.0;
+  for (const std::vector<int>& hole : holesOf(grid)) {
+    int lo_u = grid.width, hi_u = 0, lo_v = grid.height, hi_v = 0;
+    for (const int pixel : hole) {
+      lo_u = std::min(lo_u, pixel % grid.width);
+      hi_u = std::max(hi_u, pixel % grid.width);
+      lo_v = std::min(lo_v, pixel / grid.width);
+      hi_v = std::max(hi_v, pixel / grid.width);
+    }
+    const double across = std::hypot(hi_u - lo_u + 2, hi_v - lo_v + 2) * grid.pitch;
+    const double nearest = nearestAround(grid, hole);
+    if (nearest > 0.0) largest = std::max(largest, across / nearest);
+  }
+  return largest;
+}
+
+DepthGrid grown(const DepthGrid& grid, int margin, bool fill) {
+  DepthGrid result = grid;
+  fillRays(result);
+  for (int step = 0; step < margin; ++step) {
+    const std::vector<double> before = result.inverse;
+    for (int pixel = 0; pixel < static_cast<int>(result.size()); ++pixel) {
+      if (before[pixel] > 0.0) continue;
+      int nearest = -1;
+      visitNeighbours(result, pixel, [&](int other) {
+        if (before[other] > 0.0 && (nearest < 0 || before[other] > before[nearest]))
+          nearest = other;
+      });
+      if (nearest < 0) continue;
+      result.inverse[pixel] = before[nearest];
+      result.deviation[pixel] = result.deviation[nearest];
+      result.region[pixel] = result.region[nearest];
+    }
+  }
+  if (!fill) return result;
+  for (const std::vector<int>& hole : holesOf(result)) {
+    const double nearest = nearestAround(result, hole);
+    for (const int pixel : hole) result.inverse[pixel] = nearest;
+  }
+  return result;
+}
+
+}  // namespace fcl_prob::detail
