@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 
+#include "fcl_prob/band.h"
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/mesh_io.h"
 #include "fcl_prob/pose_error.h"
@@ -30,6 +31,15 @@ struct SceneObject {
   std::variant<MeshFile, PrimitiveShape> shape;
   fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
   Band band;  ///< metres, after scale and normalisation; of the request, too
+
+  /// Of a reconstructed cloud: `shape` is what was seen, from which lower bounds follow, and this
+  /// is what may be there, from which upper bounds follow.
+  std::optional<MeshFile> possible = std::nullopt;
+  bool possible_is_solid = false;  ///< it is closed, and what is inside it counts
+
+  /// Errors that all of it shares, in its own frame, square metres: to be added to the
+  /// displacement.
+  Eigen::Matrix3d shared_covariance = Eigen::Matrix3d::Zero();
 };
 
 struct Scene {
@@ -45,6 +55,17 @@ struct Scene {
 /// Makes A's pose the one that is random: sets `pose_error` and, for what only knows translations,
 /// `displacement`. The pose of A must be set before.
 void setPoseError(const PoseError& error, Scene& scene);
+
+/// An occupancy map (.bt, .ot), with its resolution as a band. \throws FileError
+SceneObject octomapObject(const std::string& path, bool unknown_is_occupied);
+
+/// What `fcl_prob reconstruct` made of a cloud: its JSON file. The meshes are not read.
+/// \throws FileError
+SceneObject cloudObject(const std::string& json_path);
+
+/// Adds what the two objects' points share to the displacement. \throws InvalidRequest if the
+/// scene has a pose_error
+void addSharedErrors(Scene& scene);
 
 /// Reads a scene file. Mesh paths are relative to the folder of the scene file; the meshes
 /// themselves are not read. \throws FileError naming the file and the key: not JSON, a key that is

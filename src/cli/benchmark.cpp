@@ -2,6 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/benchmark.h"
 
+#ifdef FCL_PROB_HAS_CLOUD
+#include "cli/bench_clouds.h"
+#endif
+
 namespace fcl_prob::cli {
 
 std::string BenchReport::markdown() const {
@@ -13,6 +17,10 @@ const std::vector<Benchmark>& benchmarks() {
       {"certified",
        "intervals, estimates and decisions against 10,000 calls of fcl::collide, on six scenes",
        true, benchCertified},
+#ifdef FCL_PROB_HAS_CLOUD
+      {"cloud", "rendered depth images of three objects against the objects themselves", true,
+       benchCloud},
+#endif
       {"conjunction", "2,170 encounters of satellites against what their file says of them", true,
        benchConjunction},
       {"parts", "100 random scenes of robot parts and a can beside a human arm", true, benchParts},

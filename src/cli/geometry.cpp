@@ -54,6 +54,10 @@ LoadedObject loadObject(const SceneObject& object) {
   } else {
     result.shape = std::get<PrimitiveShape>(object.shape);
   }
+  if (object.possible) {
+    result.possible = loadMeshIsolated(object.possible->path, object.possible->options);
+    result.possible_is_solid = object.possible_is_solid;
+  }
   return result;
 }
 
@@ -62,6 +66,11 @@ Geometry buildGeometry(const LoadedObject& object, const std::string& bounding_v
     return buildTree(*mesh, bounding_volume);
   }
   return std::get<PrimitiveShape>(object.shape);
+}
+
+Geometry buildPossible(const LoadedObject& object, const std::string& bounding_volume) {
+  return object.possible ? buildTree(*object.possible, bounding_volume)
+                         : buildGeometry(object, bounding_volume);
 }
 
 }  // namespace fcl_prob::cli

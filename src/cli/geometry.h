@@ -27,11 +27,18 @@ Geometry buildTree(const TriangleMesh& mesh, const std::string& bounding_volume)
 struct LoadedObject {
   std::variant<TriangleMesh, PrimitiveShape> shape;
   fcl::Transform3d pose;
+
+  /// See SceneObject.
+  std::optional<TriangleMesh> possible = std::nullopt;
+  bool possible_is_solid = false;
 };
 
 /// Reads the mesh file in a child process (see loadMeshIsolated()). \throws FileError,
 /// InvalidGeometry
 LoadedObject loadObject(const SceneObject& object);
+
+/// The same of what may be there: of `possible`, where there is one.
+Geometry buildPossible(const LoadedObject& object, const std::string& bounding_volume);
 
 /// The primitive itself, or the tree over the mesh.
 Geometry buildGeometry(const LoadedObject& object, const std::string& bounding_volume);

@@ -6,6 +6,7 @@
 
 #include "cli/number_text.h"
 #include "cli/stopwatch.h"
+#include "query/single_collide.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -65,6 +66,13 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
     query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
                                              buildGeometry(b_, bounding_volume));
   }
+  if (a_.possible || b_.possible) {
+    if (!query_) {
+      throw InvalidRequest("a reconstructed cloud: not for parts, own volumes and errors of poses");
+    }
+    possible_query_ = std::make_unique<PreparedQuery>(buildPossible(a_, bounding_volume),
+                                                      buildPossible(b_, bounding_volume));
+  }
   build_ms_ = watch.milliseconds();
 }
 
@@ -95,11 +103,40 @@ TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   } else if (own_trees_) {
     timed.result = boundByOwnTrees(request);
   } else {
-    query_->collisionProbability(a_.pose, b_.pose, displacement_, request, timed.result);
+    timed.result = betweenTwo(request);
   }
   timed.time_ms = watch.milliseconds();
   for (std::string& note : importNotes()) timed.result.plan.push_back(std::move(note));
   return timed;
+}
+
+ProbabilityResult PreparedScene::betweenTwo(const ProbabilityRequest& request) const {
+  ProbabilityResult result;
+  if (!possible_query_) {
+    query_->collisionProbability(a_.pose, b_.pose, displacement_, request, result);
+    return result;
+  }
+  // What one of the two decides is not decided.
+  ProbabilityRequest of_one = request;
+  of_one.threshold.reset();
+  of_one.gradient = false;
+  query_->collisionProbability(a_.pose, b_.pose, displacement_, of_one, result);
+  if (!result.lower || !result.upper || result.estimate) {
+    throw InvalidRequest("a reconstructed cloud is for methods auto and interval");
+  }
+  if (a_.possible_is_solid || b_.possible_is_solid) of_one.contact = ContactMeaning::solid;
+  ProbabilityResult possible;
+  possible_query_->collisionProbability(a_.pose, b_.pose, displacement_, of_one, possible);
+  if (stoppedByLimit(possible.status)) result.status = possible.status;
+  result.upper = std::max(*result.lower, *possible.upper);
+  result.statistics.cells += possible.statistics.cells;
+  result.decision = detail::decisionOf({*result.lower, *result.upper}, request);
+  if (result.decision == Decision::below || result.decision == Decision::above) {
+    result.status = ProbabilityStatus::decided;
+  }
+  result.plan.push_back(
+      "lower bound by the surface that was seen, upper bound by what may be there");
+  return result;
 }
 
 ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& request) const {

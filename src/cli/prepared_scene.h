@@ -59,6 +59,9 @@ class PreparedScene {
   /// What the loader rounded, where that is not small beside the standard deviations.
   std::vector<std::string> importNotes() const;
 
+  /// Lower bounds by what was seen, upper ones by what may be there.
+  ProbabilityResult betweenTwo(const ProbabilityRequest& request) const;
+
   ProbabilityResult boundByOwnTrees(const ProbabilityRequest& request) const;
 
   LoadedObject a_;
@@ -68,6 +71,7 @@ class PreparedScene {
   double build_ms_ = 0.0;
   std::unique_ptr<PreparedQuery> query_;
   std::unique_ptr<PreparedPoseQuery> pose_query_;  ///< instead, with a pose error
+  std::unique_ptr<PreparedQuery> possible_query_;  ///< besides, where a cloud is among the objects
   std::unique_ptr<TreePair> own_trees_;            ///< of bounding volumes that FCL does not have
   std::unique_ptr<PartsScene> parts_;
   PartsUse use_of_parts_;

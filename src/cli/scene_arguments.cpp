@@ -3,9 +3,11 @@
 #include "cli/scene_arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "cli/geometry.h"
 #include "io/quantities.h"
+#include "io/text_reader.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -132,20 +134,36 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   if (arguments.gradient) request.gradient = true;
 }
 
+/// A mesh, a map, or what was made of a cloud, by the ending of the file's name.
+SceneObject objectFrom(const std::string& path, const SceneArguments& arguments) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".bt" || ending == ".ot") {
+    return octomapObject(path, arguments.unknown_cells == "occupied");
+  }
+  if (ending == ".json") return cloudObject(path);
+  SceneObject object;
+  object.shape = MeshFile{path, {}};
+  return object;
+}
+
 Scene baseScene(const SceneArguments& arguments) {
   if (!arguments.scene_file.empty()) return loadScene(arguments.scene_file);
   if (arguments.mesh_b.empty()) throw InvalidRequest("needs two mesh files, or --scene FILE.json");
   Scene scene;
-  scene.a.shape = MeshFile{arguments.mesh_a, {}};
-  scene.b.shape = MeshFile{arguments.mesh_b, {}};
+  scene.a = objectFrom(arguments.mesh_a, arguments);
+  scene.b = objectFrom(arguments.mesh_b, arguments);
+  scene.request.band_a = scene.a.band;
+  scene.request.band_b = scene.b.band;
   return scene;
 }
 
 }  // namespace
 
 void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
-  auto* mesh_a = command.add_option("A", arguments.mesh_a, "Mesh file of the displaced object");
-  auto* mesh_b = command.add_option("B", arguments.mesh_b, "Mesh file of the other object");
+  auto* mesh_a = command.add_option(
+      "A", arguments.mesh_a,
+      "The displaced object: a mesh, an OctoMap file, or the report of reconstruct");
+  auto* mesh_b = command.add_option("B", arguments.mesh_b, "The other object");
   command.add_option("--scene", arguments.scene_file, "Scene file (JSON) instead of A and B")
       ->excludes(mesh_a)
       ->excludes(mesh_b);
@@ -155,6 +173,10 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--scale-b", arguments.scale_b, "Factor on the coordinates of B");
   command.add_option("--pose-a", arguments.pose_a, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
   command.add_option("--pose-b", arguments.pose_b, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
+  command
+      .add_option("--unknown-cells", arguments.unknown_cells,
+                  "Of OctoMap files: what is made of cells that they say nothing about")
+      ->check(CLI::IsMember({"free", "occupied"}));
   command.add_option("--band-a", arguments.band_a,
                      "How far the true shape of A may be from its model: d or outward,inward in "
                      "metres");
@@ -220,7 +242,12 @@ Scene sceneFrom(const SceneArguments& arguments) {
   if (const auto band = bandOption("--band-a", arguments.band_a)) scene.request.band_a = *band;
   if (const auto band = bandOption("--band-b", arguments.band_b)) scene.request.band_b = *band;
   if (const auto pose = poseOption("--pose-b", arguments.pose_b)) scene.b.pose = *pose;
+  const bool displaced_by_options = !arguments.covariance.empty() || !arguments.sigma.empty() ||
+                                    !arguments.pose_sigma.empty() ||
+                                    !arguments.pose_covariance.empty();
   applyDisplacement(arguments, scene);
+  // Those of a scene file's displacement are in it.
+  if (displaced_by_options) addSharedErrors(scene);
   applyRequest(arguments, scene.request);
   return scene;
 }

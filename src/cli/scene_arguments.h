@@ -25,6 +25,7 @@ struct SceneArguments {
   std::optional<double> scale_b;
   std::string pose_a;
   std::string pose_b;
+  std::string unknown_cells = "free";
   std::string band_a;
   std::string band_b;
   std::string covariance;

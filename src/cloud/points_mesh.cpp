@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cloud/points_mesh.h"
 
+#include <pcl/console/print.h>
 #include <pcl/features/normal_3d.h>
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/kdtree/kdtree_flann.h>
@@ -21,6 +22,18 @@ using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
 
 // Points that one is averaged with, and that give it a normal.
 constexpr int kNeighbours = 20;
+
+/// PCL prints what it finds odd about a cloud.
+class Silence {
+ public:
+  Silence() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
+  ~Silence() { pcl::console::setVerbosityLevel(before_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
+};
 
 // PCL computes in single precision: relative to the middle of the points.
 Eigen::Vector3d middleOf(const Points& points) {
@@ -130,6 +143,7 @@ std::vector<std::uint8_t> inliers(const Points& points) {
 }
 
 PointsMesh meshOfPoints(const Points& points, const Eigen::Vector3d& eye, PointMeshing meshing) {
+  const Silence silence;
   const Eigen::Vector3d middle = middleOf(points);
   const Eigen::Vector3f near_eye = (eye - middle).cast<float>();
   PointsMesh result;

@@ -34,6 +34,25 @@ MeshFile readMeshFile(StrictObject& object, const std::filesystem::path& folder)
   return mesh;
 }
 
+void readPose(StrictObject& object, SceneObject& result) {
+  if (!object.has("pose")) return;
+  const std::vector<double> numbers = object.numbers("pose");
+  result.pose = located(object, "pose", [&] { return poseFrom(numbers); });
+}
+
+// A map or a reconstructed cloud, which come with bands of their own.
+SceneObject readMeasured(StrictObject& object, const std::filesystem::path& folder) {
+  if (object.has("cloud")) {
+    return cloudObject((folder / object.text("cloud")).lexically_normal().string());
+  }
+  const std::string path = (folder / object.text("octomap")).lexically_normal().string();
+  const std::string unknown = object.has("unknown") ? object.text("unknown") : "free";
+  if (unknown != "free" && unknown != "occupied") {
+    object.fail("unknown", "neither free nor occupied");
+  }
+  return octomapObject(path, unknown == "occupied");
+}
+
 }  // namespace
 
 SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& folder) {
@@ -46,15 +65,14 @@ SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& 
   } else {
     result.shape = readPrimitive(object, kind);
   }
-  if (object.has("pose")) {
-    const std::vector<double> numbers = object.numbers("pose");
-    result.pose = located(object, "pose", [&] { return poseFrom(numbers); });
-  }
+  readPose(object, result);
   return result;
 }
 
 SceneObject readObject(StrictObject object, const std::filesystem::path& folder) {
-  SceneObject result = readShapeAndPose(object, folder);
+  const bool measured = object.has("cloud") || object.has("octomap");
+  SceneObject result = measured ? readMeasured(object, folder) : readShapeAndPose(object, folder);
+  if (measured) readPose(object, result);
   if (object.has("band")) {
     const std::vector<double> numbers = object.numbers("band");
     result.band = located(object, "band", [&] { return bandFrom(numbers); });
