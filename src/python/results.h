@@ -24,12 +24,13 @@ py::object orNone(const std::optional<Value>& value) {
 // In the order of their values.
 inline constexpr std::array<Decision, 4> kDecisions = {Decision::none, Decision::below,
                                                        Decision::above, Decision::undecided};
-inline constexpr std::array<ProbabilityStatus, 10> kStatuses = {
+inline constexpr std::array<ProbabilityStatus, 11> kStatuses = {
     ProbabilityStatus::converged,        ProbabilityStatus::exact,
     ProbabilityStatus::decided,          ProbabilityStatus::bound_only,
     ProbabilityStatus::sampled,          ProbabilityStatus::time_limit,
     ProbabilityStatus::cell_limit,       ProbabilityStatus::memory_limit,
-    ProbabilityStatus::resolution_limit, ProbabilityStatus::cancelled};
+    ProbabilityStatus::resolution_limit, ProbabilityStatus::cancelled,
+    ProbabilityStatus::band_limit};
 
 /// None, "below", "above" or "undecided".
 py::object decisionOf(Decision decision);
