@@ -124,6 +124,11 @@ Scene sceneOf(const QueryLine& query, Scene base) {
   if (!query.request.is_null()) {
     base.request = detail::readRequest(StrictObject(query.request, "request"), base.request);
   }
+  if (base.a.possible || base.b.possible) {
+    throw FileError("cloud: what was made of a cloud is for `fcl_prob check`, not for sweeps");
+  }
+  base.request.band_a = base.a.band;
+  base.request.band_b = base.b.band;
   return base;
 }
 
