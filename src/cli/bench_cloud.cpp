@@ -29,8 +29,8 @@ constexpr double kDepths[] = {0.6, 1.2, 2.4};
 constexpr double kCoverage = 0.95;
 
 // Standard deviations of the displacement, and the gap that is left at its mean, metres.
-constexpr double kLeastSigma = 0.005;
-constexpr double kMostSigma = 0.02;
+constexpr double kLeastError = 0.005;
+constexpr double kMostError = 0.02;
 constexpr double kWidestGap = 0.02;
 
 struct NamedMesh {
@@ -103,7 +103,7 @@ CloudScene randomScene(const TriangleMesh& mesh, const Geometry& finger, double 
     (distanceOf(finger, scene.finger_pose, object) < gap ? near : far) = middle;
   }
   scene.finger_pose.translation() = place + far * direction;
-  scene.displacement = randomError(random, kLeastSigma, kMostSigma);
+  scene.displacement = randomError(random, kLeastError, kMostError);
   return scene;
 }
 
@@ -146,7 +146,7 @@ struct Row {
   }
 };
 
-void addScene(const CloudScene& scene, const Geometry& finger, const SensorModel& sensor,
+void addToRow(const CloudScene& scene, const Geometry& finger, const SensorModel& sensor,
               Uniforms& random, Row& row) {
   const PointCloud cloud = renderedCloud(scene.object, DepthCamera(), sensor, random);
   ReconstructionRequest request;
@@ -179,7 +179,7 @@ void addScene(const CloudScene& scene, const Geometry& finger, const SensorModel
   row.query_ms += lower.milliseconds + upper.milliseconds;
 }
 
-std::string percent(std::size_t part, std::size_t all) {
+std::string shareText(std::size_t part, std::size_t all) {
   return numberText(all == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all),
                     3);
 }
@@ -188,9 +188,9 @@ void report(const std::string& object, const std::string& sensor, const std::str
             const Row& row, BenchReport& report) {
   const double n = static_cast<double>(std::max<std::size_t>(row.scenes, 1));
   report.table.add({object, sensor, depth, std::to_string(row.scenes), numberText(row.truth / n, 3),
-                    numberText(row.bias / n, 2), percent(row.covered, row.scenes),
-                    percent(row.covered_occupied, row.scenes),
-                    percent(row.covered_without, row.scenes), numberText(1e3 * row.band / n, 3),
+                    numberText(row.bias / n, 2), shareText(row.covered, row.scenes),
+                    shareText(row.covered_occupied, row.scenes),
+                    shareText(row.covered_without, row.scenes), numberText(1e3 * row.band / n, 3),
                     numberText(row.width / n, 3), numberText(row.width_occupied / n, 3),
                     numberText(row.triangles / n, 4), numberText(row.reconstruction_ms / n, 3),
                     numberText(row.query_ms / n, 3)});
@@ -265,7 +265,7 @@ BenchReport benchCloud(const BenchOptions& options, const BenchProgress& progres
         for (std::size_t i = 0; i < scenes; ++i) {
           if (!progress(static_cast<double>(done++) / all, what)) return result;
           const CloudScene scene = randomScene(object.mesh, finger, depth, random);
-          addScene(scene, finger, sensor, random, row);
+          addToRow(scene, finger, sensor, random, row);
         }
         report(object.name, name, numberText(depth, 2), row, result);
         total += row;

@@ -26,6 +26,29 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// The pixels that are kept, with room around them for a surface to grow.
+struct Window {
+  int lo_u;
+  int lo_v;
+  int hi_u;
+  int hi_v;
+};
+
+Window windowOf(const PointCloud& cloud, const std::vector<std::uint8_t>& keep) {
+  constexpr int kRoom = 24;
+  const int width = static_cast<int>(cloud.width), height = static_cast<int>(cloud.height);
+  Window window{width - 1, height - 1, 0, 0};
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      if (!keep[static_cast<std::size_t>(v) * cloud.width + static_cast<std::size_t>(u)]) continue;
+      window = {std::min(window.lo_u, u), std::min(window.lo_v, v), std::max(window.hi_u, u),
+                std::max(window.hi_v, v)};
+    }
+  }
+  return {std::max(window.lo_u - kRoom, 0), std::max(window.lo_v - kRoom, 0),
+          std::min(window.hi_u + kRoom, width - 1), std::min(window.hi_v + kRoom, height - 1)};
+}
+
 // Of an image the rays turn the same way from pixel to pixel.
 void requireImage(const DepthGrid& grid) {
   std::size_t right = 0, left = 0;
@@ -77,23 +100,28 @@ bool DepthGrid::connected(int p, int q, int apart) const {
 
 DepthGrid depthGrid(const PointCloud& cloud, const std::vector<std::uint8_t>& keep) {
   DepthGrid grid;
-  grid.width = static_cast<int>(cloud.width);
-  grid.height = static_cast<int>(cloud.height);
+  const Window window = windowOf(cloud, keep);
+  grid.width = window.hi_u - window.lo_u + 1;
+  grid.height = window.hi_v - window.lo_v + 1;
   grid.sensor = cloud.sensor;
-  const std::size_t count = cloud.points.size();
+  const auto count = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   grid.rays.assign(count, Eigen::Vector3d::Zero());
   grid.inverse.assign(count, 0.0);
   grid.deviation.assign(count, 0.0);
   grid.incidence.assign(count, 0.0);
   grid.region.assign(count, -1);
   const Eigen::Isometry3d to_sensor = cloud.sensor.inverse();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!keep[i]) continue;
-    const Eigen::Vector3d q = to_sensor * cloud.points[i];
-    const double depth = std::fabs(q.z());
-    if (!(depth > 1e-6 * q.norm())) continue;
-    grid.rays[i] = q / depth;
-    grid.inverse[i] = 1.0 / depth;
+  for (int v = 0; v < grid.height; ++v) {
+    for (int u = 0; u < grid.width; ++u) {
+      const std::size_t of_cloud = static_cast<std::size_t>(v + window.lo_v) * cloud.width +
+                                   static_cast<std::size_t>(u + window.lo_u);
+      if (!keep[of_cloud]) continue;
+      const Eigen::Vector3d q = to_sensor * cloud.points[of_cloud];
+      const double depth = std::fabs(q.z());
+      if (!(depth > 1e-6 * q.norm())) continue;
+      grid.rays[grid.at(u, v)] = q / depth;
+      grid.inverse[grid.at(u, v)] = 1.0 / depth;
+    }
   }
   requireImage(grid);
   grid.pitch = pitchOf(grid);
