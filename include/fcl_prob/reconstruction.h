@@ -103,7 +103,7 @@ Reconstruction reconstruct(const PointCloud& cloud, const ReconstructionRequest&
 Eigen::Matrix<double, 6, 6> carriedTo(const Eigen::Vector3d& x, const Eigen::Vector3d& o,
                                       const Eigen::Matrix<double, 6, 6>& covariance);
 
-/// All of it but the meshes, as JSON. \param surface, obstacle  the mesh files, relative to it
+/// All of it but the meshes, as JSON; `surface` and `obstacle` are the mesh files, relative to it.
 std::string toJson(const Reconstruction& reconstruction, const std::string& surface,
                    const std::string& obstacle);
 

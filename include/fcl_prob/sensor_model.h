@@ -32,8 +32,9 @@ SensorModel nguyenKinect(double focal_length);
 SensorModel khoshelhamKinect(double focal_length);
 
 /// Triangulation: σ_z = z² σ_d / (f b); laterally half a pixel.
-/// \param baseline          b, metres
-/// \param disparity_sigma   σ_d, pixels
+/// \param focal_length     f, pixels
+/// \param baseline         b, metres
+/// \param disparity_sigma  σ_d, pixels
 SensorModel stereoSensor(double focal_length, double baseline, double disparity_sigma);
 
 /// "kinect-nguyen", "kinect-khoshelham", "stereo" (b = 0.12 m, σ_d = 0.25 pixels) and "exact" (no
