@@ -72,7 +72,7 @@ TriangleMesh displaced(TriangleMesh mesh, double most, const Eigen::Vector3d& to
 
 }  // namespace
 
-TEST_CASE("with bands spheres are between a smaller and a larger ball", "[band]") {
+TEST_CASE("with bands spheres are between a smaller and a larger ball", "[band][slow]") {
   RandomBodies random(71);
   for (int i = 0; i < 10; ++i) {
     const double sigma = random.uniform(0.02, 0.3);
@@ -125,7 +125,7 @@ TEST_CASE("with bands boxes are between products of normal distributions", "[ban
   CHECK(*one_sided.lower >= product(0.0) - 0.15 * (product(band) - product(0.0)));
 }
 
-TEST_CASE("bands hold for meshes whose vertices are displaced within them", "[band]") {
+TEST_CASE("bands hold for meshes whose vertices are displaced within them", "[band][slow]") {
   RandomBodies random(5);
   int certain = 0;
   for (int scene = 0; scene < 12; ++scene) {
@@ -188,7 +188,7 @@ TEST_CASE("bands hold for fcl::collide of displaced meshes, displacement by disp
   CHECK(clear > 8);
 }
 
-TEST_CASE("bands widen the interval of every shape", "[band]") {
+TEST_CASE("bands widen the interval of every shape", "[band][slow]") {
   RandomBodies random(9);
   std::vector<NamedGeometry> all = boundedShapes();
   all.push_back({"OcTree", randomOcTree(20, 0.2, 0.5, 5)});
