@@ -33,6 +33,9 @@ constexpr double kLeastError = 0.005;
 constexpr double kMostError = 0.02;
 constexpr double kWidestGap = 0.02;
 
+// What bands and shadows leave open is not worth more: an interval holds wherever it is stopped.
+constexpr std::size_t kMostCells = 3000;
+
 struct NamedMesh {
   std::string name;
   TriangleMesh mesh;
@@ -117,6 +120,7 @@ Asked ask(const Geometry& finger, const CloudScene& scene, const TriangleMesh& m
   ProbabilityRequest request;
   request.method = ProbabilityMethod::interval;
   request.band_b = band;
+  request.max_cells = kMostCells;
   request.contact = contact;
   const Geometry object = buildTree(mesh, "obbrss");
   const Stopwatch watch;

@@ -146,7 +146,8 @@ class Reconstructor {
     result_.band = {widest + between + obstacle_deviation, widest + between + surface.deviation};
     addRegions(grid, bands, sizes);
     finish("obstacle", 1.0);
-    note("meshed as the sensor's image, averaged over " + numberText(averaged) + " pixels");
+    note("meshed as the sensor's image, averaged over " + numberText(std::round(averaged)) +
+         " pixels");
   }
 
   // Across the surface, for errors along the depth.
@@ -278,7 +279,7 @@ class Reconstructor {
     note(std::string("meshed by ") +
          (request_.meshing == PointMeshing::greedy ? "greedy projection"
                                                    : "Poisson, trimmed to the points") +
-         ", every point averaged with " + numberText(mesh.averaged - 1.0) + " others");
+         ", every point averaged with " + numberText(std::round(mesh.averaged - 1.0)) + " others");
   }
 
   void shareErrors() {
