@@ -115,6 +115,19 @@ void setCount(Question& question, py::handle value, const char* name) {
   question.request.*field = countFrom<std::size_t>(name, value);
 }
 
+/// Metres: one number, or outwards and inwards.
+template <Band ProbabilityRequest::*field>
+void setBand(Question& question, py::handle value, const char* name) {
+  if (!py::isinstance<py::tuple>(value) && !py::isinstance<py::list>(value)) {
+    question.request.*field = Band::within(numberFrom(name, value));
+    return;
+  }
+  const auto both = py::reinterpret_borrow<py::sequence>(value);
+  if (both.size() != 2) refuse(name, "a number or two, outwards and inwards", value);
+  const py::object outward = both[0], inward = both[1];
+  question.request.*field = {numberFrom(name, outward), numberFrom(name, inward)};
+}
+
 using Setter = void (*)(Question&, py::handle, const char*);
 
 struct Keyword {
@@ -124,7 +137,7 @@ struct Keyword {
 
 using R = ProbabilityRequest;
 
-constexpr std::array<Keyword, 14> kKeywords = {{
+constexpr std::array<Keyword, 16> kKeywords = {{
     {"method", [](Question& q, py::handle v, const char*) { setMethod(q, v); }},
     {"contact", [](Question& q, py::handle v, const char*) { setContact(q, v); }},
     {"relative_tolerance", setNumber<&R::relative_tolerance>},
@@ -139,6 +152,8 @@ constexpr std::array<Keyword, 14> kKeywords = {{
                 const char* name) { q.request.seed = countFrom<std::uint64_t>(name, v); }},
     {"threads", [](Question& q, py::handle v, const char*) { setThreads(q, v); }},
     {"gradient", [](Question& q, py::handle v, const char*) { setGradient(q, v); }},
+    {"band_a", setBand<&R::band_a>},
+    {"band_b", setBand<&R::band_b>},
     {"on_progress", [](Question& q, py::handle v, const char*) { setProgress(q, v); }},
 }};
 

@@ -41,6 +41,14 @@ def test_halfspace_with_every_kind_of_displacement():
     # A ball turns without moving.
     turning = fcl_prob.PoseError.from_standard_deviations([1, 1, 0.1], [0.1, 0.1, 0.1])
     assert ask(turning).probability == pytest.approx(normal(-1.0), rel=0.05)
+    banded = ask(gaussian, band_a=0.02)
+    assert (banded.lower, banded.upper) == pytest.approx((normal(-1.2), normal(-0.8)), rel=1e-6)
+    banded = ask(gaussian, band_b=(0.02, 0))
+    assert (banded.lower, banded.upper) == pytest.approx((normal(-1.0), normal(-0.8)), rel=1e-6)
+    with pytest.raises(TypeError):
+        ask(gaussian, band_a=(0.1,))
+    with pytest.raises(fcl_prob.InvalidRequest):
+        ask(gaussian, band_a=-0.1)
     result = ask(gaussian, gradient=True)
     density = np.exp(-0.5) / np.sqrt(2 * np.pi)
     assert result.gradient == pytest.approx([0, 0, -density / 0.1], abs=1e-9)

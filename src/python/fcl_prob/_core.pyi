@@ -211,6 +211,8 @@ def collision_probability(
     seed: int = 1,
     threads: int = 1,
     gradient: bool = False,
+    band_a: Union[float, Tuple[float, float]] = 0.0,
+    band_b: Union[float, Tuple[float, float]] = 0.0,
     on_progress: Optional[QueryProgress] = None,
 ) -> ProbabilityResult: ...
 def collision_probabilities(
@@ -236,6 +238,8 @@ def collision_probabilities(
     seed: int = 1,
     threads: int = ...,
     gradient: bool = False,
+    band_a: Union[float, Tuple[float, float]] = 0.0,
+    band_b: Union[float, Tuple[float, float]] = 0.0,
     on_progress: Optional[BatchProgress] = None,
 ) -> BatchResult: ...
 
@@ -260,6 +264,8 @@ class PreparedQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
+        band_a: Union[float, Tuple[float, float]] = 0.0,
+        band_b: Union[float, Tuple[float, float]] = 0.0,
         on_progress: Optional[QueryProgress] = None,
     ) -> ProbabilityResult: ...
     def collision_probabilities(
@@ -284,6 +290,8 @@ class PreparedQuery:
         seed: int = 1,
         threads: int = ...,
         gradient: bool = False,
+        band_a: Union[float, Tuple[float, float]] = 0.0,
+        band_b: Union[float, Tuple[float, float]] = 0.0,
         on_progress: Optional[BatchProgress] = None,
     ) -> BatchResult: ...
 
@@ -311,5 +319,7 @@ class GroupQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
+        band_a: Union[float, Tuple[float, float]] = 0.0,
+        band_b: Union[float, Tuple[float, float]] = 0.0,
         on_progress: Optional[QueryProgress] = None,
     ) -> ProbabilityResult: ...
