@@ -3,6 +3,7 @@
 // What is asked of a query.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -17,15 +18,15 @@ namespace fcl_prob {
 
 /// How the probability is computed.
 enum class ProbabilityMethod {
-  automatic,       ///< the best that the scene allows; ProbabilityResult::plan says which
-  interval,        ///< certified interval by a disjoint partition of the displacement space
-  estimate,        ///< the partition's estimate with its standard error; interval also given
-  exact,           ///< two convex shapes only: exact mass of their C-obstacle
-  convex_pcd,      ///< least upper bound of two convex shapes (or of the root volumes of meshes)
-  general_pcd,     ///< upper bound by the paper's Algorithm 2 over the bounding volume trees
-  general_pcd_min, ///< the same with min(parent, sum of the children) at every node
-  monte_carlo,     ///< displaced fcl::collide: a confidence interval, nothing certified
-  rare_event       ///< importance sampling around the nearest contact: a confidence interval
+  automatic,        ///< the best that the scene allows; ProbabilityResult::plan says which
+  interval,         ///< certified interval by a disjoint partition of the displacement space
+  estimate,         ///< the partition's estimate with its standard error; interval also given
+  exact,            ///< two convex shapes only: exact mass of their C-obstacle
+  convex_pcd,       ///< least upper bound of two convex shapes (or of the root volumes of meshes)
+  general_pcd,      ///< upper bound by the paper's Algorithm 2 over the bounding volume trees
+  general_pcd_min,  ///< the same with min(parent, sum of the children) at every node
+  monte_carlo,      ///< displaced fcl::collide: a confidence interval, nothing certified
+  rare_event        ///< importance sampling around the nearest contact: a confidence interval
 };
 
 /// What counts as a collision.
@@ -34,8 +35,8 @@ enum class ContactMeaning {
   solid  ///< closed meshes are solids too: one inside the other collides
 };
 
-/// How far a running query has come; `interval` is valid at every moment (certified for the partition,
-/// a confidence interval for Monte Carlo).
+/// How far a running query has come; `interval` is valid at every moment (certified for the
+/// partition, a confidence interval for Monte Carlo).
 struct ProbabilityProgress {
   Bounds interval;
   double fraction = 0.0;  ///< of the work that the limits allow, 0 to 1
@@ -61,7 +62,8 @@ struct ProbabilityRequest {
   std::size_t max_cells = 2'000'000;
   std::size_t max_memory = std::size_t{1} << 30;
 
-  /// general_pcd: δ, pairs below 1 - δ are not refined. Sampling: coverage of the confidence interval.
+  /// general_pcd: δ, pairs below 1 - δ are not refined. Sampling: coverage of the confidence
+  /// interval.
   double confidence = 0.99;
 
   /// Sampling: number of samples at most, and the seed that fixes all of them.
@@ -76,14 +78,19 @@ struct ProbabilityRequest {
   bool gradient = false;
 
   /// How far the true shapes of A and B may be from their geometries (of every member, for groups):
-  /// the certified interval then holds for all shapes within. For methods `automatic` and `interval`
-  /// of pairs, groups, mixtures and batches; others refuse it.
+  /// the certified interval then holds for all shapes within. For methods `automatic` and
+  /// `interval` of pairs, groups, mixtures and batches; others refuse it.
   Band band_a;
   Band band_b;
 
-  /// Called now and then from the calling thread; returning false cancels the query, whose result is
-  /// valid all the same (status `cancelled`).
+  /// Called now and then from the calling thread; returning false cancels the query, whose result
+  /// is valid all the same (status `cancelled`).
   std::function<bool(const ProbabilityProgress&)> on_progress;
+
+  /// How wide an interval (or how large a standard error) may be where P is `probability`.
+  double toleranceAt(double probability) const {
+    return std::max(absolute_tolerance, relative_tolerance * probability);
+  }
 
   bool hasBand() const { return !band_a.isZero() || !band_b.isZero(); }
 };

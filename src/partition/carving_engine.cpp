@@ -233,8 +233,7 @@ std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
       return ProbabilityStatus::decided;
     }
   }
-  const double tolerance =
-      std::max(request_.absolute_tolerance, request_.relative_tolerance * now.upper);
+  const double tolerance = request_.toleranceAt(now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
   // What is left is rounding and the accuracy of masses.
   const double open = open_.upper - open_.lower;

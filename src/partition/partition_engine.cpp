@@ -184,8 +184,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   if (queue_.empty() && !(left_by_band_ > 0.0)) {
     return indivisible_ ? ProbabilityStatus::resolution_limit : ProbabilityStatus::exact;
   }
-  const double tolerance =
-      std::max(request_.absolute_tolerance, request_.relative_tolerance * now.upper);
+  const double tolerance = request_.toleranceAt(now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
   const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
   if (band_ && all_is_band) return ProbabilityStatus::band_limit;
@@ -194,7 +193,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
 }
 
 double PartitionEngine::targetError(double probability) const {
-  return std::max(request_.absolute_tolerance, request_.relative_tolerance * probability);
+  return request_.toleranceAt(probability);
 }
 
 EngineEstimate PartitionEngine::estimate(const SampledMass& sampled) const {

@@ -161,8 +161,7 @@ class MixtureSum {
     of_one.relative_tolerance = std::max(kCoarse, request_.relative_tolerance);
     ask(of_one);
     // The weights' squares add up to 1 at most, and so do those of the standard errors.
-    of_one.absolute_tolerance =
-        std::max(request_.absolute_tolerance, request_.relative_tolerance * *sum_.estimate);
+    of_one.absolute_tolerance = request_.toleranceAt(*sum_.estimate);
     of_one.relative_tolerance = of_one.absolute_tolerance > 0.0 ? 0.0 : kCoarse;
     if (sum_.status == ProbabilityStatus::converged) ask(of_one);
     return std::move(sum_);

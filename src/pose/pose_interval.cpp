@@ -88,9 +88,7 @@ class PoseInterval {
   }
 
  private:
-  double target() const {
-    return std::max(request_.absolute_tolerance, request_.relative_tolerance * interval_.upper);
-  }
+  double target() const { return request_.toleranceAt(interval_.upper); }
 
   std::optional<ProbabilityStatus> satisfied() const {
     if (interval_.width() <= target()) return ProbabilityStatus::converged;

@@ -75,8 +75,7 @@ class ExactMass {
     if (decision == Decision::below || decision == Decision::above) {
       return ProbabilityStatus::decided;
     }
-    const double tolerance =
-        std::max(request_.absolute_tolerance, request_.relative_tolerance * mass_.upper);
+    const double tolerance = request_.toleranceAt(mass_.upper);
     if (mass_.width() <= tolerance) return ProbabilityStatus::converged;
     return limits_.reason().value_or(ProbabilityStatus::resolution_limit);
   }

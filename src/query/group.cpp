@@ -324,8 +324,7 @@ struct GroupQuery::Implementation {
   static std::optional<ProbabilityResult> intervalOfSum(double most,
                                                         const ProbabilityRequest& request) {
     const bool decided = request.threshold && most < *request.threshold;
-    const double tolerance =
-        std::max(request.absolute_tolerance, request.relative_tolerance * most);
+    const double tolerance = request.toleranceAt(most);
     if (!decided && most > tolerance) return std::nullopt;
     ProbabilityResult result;
     result.method = ProbabilityMethod::interval;

@@ -84,7 +84,7 @@ class MixtureQuery {
   /// their weights, standard errors (independent of each other) by the squares of those.
   double toleranceOfOne() const {
     if (!isEstimate()) {
-      return std::max(request_.absolute_tolerance, request_.relative_tolerance * interval().lower);
+      return request_.toleranceAt(interval().lower);
     }
     constexpr double kReserve = 0.9;  // for an estimate that turns out smaller
     double squares = 0.0;
@@ -207,7 +207,7 @@ class MixtureQuery {
   bool isEstimateTooCoarse() {
     if (!isEstimate() || finished()) return false;
     const auto [estimate, error] = estimateOfAll();
-    return error > std::max(request_.absolute_tolerance, request_.relative_tolerance * estimate);
+    return error > request_.toleranceAt(estimate);
   }
 
   bool all(const std::function<bool(const ProbabilityResult&)>& has) const {

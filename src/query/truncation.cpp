@@ -98,8 +98,7 @@ void TruncatedQuery::makeConditional(const Bounds& of_joint, ProbabilityResult& 
   result.upper = bounds.upper;
   result.decision = decisionOf(bounds, request_);
   const bool decided = result.decision == Decision::below || result.decision == Decision::above;
-  const double tolerance =
-      std::max(request_.absolute_tolerance, request_.relative_tolerance * bounds.upper);
+  const double tolerance = request_.toleranceAt(bounds.upper);
   if (decided) {
     result.status = ProbabilityStatus::decided;
   } else if (bounds.width() > tolerance && (result.status == ProbabilityStatus::converged ||

@@ -72,7 +72,7 @@ std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,
                                                      const ProbabilityRequest& request) {
   RequestLimits limits(request, kShareOfRootBound);
   const double upper = rootBound(pair, displacement, limits);
-  const double tolerance = std::max(request.absolute_tolerance, request.relative_tolerance * upper);
+  const double tolerance = request.toleranceAt(upper);
   const bool decided = request.threshold && upper < *request.threshold;
   const bool cancelled = limits.reason() == ProbabilityStatus::cancelled;
   if (!decided && upper > tolerance && !cancelled) return std::nullopt;

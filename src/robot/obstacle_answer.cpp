@@ -37,7 +37,7 @@ class EventAnswers {
     if (!part.upper) return false;
     if (request.method == ProbabilityMethod::estimate) return false;
     const double width = *part.upper - part.lower.value_or(0.0);
-    return width <= std::max(request.absolute_tolerance, request.relative_tolerance * *part.upper);
+    return width <= request.toleranceAt(*part.upper);
   }
 
   template <typename Needed>
@@ -118,7 +118,7 @@ class EventAnswers {
     const bool sampled = result_.estimate && request_.method == ProbabilityMethod::estimate;
     const double error = sampled ? *result_.standard_error : result_.any.width();
     const double size = sampled ? *result_.estimate : result_.any.upper;
-    return error <= std::max(request_.absolute_tolerance, request_.relative_tolerance * size);
+    return error <= request_.toleranceAt(size);
   }
 
   const ProbabilityRequest& request_;
