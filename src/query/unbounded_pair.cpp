@@ -173,19 +173,15 @@ Bounds massWithBands(const DisplacementAlong& along, const ContactSet& set,
   const double length = (1.0 + 1e-12) * set.normal.norm();
   const double outward = length * (request.band_a.outward + request.band_b.outward);
   const double inward = length * (request.band_a.inward + request.band_b.inward);
-  const auto grown = [](const LineInterval& interval, double by) -> LineInterval {
-    const auto rounding = [](double end) {
-      return std::isinf(end) ? 0.0 : 4 * kEpsilon * std::fabs(end);
-    };
-    const double sign = by < 0.0 ? -1.0 : 1.0;
-    return {interval.lo - by - sign * rounding(interval.lo),
-            interval.hi + by + sign * rounding(interval.hi)};
+  const auto rounding = [](double end) {
+    return std::isinf(end) ? 0.0 : 4 * kEpsilon * std::fabs(end);
   };
   std::vector<LineInterval> possible;
   double lower = 0.0;
   for (const LineInterval& interval : set.intervals) {
-    possible.push_back(grown(interval, outward));
-    const LineInterval certain = grown(interval, -inward);
+    const double at_lo = rounding(interval.lo), at_hi = rounding(interval.hi);
+    possible.push_back({interval.lo - outward - at_lo, interval.hi + outward + at_hi});
+    const LineInterval certain{interval.lo + inward + at_lo, interval.hi - inward - at_hi};
     if (!(certain.lo < certain.hi)) continue;
     lower = std::max(lower, along.mass({certain}, set.error).lower);
   }
@@ -212,8 +208,7 @@ ProbabilityResult unboundedPairProbability(const PlacedPair& pair,
     result.estimate = mass.middle();
     result.standard_error = 0.5 * mass.width();
   }
-  const double tolerance =
-      std::max(request.absolute_tolerance, request.relative_tolerance * mass.upper);
+  const double tolerance = request.toleranceAt(mass.upper);
   // Where nothing moves across a plane that is touched, rounding decides.
   result.status = mass.width() <= tolerance ? ProbabilityStatus::exact
                   : request.hasBand()       ? ProbabilityStatus::band_limit

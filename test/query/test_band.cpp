@@ -11,6 +11,7 @@
 #include <cmath>
 #include <random>
 
+#include "../gaussian/high_precision.h"
 #include "catch.h"
 #include "fcl_prob/broadphase.h"
 #include "fcl_prob/fcl_prob.h"
@@ -226,6 +227,32 @@ TEST_CASE("half-spaces with bands are closed forms", "[band]") {
   CHECK(*result.upper == Catch::Detail::Approx(normalIntervalMass(-INFINITY, -1.7)).epsilon(1e-9));
   CHECK(*result.lower == Catch::Detail::Approx(normalIntervalMass(-INFINITY, -2.3)).epsilon(1e-9));
   CHECK(result.status == ProbabilityStatus::band_limit);
+}
+
+TEST_CASE("a ball and a half-space with bands on one side hold 50 digits", "[band]") {
+  RandomBodies random(83);
+  for (int i = 0; i < 3000; ++i) {
+    const double radius = random.logUniform(1e-3, 10.0),
+                 sigma = radius * random.logUniform(1e-9, 10.0);
+    const double height = radius + sigma * random.uniform(-30.0, 30.0);
+    const double band = sigma * random.logUniform(1e-12, 3.0);
+    const Pair pair{std::make_shared<fcl::Sphered>(radius), at({0, 0, height}),
+                    std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), 0.0),
+                    GaussianDisplacement::fromStandardDeviations({sigma, sigma, sigma})};
+    const auto truth = [&](double by) {
+      return trueTail((HighPrecision(height) - radius - by) / sigma);
+    };
+    ProbabilityRequest request;
+    (i % 2 ? request.band_a : request.band_b).outward = band;
+    const ProbabilityResult outwards = pair.ask(request);
+    request.band_a = request.band_b = {0.0, band};
+    const ProbabilityResult inwards = pair.ask(request);
+    CAPTURE(i, radius, sigma, height, band);
+    CHECK(HighPrecision(*outwards.lower) <= truth(0.0));
+    CHECK(HighPrecision(*outwards.upper) >= truth(band));
+    CHECK(HighPrecision(*inwards.lower) <= truth(-2.0 * band));
+    CHECK(HighPrecision(*inwards.upper) >= truth(0.0));
+  }
 }
 
 TEST_CASE("bands decide thresholds, in groups, mixtures and truncated Gaussians", "[band]") {
