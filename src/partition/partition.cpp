@@ -262,7 +262,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
     return withoutContact(whole_request, "an octree without occupied cells collides with nothing");
   }
   if (displacement.rank() > 0 && std::max(a.tree->radius(), b.tree->radius()) < kLeastSize) {
-    requireMeasurable(a.tree->largestCoordinate(), b.tree->largestCoordinate());
+    requireMeasurable(a.tree->radius(), b.tree->radius());
   }
   ProbabilityResult result;
   StageClock clock(result.statistics);

@@ -9,6 +9,7 @@
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/geometry_kind.h"
+#include "geometry/length.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/surface_caps.h"
 #include "partition/octree_pieces.h"
@@ -38,7 +39,7 @@ void moveOrigin(PieceTree& tree, PieceTree::Part& part) {
   part.origin = lo + 0.5 * (hi - lo);
   visitPoints(tree, [&part](Eigen::Vector3d& point, double radius) {
     point -= part.origin;
-    part.radius = std::max(part.radius, point.norm() + radius);
+    part.radius = std::max(part.radius, lengthOf(point) + radius);
   });
 }
 
@@ -218,12 +219,6 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
 double PieceTree::radius() const {
   double largest = 0.0;
   for (const Part& part : parts) largest = std::max(largest, part.radius);
-  return largest;
-}
-
-double PieceTree::largestCoordinate() const {
-  double largest = radius();
-  for (const Eigen::Vector3d& v : vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   return largest;
 }
 

@@ -95,9 +95,6 @@ struct PieceTree {
   /// Of the largest part, metres.
   double radius() const;
 
-  /// Of the vertices, and sizes of bodies: not 0 where radius() is, by underflow.
-  double largestCoordinate() const;
-
   /// The largest of those of the parts, metres.
   double error() const;
 };
