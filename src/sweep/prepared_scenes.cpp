@@ -33,14 +33,18 @@ void PreparedScenes::loadMeshes(const QueryLine& query) {
   if (query.scene_file.empty()) {
     loadMesh(*query.a);
     loadMesh(*query.b);
-  } else if (loaded_files_.insert(query.scene_file).second) {
-    try {
-      const Scene scene = loadScene(query.scene_file);
-      loadMesh(scene.a);
-      loadMesh(scene.b);
-    } catch (const std::exception&) {
-    }
+    return;
   }
+  try {
+    const auto scene = sceneOfFile(query.scene_file);
+    loadMesh(scene->a);
+    loadMesh(scene->b);
+  } catch (const std::exception&) {
+  }
+}
+
+std::shared_ptr<const Scene> PreparedScenes::sceneOfFile(const std::string& path) {
+  return scenes_.get(path, [&] { return std::make_shared<const Scene>(loadScene(path)); });
 }
 
 void PreparedScenes::loadMesh(const SceneObject& object) {
@@ -60,11 +64,9 @@ PreparedScene PreparedScenes::of(const QueryLine& query) {
     inline_scene.pair = pairs_.get(query.shapes_key, [&] { return pairOf(inline_scene.scene); });
     return inline_scene;
   }
-  const auto base = scenes_.get(query.scene_file, [&] {
-    const Scene scene = loadScene(query.scene_file);
-    return std::make_shared<const PreparedScene>(PreparedScene{scene, pairOf(scene)});
-  });
-  return {sceneOf(query, base->scene), base->pair};
+  const auto base = sceneOfFile(query.scene_file);
+  return {sceneOf(query, *base),
+          pairs_of_files_.get(query.scene_file, [&] { return pairOf(*base); })};
 }
 
 }  // namespace fcl_prob::sweep

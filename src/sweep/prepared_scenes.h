@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 
 #include "fcl_prob/collision_probability.h"
@@ -97,11 +96,12 @@ class PreparedScenes {
   using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
   Geometry geometryOf(const SceneObject& object);
   void loadMesh(const SceneObject& object);
+  std::shared_ptr<const Scene> sceneOfFile(const std::string& path);
 
-  std::set<std::string> loaded_files_;  // scenes whose meshes have been asked for
   MadeOnce<fcl::CollisionGeometryd> meshes_;
-  MadeOnce<PreparedScene> scenes_;
-  MadeOnce<PreparedPair> pairs_;
+  MadeOnce<Scene> scenes_;  // of files
+  MadeOnce<PreparedPair> pairs_of_files_;
+  MadeOnce<PreparedPair> pairs_;  // of shapes in the lines themselves
 };
 
 }  // namespace fcl_prob::sweep
