@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "cloud/median.h"
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::detail {
@@ -18,13 +19,6 @@ constexpr double kSteepest = 5.0;
 constexpr double kNoiseJump = 5.0;
 
 constexpr std::array<std::array<int, 2>, 4> kNeighbours{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The pixels that are kept, with room around them for a surface to grow.
 struct Window {

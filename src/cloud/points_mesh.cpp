@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/median.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -77,8 +79,7 @@ NormalCloud::Ptr averagedPoints(const Cloud::Ptr& cloud, const Eigen::Vector3f& 
     averaged.getNormalVector3fMap() = normal;
     result->push_back(averaged);
   }
-  std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-  spacing = distances.empty() ? 0.0 : distances[distances.size() / 2];
+  spacing = median(std::move(distances));
   return result;
 }
 

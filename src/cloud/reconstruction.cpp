@@ -10,9 +10,11 @@
 
 #include "cloud/depth_grid.h"
 #include "cloud/grid_mesh.h"
+#include "cloud/median.h"
 #include "cloud/points_mesh.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
+#include "gaussian/rotation.h"
 
 namespace fcl_prob {
 namespace detail {
@@ -167,8 +169,7 @@ class Reconstructor {
     for (std::size_t i = 0; i < bands.size(); ++i) {
       if (grid.inverse[i] > 0.0) sorted.push_back(bands[i]);
     }
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double most = kWidestBand * sorted[sorted.size() / 2];
+    const double most = kWidestBand * median(std::move(sorted));
     double widest = 0.0;
     for (std::size_t i = 0; i < bands.size(); ++i) {
       if (!(grid.inverse[i] > 0.0)) continue;
@@ -310,11 +311,8 @@ Reconstruction reconstruct(const PointCloud& cloud, const ReconstructionRequest&
 
 Eigen::Matrix<double, 6, 6> carriedTo(const Eigen::Vector3d& x, const Eigen::Vector3d& o,
                                       const Eigen::Matrix<double, 6, 6>& covariance) {
-  const Eigen::Vector3d lever = x - o;
   Eigen::Matrix<double, 6, 6> adjoint = Eigen::Matrix<double, 6, 6>::Identity();
-  adjoint.topRightCorner<3, 3>() << 0.0, lever.z(), -lever.y(),  //
-      -lever.z(), 0.0, lever.x(),                                //
-      lever.y(), -lever.x(), 0.0;
+  adjoint.topRightCorner<3, 3>() = -detail::crossMatrix(x - o);
   return adjoint * covariance * adjoint.transpose();
 }
 
