@@ -5,7 +5,6 @@
 
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cmath>
 
 namespace fcl_prob_test {
 
@@ -18,10 +17,10 @@ inline HighPrecision trueTail(const HighPrecision& h) {
 
 /// Mass of [lo, hi]; the ends may be infinite. With 100 digits the difference of two tails
 /// keeps 50.
-inline HighPrecision trueIntervalMass(double lo, double hi) {
-  const auto tail = [](double h) {
-    if (std::isinf(h)) return HighPrecision(h > 0 ? 0 : 1);
-    return trueTail(HighPrecision(h));
+inline HighPrecision trueIntervalMass(const HighPrecision& lo, const HighPrecision& hi) {
+  const auto tail = [](const HighPrecision& h) {
+    if (isinf(h)) return HighPrecision(h > 0 ? 0 : 1);
+    return trueTail(h);
   };
   if (lo + hi < 0) return tail(-hi) - tail(-lo);
   return tail(lo) - tail(hi);

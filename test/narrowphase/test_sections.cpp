@@ -34,11 +34,6 @@ Number dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] 
 
 Vector exactly(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-Number massBetween(const Number& lower, const Number& upper) {
-  if (lower + upper < 0) return trueTail(-upper) - trueTail(-lower);
-  return trueTail(lower) - trueTail(upper);
-}
-
 struct PlacedBox {
   Eigen::Vector3d sides;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -86,7 +81,7 @@ Number trueLineMass(const PlacedBox& a, const PlacedBox& b, const GaussianDispla
       last = std::min(last, std::max(p, q));
     }
   }
-  return first < last ? massBetween(first, last) : Number(0);
+  return first < last ? trueIntervalMass(first, last) : Number(0);
 }
 
 /// A body is moved inwards by `by` by shrinking it to a point, by a share of its least width.
@@ -188,7 +183,7 @@ struct AlignedPair {
         if (lower > 0 || upper < 0) return 0;
         continue;
       }
-      product *= massBetween(lower / deviation, upper / deviation);
+      product *= trueIntervalMass(lower / deviation, upper / deviation);
     }
     return product;
   }

@@ -38,7 +38,7 @@ struct FarBoxes {
     for (int k = 0; k < 3; ++k) {
       const HighPrecision half = (HighPrecision(a[k]) + b[k]) / 2,
                           middle = abs(HighPrecision(offset[k]));
-      product *= trueTail((middle - half) / sigma[k]) - trueTail((middle + half) / sigma[k]);
+      product *= trueIntervalMass((middle - half) / sigma[k], (middle + half) / sigma[k]);
     }
     return product;
   }
