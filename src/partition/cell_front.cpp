@@ -52,7 +52,11 @@ CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
       cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
       box_{},
       support_a_(pair.a),
-      support_b_(pair.b) {}
+      support_b_(pair.b) {
+  if (!pair.band) return;
+  for (int k = 0; k < 3; ++k)
+    of_bands_[k] = 2.0 * pair.band->outwardAlong(Eigen::Vector3d::Unit(k));
+}
 
 void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) {
   cell_ = cell;
@@ -318,7 +322,8 @@ double CellFront::eccentricity(const NodeBox& box) const {
 
 bool CellFront::largerThanCell(const NodeBox& box, double ratio) const {
   for (int k = 0; k < cell_.rank; ++k) {
-    if (box.hi[k] - box.lo[k] < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
+    const double own = box.hi[k] - box.lo[k] - of_bands_[k];
+    if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;
 }

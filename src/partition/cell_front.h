@@ -109,6 +109,7 @@ class CellFront {
   ObstacleTable& obstacles_;
   ProbabilityStatistics& statistics_;
   const SlabKernels& kernels_;
+  Eigen::Vector3d of_bands_ = Eigen::Vector3d::Zero();  ///< what bands add to widths of boxes
 
   Cell cell_;
   CellBox box_;
