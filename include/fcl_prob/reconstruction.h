@@ -44,8 +44,10 @@ struct ReconstructionRequest {
   /// Points are averaged with those up to so many pixels away on the same surface.
   int window = 2;
 
-  /// The mesh may leave out detail up to this deviation from the averaged points, metres.
-  double simplification = 0.001;
+  /// The mesh of an image may leave out detail up to this deviation from the averaged points,
+  /// metres; the deviation is measured and becomes part of the band. Null: a tenth of what the band
+  /// is without, and at least 1 mm.
+  std::optional<double> simplification;
 
   UnseenSpace unseen = UnseenSpace::report;
   double shadow_depth = 0.3;  ///< how far behind the surface the shadow reaches, metres

@@ -123,7 +123,8 @@ void addOptions(CLI::App& command, ReconstructArguments& arguments) {
   command.add_option("--plane-tolerance", request.plane_tolerance, "Its thickness, metres");
   command.add_option("--least-points", request.least_points, "Smaller surfaces are outliers");
   command.add_option("--window", request.window, "Pixels around one that it is averaged with");
-  command.add_option("--simplification", request.simplification, "Allowed deviation, metres");
+  command.add_option("--simplification", request.simplification,
+                     "Allowed deviation, metres; default a tenth of the band");
   command.add_option("--unseen", arguments.unseen, "What is made of space that was not seen")
       ->check(CLI::IsMember({"free", "occupied", "report"}));
   command.add_option("--shadow-depth", request.shadow_depth, "How far a shadow reaches, metres");

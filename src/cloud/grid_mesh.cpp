@@ -15,6 +15,9 @@
 namespace fcl_prob::detail {
 namespace {
 
+constexpr std::uint8_t kRight = 1;
+constexpr std::uint8_t kBelow = 2;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Pixel {
@@ -34,46 +37,56 @@ struct GridTriangle {
   GridTriangle second() const { return {b, c, middle()}; }
 };
 
-// The triangles of a square of side 2^k pixels are a binary tree, of which the number of one tells
-// the way from the root.
-GridTriangle triangleOf(std::size_t number, int side) {
-  std::size_t id = number + 2;
-  GridTriangle t = (id & 1) != 0 ? GridTriangle{{0, 0}, {side, side}, {side, 0}}
-                                 : GridTriangle{{side, side}, {0, 0}, {0, side}};
-  while ((id >>= 1) > 1) t = (id & 1) != 0 ? t.first() : t.second();
-  return t;
-}
-
 class GridMesher {
  public:
   GridMesher(const DepthGrid& grid, double most, bool across_jumps)
       : grid_(grid), most_(most), across_jumps_(across_jumps) {
-    side_ = 1;
-    while (side_ + 1 < std::max(grid.width, grid.height)) side_ *= 2;
+    while (side_ + 1 < std::max(grid.width, grid.height)) {
+      side_ *= 2;
+      levels_ += 2;
+    }
     errors_.assign(static_cast<std::size_t>(side_ + 1) * static_cast<std::size_t>(side_ + 1), 0.0F);
+    lookAtPixels();
   }
 
   GridMesh run() {
-    const std::size_t smallest = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
-    const std::size_t count = 4 * smallest - 2;  // with those of legs of one pixel
-    const std::size_t parents = count - 2 * smallest;
     // Parents after their children: both sides of an edge agree on whether it is divided.
-    for (std::size_t i = parents; i-- > 0;) {
-      const GridTriangle t = triangleOf(i, side_);
-      float& error = errorAt(t.middle());
-      if (error == std::numeric_limits<float>::infinity()) continue;
-      if (!t.first().isSmallest()) {
-        error = std::max({error, errorAt(t.first().middle()), errorAt(t.second().middle())});
-      }
-      if (error <= most_) error = std::max(error, static_cast<float>(errorOf(t)));
+    for (int level = levels_; level-- > 0;) {
+      visitLevel([this](const GridTriangle& t) { measure(t); }, level);
     }
     vertex_of_.assign(grid_.size(), -1);
-    emit({{0, 0}, {side_, side_}, {side_, 0}});
-    emit({{side_, side_}, {0, 0}, {0, side_}});
+    for (const GridTriangle& root : roots()) emit(root);
     return std::move(result_);
   }
 
  private:
+  std::array<GridTriangle, 2> roots() const {
+    return {{{{0, 0}, {side_, side_}, {side_, 0}}, {{side_, side_}, {0, 0}, {0, side_}}}};
+  }
+
+  // The triangles are two binary trees; those beyond the image are left out.
+  template <typename Visit>
+  void visitLevel(const Visit& visit, int level) const {
+    for (const GridTriangle& root : roots()) visitBelow(root, visit, level);
+  }
+
+  template <typename Visit>
+  void visitBelow(const GridTriangle& t, const Visit& visit, int levels) const {
+    if (!reachesImage(t)) return;
+    if (levels == 0) return visit(t);
+    visitBelow(t.first(), visit, levels - 1);
+    visitBelow(t.second(), visit, levels - 1);
+  }
+
+  void measure(const GridTriangle& t) {
+    float& error = errorAt(t.middle());
+    if (error == std::numeric_limits<float>::infinity()) return;
+    if (!t.first().isSmallest()) {
+      error = std::max({error, errorAt(t.first().middle()), errorAt(t.second().middle())});
+    }
+    if (error <= most_) error = std::max(error, static_cast<float>(errorOf(t)));
+  }
+
   float& errorAt(Pixel p) {
     return errors_[static_cast<std::size_t>(p.v) * static_cast<std::size_t>(side_ + 1) +
                    static_cast<std::size_t>(p.u)];
@@ -83,6 +96,21 @@ class GridMesher {
 
   bool joined(Pixel p, Pixel q) const {
     return across_jumps_ || grid_.connected(grid_.at(p.u, p.v), grid_.at(q.u, q.v));
+  }
+
+  // What every level of triangles asks again.
+  void lookAtPixels() {
+    points_.resize(grid_.size());
+    cut_.assign(grid_.size(), 0);
+    for (int v = 0; v < grid_.height; ++v) {
+      for (int u = 0; u < grid_.width; ++u) {
+        const int pixel = grid_.at(u, v);
+        if (!grid_.has(u, v)) continue;
+        points_[pixel] = grid_.rays[pixel] / grid_.inverse[pixel];
+        if (has({u + 1, v}) && !joined({u, v}, {u + 1, v})) cut_[pixel] |= kRight;
+        if (has({u, v + 1}) && !joined({u, v}, {u, v + 1})) cut_[pixel] |= kBelow;
+      }
+    }
   }
 
   // The farthest pixel of a triangle from it, or kNever.
@@ -99,8 +127,8 @@ class GridMesher {
         const double y = ((t.a.u - t.c.u) * (v - t.c.v) - (u - t.c.u) * (t.a.v - t.c.v)) / det;
         if (x < -1e-9 || y < -1e-9 || x + y > 1.0 + 1e-9) continue;
         if (!grid_.has(u, v)) return kNever;
-        if (u < hi_u && grid_.has(u + 1, v) && !joined({u, v}, {u + 1, v})) return kNever;
-        if (v < hi_v && grid_.has(u, v + 1) && !joined({u, v}, {u, v + 1})) return kNever;
+        const std::uint8_t cut = cut_[grid_.at(u, v)];
+        if ((u < hi_u && (cut & kRight)) || (v < hi_v && (cut & kBelow))) return kNever;
         const Eigen::Vector3d on = x * a + y * b + (1.0 - x - y) * c;
         farthest = std::max(farthest, (at({u, v}) - on).norm());
         if (farthest > most_) return kNever;
@@ -109,10 +137,7 @@ class GridMesher {
     return farthest;
   }
 
-  Eigen::Vector3d at(Pixel p) const {
-    const int pixel = grid_.at(p.u, p.v);
-    return grid_.rays[pixel] / grid_.inverse[pixel];
-  }
+  const Eigen::Vector3d& at(Pixel p) const { return points_[grid_.at(p.u, p.v)]; }
 
   void emit(const GridTriangle& t) {
     if (!t.isSmallest() && (errorAt(t.middle()) > most_ || !isInside(t))) {
@@ -150,7 +175,10 @@ class GridMesher {
   const DepthGrid& grid_;
   double most_;
   bool across_jumps_;
-  int side_;
+  int side_ = 1;
+  int levels_ = 0;                       ///< of triangles with children
+  std::vector<Eigen::Vector3d> points_;  // sensor frame
+  std::vector<std::uint8_t> cut_;        // towards which neighbours a jump lies: kRight, kBelow
   std::vector<float> errors_;
   std::vector<int> vertex_of_;
   GridMesh result_;

@@ -26,6 +26,11 @@ constexpr double kSteepestCertain = 1.3;
 // Nor are those with a band so many times that of the middle one: edges, with few neighbours.
 constexpr double kWidestBand = 2.5;
 
+// What a mesh of an image may deviate from its averaged points by: a length in metres, and as a
+// share of the band.
+constexpr double kLeastSimplification = 0.001;
+constexpr double kShareOfBand = 0.1;
+
 // What lies between pixels, as a share of their distance.
 constexpr double kBetweenPixels = 0.5;
 
@@ -39,7 +44,7 @@ void validate(const ReconstructionRequest& request) {
   requireInRange("focal_length", request.focal_length, 1.0, 1e6);
   requireInRange("plane_tolerance", request.plane_tolerance, 1e-6, 1e3);
   requireInRange("window", request.window, 0, 20);
-  requireInRange("simplification", request.simplification, 0.0, 1e3);
+  if (request.simplification) requireInRange("simplification", *request.simplification, 0.0, 1e3);
   requireInRange("shadow_depth", request.shadow_depth, 1e-6, 1e3);
   requireInRange("coverage", request.coverage, 0.0, 1.0 - 1e-9);
   if (!request.sensor_pose_covariance.allFinite()) {
@@ -139,11 +144,13 @@ class Reconstructor {
     const std::vector<double> bands = bandsOf(grid, averaged);
     DepthGrid certain = grid;
     const double widest = keepCertain(bands, certain);
-    GridMesh surface = meshOf(certain, request_.simplification, false);
+    const double allowed =
+        request_.simplification.value_or(std::max(kLeastSimplification, kShareOfBand * widest));
+    GridMesh surface = meshOf(certain, allowed, false);
     result_.surface = std::move(surface.mesh);
     result_.deviation = surface.deviation;
     finish("mesh", 0.8);
-    const double obstacle_deviation = makeObstacle(grid);
+    const double obstacle_deviation = makeObstacle(grid, allowed);
     const double between = kBetweenPixels * typicalPitch(grid);
     result_.band = {widest + between + obstacle_deviation, widest + between + surface.deviation};
     addRegions(grid, bands, sizes);
@@ -194,7 +201,7 @@ class Reconstructor {
   }
 
   // The surface may reach beyond its outermost pixels by what those are wrong by sideways.
-  double makeObstacle(const DepthGrid& grid) {
+  double makeObstacle(const DepthGrid& grid, double simplification) {
     double margin = 1.0;
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (!(grid.inverse[i] > 0.0)) continue;
@@ -204,7 +211,7 @@ class Reconstructor {
     const bool occupied = request_.unseen == UnseenSpace::occupied;
     const int pixels = static_cast<int>(std::ceil(std::min(margin, 20.0)));
     const DepthGrid larger = grown(grid, pixels, occupied);
-    GridMesh front = meshOf(larger, request_.simplification, occupied);
+    GridMesh front = meshOf(larger, simplification, occupied);
     if (occupied) {
       const Eigen::Vector3d eye = cloud_.sensor.translation();
       result_.obstacle = shadowOf(front.mesh, eye, request_.shadow_depth);
