@@ -3,6 +3,7 @@
 #include "cli/prepared_scene.h"
 
 #include <algorithm>
+#include <future>
 
 #include "cli/number_text.h"
 #include "cli/stopwatch.h"
@@ -10,6 +11,9 @@
 
 namespace fcl_prob::cli {
 namespace {
+
+/// The volumes whose trees fcl::distance can walk, and the narrowest of them.
+constexpr const char* kMeasuring = "obbrss";
 
 const TriangleMesh& requiredMesh(const LoadedObject& object) {
   const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
@@ -49,6 +53,21 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
       pose_error_(pose_error),
       use_of_parts_(parts) {
   const Stopwatch watch;
+  std::future<std::unique_ptr<PreparedQuery>> possible;
+  if (a_.possible || b_.possible) {
+    if (pose_error || parts != PartsUse::none || isOwnVolume(bounding_volume)) {
+      throw InvalidRequest("a reconstructed cloud: not for parts, own volumes and errors of poses");
+    }
+    possible = std::async(std::launch::async, [&] {
+      return std::make_unique<PreparedQuery>(buildPossible(a_, bounding_volume),
+                                             buildPossible(b_, bounding_volume));
+    });
+  }
+  const auto build = [&] {
+    geometry_a_ = buildGeometry(a_, bounding_volume);
+    geometry_b_ = buildGeometry(b_, bounding_volume);
+    measures_distance_ = bounding_volume == kMeasuring;
+  };
   if (pose_error) {
     if (parts != PartsUse::none || isOwnVolume(bounding_volume)) {
       throw InvalidRequest(
@@ -56,23 +75,17 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
           "errors "
           "of poses");
     }
-    pose_query_ = std::make_unique<PreparedPoseQuery>(buildGeometry(a_, bounding_volume),
-                                                      buildGeometry(b_, bounding_volume));
+    build();
+    pose_query_ = std::make_unique<PreparedPoseQuery>(geometry_a_, geometry_b_);
   } else if (parts != PartsUse::none) {
     parts_ = std::make_unique<PartsScene>(a_, b_, displacement_, bounding_volume);
   } else if (isOwnVolume(bounding_volume)) {
     own_trees_ = makeTreePair(bounding_volume, requiredMesh(a_), requiredMesh(b_));
   } else {
-    query_ = std::make_unique<PreparedQuery>(buildGeometry(a_, bounding_volume),
-                                             buildGeometry(b_, bounding_volume));
+    build();
+    query_ = std::make_unique<PreparedQuery>(geometry_a_, geometry_b_);
   }
-  if (a_.possible || b_.possible) {
-    if (!query_) {
-      throw InvalidRequest("a reconstructed cloud: not for parts, own volumes and errors of poses");
-    }
-    possible_query_ = std::make_unique<PreparedQuery>(buildPossible(a_, bounding_volume),
-                                                      buildPossible(b_, bounding_volume));
-  }
+  if (possible.valid()) possible_query_ = possible.get();
   build_ms_ = watch.milliseconds();
 }
 
@@ -131,8 +144,12 @@ ProbabilityResult PreparedScene::betweenTwo(const ProbabilityRequest& request) c
   result.upper = std::max(*result.lower, *possible.upper);
   result.statistics.cells += possible.statistics.cells;
   result.decision = detail::decisionOf({*result.lower, *result.upper}, request);
+  const double width = *result.upper - *result.lower;
   if (result.decision == Decision::below || result.decision == Decision::above) {
     result.status = ProbabilityStatus::decided;
+  } else if (!stoppedByLimit(result.status) && width > request.toleranceAt(*result.upper)) {
+    // Each of the two is as narrow as asked for: what is between them was not seen.
+    result.status = ProbabilityStatus::band_limit;
   }
   result.plan.push_back(
       "lower bound by the surface that was seen, upper bound by what may be there");
@@ -163,12 +180,13 @@ TimedResult PreparedScene::quickestOfThree(const ProbabilityRequest& request) co
 }
 
 NominalAnswer PreparedScene::nominal() const {
-  constexpr const char* kVolume = "obbrss";
+  const Geometry a = measures_distance_ ? geometry_a_ : buildGeometry(a_, kMeasuring);
+  const Geometry b = measures_distance_ ? geometry_b_ : buildGeometry(b_, kMeasuring);
   const fcl::Transform3d pose =
       pose_error_ ? displacedPose(a_.pose, pose_error_->convention(), pose_error_->mean())
                   : a_.pose;
   const Eigen::Vector3d mean = pose_error_ ? Eigen::Vector3d::Zero() : displacement_.mean();
-  return nominalAnswer(buildGeometry(a_, kVolume), pose, buildGeometry(b_, kVolume), b_.pose, mean);
+  return nominalAnswer(a, pose, b, b_.pose, mean);
 }
 
 bool stoppedByLimit(ProbabilityStatus status) {

@@ -69,6 +69,9 @@ class PreparedScene {
   GaussianDisplacement displacement_;
   std::optional<PoseError> pose_error_;
   double build_ms_ = 0.0;
+  Geometry geometry_a_;  ///< null where only own trees or parts are needed
+  Geometry geometry_b_;
+  bool measures_distance_ = false;  ///< fcl::distance can walk their trees
   std::unique_ptr<PreparedQuery> query_;
   std::unique_ptr<PreparedPoseQuery> pose_query_;  ///< instead, with a pose error
   std::unique_ptr<PreparedQuery> possible_query_;  ///< besides, where a cloud is among the objects
