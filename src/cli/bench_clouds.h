@@ -9,4 +9,7 @@ namespace fcl_prob::cli {
 /// Only in a build with fcl_prob::cloud.
 BenchReport benchCloud(const BenchOptions& options, const BenchProgress& progress);
 
+/// From file to answer, times by stage; no truth is known.
+void addRealClouds(const BenchOptions& options, const BenchProgress& progress, BenchReport& report);
+
 }  // namespace fcl_prob::cli
