@@ -3,23 +3,20 @@ include(CMakePackageConfigHelpers)
 set(FCL_PROB_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/fcl_prob)
 
 set(fcl_prob_installed fcl_prob)
-set(headers_of_io PATTERN mesh_io.h EXCLUDE PATTERN scene_io.h EXCLUDE
-  PATTERN octomap_io.h EXCLUDE)
-if(FCL_PROB_WITH_ASSIMP)
-  list(APPEND fcl_prob_installed fcl_prob_io)
-  set(headers_of_io)
-endif()
-set(headers_of_cloud PATTERN point_cloud.h EXCLUDE PATTERN sensor_model.h EXCLUDE
-  PATTERN reconstruction.h EXCLUDE)
-if(FCL_PROB_WITH_CLOUD)
-  list(APPEND fcl_prob_installed fcl_prob_cloud)
-  set(headers_of_cloud)
-endif()
-set(headers_of_robot PATTERN robot.h EXCLUDE PATTERN robot_query.h EXCLUDE)
-if(FCL_PROB_WITH_ROBOT)
-  list(APPEND fcl_prob_installed fcl_prob_robot)
-  set(headers_of_robot)
-endif()
+set(fcl_prob_headers_left_out)
+# Installs a wing, if it is built; else leaves out its headers.
+macro(fcl_prob_install_wing room with)
+  if(${with})
+    list(APPEND fcl_prob_installed fcl_prob_${room})
+  else()
+    foreach(header ${ARGN})
+      list(APPEND fcl_prob_headers_left_out PATTERN ${header} EXCLUDE)
+    endforeach()
+  endif()
+endmacro()
+fcl_prob_install_wing(io FCL_PROB_WITH_ASSIMP mesh_io.h scene_io.h octomap_io.h)
+fcl_prob_install_wing(cloud FCL_PROB_WITH_CLOUD point_cloud.h sensor_model.h reconstruction.h)
+fcl_prob_install_wing(robot FCL_PROB_WITH_ROBOT robot.h robot_query.h)
 install(TARGETS ${fcl_prob_installed} EXPORT fcl_prob-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
@@ -31,8 +28,7 @@ if(FCL_PROB_BUILD_MPI)
   install(TARGETS fcl_prob_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
 install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-  ${headers_of_io} ${headers_of_robot}
-  ${headers_of_cloud})
+  ${fcl_prob_headers_left_out})
 install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR}
   COMPONENT development)
 install(FILES package.xml DESTINATION share/fcl_prob COMPONENT development)
