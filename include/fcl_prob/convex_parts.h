@@ -37,9 +37,8 @@ class ConvexParts {
  public:
   /// Cuts the mesh by planes, so that the hulls of the pieces shrink as much as possible, and puts
   /// pieces together again whose common hull is hardly larger (approximate convex decomposition). A
-  /// mesh that is convex is one part; so is one of which no single cut makes the hulls smaller, as a
-  /// torus. The same mesh gives the same parts on every machine with the
-  /// same rounding.
+  /// mesh that is convex is one part; so is one of which no single cut makes the hulls smaller, as
+  /// a torus. The same mesh gives the same parts on every machine with the same rounding.
   ///
   /// Every part is the hull of its pieces, moved outwards by more than what rounding may have moved
   /// the cuts by (1e-12 to 2e-12 of the largest coordinate). That the parts cover the mesh is

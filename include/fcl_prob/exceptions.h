@@ -12,8 +12,8 @@ class Exception : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A mean or covariance that is not finite, not symmetric or not positive semidefinite; a mixture whose
-/// weights are not a distribution.
+/// A mean or covariance that is not finite, not symmetric or not positive semidefinite; a mixture
+/// whose weights are not a distribution.
 class InvalidDistribution : public Exception {
   using Exception::Exception;
 };

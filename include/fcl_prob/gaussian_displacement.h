@@ -12,9 +12,9 @@ namespace detail {
 struct PrincipalAxes;
 }
 
-/// The displacement `ε ~ N(mean, covariance)` by which object A is moved, as a translation in the world
-/// frame, relative to object B. Metres. The covariance may have rank 0 to 3: along a direction of
-/// variance zero A does not move beyond the mean.
+/// The displacement `ε ~ N(mean, covariance)` by which object A is moved, as a translation in the
+/// world frame, relative to object B. Metres. The covariance may have rank 0 to 3: along a
+/// direction of variance zero A does not move beyond the mean.
 ///
 /// Immutable after construction, so it may be shared between threads.
 class GaussianDisplacement {
@@ -23,15 +23,16 @@ class GaussianDisplacement {
   GaussianDisplacement();
 
   /// \param mean        metres, world frame
-  /// \param covariance  square metres, world frame; symmetric to 1e-9 of its largest entry and positive
+  /// \param covariance  square metres, world frame; symmetric to 1e-9 of its largest entry and
+  /// positive
   ///                    semidefinite to 1e-12 of it (what rounding leaves of a singular matrix)
   /// \throws InvalidDistribution if either is not finite, or the covariance is not symmetric, has a
   ///         negative eigenvalue or an entry above 1e300; the message holds the offending value.
   ///
   /// Standard deviations keep their relative accuracy also in a graded matrix such as
-  /// diag(1, 1e-16, 1e-30). In a rotated one the entries themselves carry rounding of about 1e-16 of the
-  /// largest, and a variance that is not above it counts as zero: use fromStandardDeviations() where it
-  /// is known better.
+  /// diag(1, 1e-16, 1e-30). In a rotated one the entries themselves carry rounding of about 1e-16
+  /// of the largest, and a variance that is not above it counts as zero: use
+  /// fromStandardDeviations() where it is known better.
   GaussianDisplacement(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
 
   /// Standard deviations (metres) along the columns of `axes`' rotation matrix (normalised first).
@@ -60,7 +61,8 @@ class GaussianDisplacement {
   const Eigen::Matrix3d& axes() const { return axes_; }
 
   /// Number of directions in which A moves: 0 to 3. A small standard deviation that came out of an
-  /// eigen-decomposition counts as zero only if rounding of the entries could have left it of a zero.
+  /// eigen-decomposition counts as zero only if rounding of the entries could have left it of a
+  /// zero.
   int rank() const { return rank_; }
 
   /// All three standard deviations equal (to 1e-12) and not zero: whitening is a scaling.
@@ -73,11 +75,11 @@ class GaussianDisplacement {
   /// The displacement of B relative to A: the same distribution mirrored, so the mean changes sign.
   GaussianDisplacement reversed() const;
 
-  /// The same displacement seen from a world rotated by `rotation`: that of the mean `R mean` and the
-  /// covariance `R Σ Rᵀ`. A matrix R that is a rotation only to 1e-9 is used as it is, so the
-  /// standard deviations may change by as much; axes() is a rotation all the same. With one that is a
-  /// rotation to rounding they are kept exactly. The rank never changes.
-  /// \throws InvalidPose if that is not a rotation to 1e-9.
+  /// The same displacement seen from a world rotated by `rotation`: that of the mean `R mean` and
+  /// the covariance `R Σ Rᵀ`. A matrix R that is a rotation only to 1e-9 is used as it is, so the
+  /// standard deviations may change by as much; axes() is a rotation all the same. With one that is
+  /// a rotation to rounding they are kept exactly. The rank never changes. \throws InvalidPose if
+  /// that is not a rotation to 1e-9.
   GaussianDisplacement rotated(const Eigen::Matrix3d& rotation) const;
 
  private:

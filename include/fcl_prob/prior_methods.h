@@ -53,9 +53,9 @@ GeneralPcdResult parkSum(const fcl::BVHModel<SphereBv>& a, const fcl::Transform3
                          const GeneralPcdRequest& request = {});
 
 /// The sum of duToitBurdick() over the pairs at which that traversal ends (it refines a pair while
-/// Park's bound is at least 1 - confidence): an approximation that bounds nothing, counts pairs that
-/// collide together one by one, and may be far above 1. Of the request, confidence and max_pairs
-/// count. \throws as parkSum()
+/// Park's bound is at least 1 - confidence): an approximation that bounds nothing, counts pairs
+/// that collide together one by one, and may be far above 1. Of the request, confidence and
+/// max_pairs count. \throws as parkSum()
 double duToitBurdickSum(const fcl::BVHModel<SphereBv>& a, const fcl::Transform3d& pose_a,
                         const fcl::BVHModel<SphereBv>& b, const fcl::Transform3d& pose_b,
                         const GaussianDisplacement& displacement,

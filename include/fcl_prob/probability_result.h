@@ -20,17 +20,17 @@ enum class Decision { none, below, above, undecided };
 
 /// Why a query stopped.
 enum class ProbabilityStatus {
-  converged,       ///< the tolerance was reached
-  exact,           ///< everything is resolved: only the rounding margin is left
-  decided,         ///< the threshold was decided
-  bound_only,      ///< the method gives one upper bound and has no tolerance to reach
-  sampled,         ///< the number of samples asked for was drawn
-  time_limit,      ///< the interval is valid but wider than asked for
-  cell_limit,      ///< as above
-  memory_limit,    ///< as above
-  resolution_limit,///< as above: what is left cannot be divided further in double precision
-  cancelled,       ///< as above, by on_progress
-  band_limit       ///< the interval is about as narrow as the bands around the shapes allow
+  converged,         ///< the tolerance was reached
+  exact,             ///< everything is resolved: only the rounding margin is left
+  decided,           ///< the threshold was decided
+  bound_only,        ///< the method gives one upper bound and has no tolerance to reach
+  sampled,           ///< the number of samples asked for was drawn
+  time_limit,        ///< the interval is valid but wider than asked for
+  cell_limit,        ///< as above
+  memory_limit,      ///< as above
+  resolution_limit,  ///< as above: what is left cannot be divided further in double precision
+  cancelled,         ///< as above, by on_progress
+  band_limit         ///< the interval is about as narrow as the bands around the shapes allow
 };
 
 /// What the query did. Counters that a method does not use stay 0.
@@ -44,31 +44,31 @@ struct ProbabilityStatistics {
   std::size_t samples = 0;
   std::size_t hits = 0;
   std::optional<double> effective_samples;  ///< rare_event: (Σ w)² / Σ w² over the weighted hits
-  std::optional<double> raw_sum; ///< general_pcd: the sum before clipping at 1
+  std::optional<double> raw_sum;            ///< general_pcd: the sum before clipping at 1
   std::vector<std::pair<std::string, double>> seconds;  ///< time by stage
 };
 
 struct ProbabilityResult {
   ProbabilityMethod method = ProbabilityMethod::automatic;  ///< the one that answered
 
-  /// Certified: lower <= P <= upper on every input. Not set by sampling methods; `lower` is not set by
-  /// methods that only bound from above.
+  /// Certified: lower <= P <= upper on every input. Not set by sampling methods; `lower` is not set
+  /// by methods that only bound from above.
   std::optional<double> lower;
   std::optional<double> upper;
 
-  /// An estimate (not certified) and its standard error, which includes what rounding leaves open of
-  /// single samples.
+  /// An estimate (not certified) and its standard error, which includes what rounding leaves open
+  /// of single samples.
   std::optional<double> estimate;
   std::optional<double> standard_error;
 
   /// Sampling: an interval that covers P with probability ProbabilityRequest::confidence.
   std::optional<Bounds> confidence_interval;
 
-  /// ∂P/∂mean, 1/metres, world frame, with certified component-wise bounds where the method has them
-  /// and a standard error where it samples. With a covariance of rank below 3 set only for half-spaces
-  /// and planes, and for an octree with nothing in it: elsewhere P changes with the mean across the
-  /// directions in which A does not move by what the boundary of the reachable section sweeps, and it
-  /// need not be differentiable; `plan` says so.
+  /// ∂P/∂mean, 1/metres, world frame, with certified component-wise bounds where the method has
+  /// them and a standard error where it samples. With a covariance of rank below 3 set only for
+  /// half-spaces and planes, and for an octree with nothing in it: elsewhere P changes with the
+  /// mean across the directions in which A does not move by what the boundary of the reachable
+  /// section sweeps, and it need not be differentiable; `plan` says so.
   std::optional<Eigen::Vector3d> gradient;
   std::optional<Eigen::Vector3d> gradient_lower;
   std::optional<Eigen::Vector3d> gradient_upper;
@@ -82,8 +82,8 @@ struct ProbabilityResult {
 
   ProbabilityStatistics statistics;
 
-  /// The single number to use: the estimate if there is one, else the middle of a two-sided interval,
-  /// else the upper bound; NaN before any query has filled the result.
+  /// The single number to use: the estimate if there is one, else the middle of a two-sided
+  /// interval, else the upper bound; NaN before any query has filled the result.
   double probability() const;
 };
 

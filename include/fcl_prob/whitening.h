@@ -9,12 +9,12 @@
 
 namespace fcl_prob {
 
-/// The affine map `y = W (ε - mean)` under which the first rank() coordinates of `y` are independent
-/// standard normals and the remaining ones are zero. Any rotation among the first rank() coordinates is
-/// free (the standard normal has no preferred axes); see rotatedTo().
+/// The affine map `y = W (ε - mean)` under which the first rank() coordinates of `y` are
+/// independent standard normals and the remaining ones are zero. Any rotation among the first
+/// rank() coordinates is free (the standard normal has no preferred axes); see rotatedTo().
 ///
-/// Units: the first rank() coordinates are in standard deviations; a remaining coordinate is in metres
-/// divided by `length_unit`, and every point that the displacement can reach has 0 there.
+/// Units: the first rank() coordinates are in standard deviations; a remaining coordinate is in
+/// metres divided by `length_unit`, and every point that the displacement can reach has 0 there.
 class Whitening {
  public:
   /// \param displacement  whose mean becomes the origin
@@ -37,9 +37,9 @@ class Whitening {
 
   const Eigen::Vector3d& mean() const { return mean_; }
 
-  /// The same whitening with its moving coordinates rotated so that the first one lies along the part of
-  /// `direction` (whitened frame, need not be unit) that moves; unchanged if that part is zero or the
-  /// rank is below 2.
+  /// The same whitening with its moving coordinates rotated so that the first one lies along the
+  /// part of `direction` (whitened frame, need not be unit) that moves; unchanged if that part is
+  /// zero or the rank is below 2.
   Whitening rotatedTo(const Eigen::Vector3d& direction) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace fcl_prob::detail {
 
-/// One run of Qhull that keeps its warnings to itself: orgQhull::Qhull prints what nobody has read to
-/// std::cerr as it goes away, and a library does not write there. Its errors are exceptions.
+/// One run of Qhull that keeps its warnings to itself: orgQhull::Qhull prints what nobody has read
+/// to std::cerr as it goes away, and a library does not write there. Its errors are exceptions.
 class QuietQhull : public orgQhull::Qhull {
  public:
   QuietQhull() = default;

@@ -56,10 +56,9 @@ std::optional<PrincipalBall> ballOfPair(const ConvexBody& a, const fcl::Transfor
   ball.centre_error = static_cast<double>(64.0L * kFine * centre.cwiseAbs().sum()) +
                       std::numeric_limits<double>::min();
   ball.radius = static_cast<long double>(body_a.radius) + body_b.radius;
-  ball.radius_error =
-      stretchOf(defectOf(pose_a.linear())) * body_a.radius +
-      stretchOf(defectOf(pose_b.linear())) * body_b.radius +
-      stretchOf(defect) * static_cast<double>(ball.radius);
+  ball.radius_error = stretchOf(defectOf(pose_a.linear())) * body_a.radius +
+                      stretchOf(defectOf(pose_b.linear())) * body_b.radius +
+                      stretchOf(defect) * static_cast<double>(ball.radius);
   return ball;
 }
 

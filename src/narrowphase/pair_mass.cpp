@@ -144,7 +144,8 @@ Bounds massOfPrism(int rank, const FaceSet& faces, const MassEffort& effort) {
   }
   Bounds mass = polytopeMass(toClosedPolytope(faces), 0.0, effort);
   mass.lower /= prismMass(rank) * (1.0 + 8.0 * kIntervalMassRelativeError);
-  mass.upper = mass.upper / (prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError)) + kUnderflow;
+  mass.upper =
+      mass.upper / (prismMass(rank) * (1.0 - 8.0 * kIntervalMassRelativeError)) + kUnderflow;
   return mass;
 }
 

@@ -8,11 +8,12 @@
 
 namespace fcl_prob_test {
 
-/// The folder of models for tests: $FCL_PROB_MODELS, or ../shared/models beside the checkout; nothing
-/// when neither exists. A test without its models prints SKIPPED and returns.
+/// The folder of models for tests: $FCL_PROB_MODELS, or ../shared/models beside the checkout;
+/// nothing when neither exists. A test without its models prints SKIPPED and returns.
 std::optional<std::string> modelsFolder();
 
-/// The full path of a model below modelsFolder(); prints "SKIPPED: ..." and returns nothing without it.
+/// The full path of a model below modelsFolder(); prints "SKIPPED: ..." and returns nothing without
+/// it.
 std::optional<std::string> modelOrSkip(const std::string& relative_path);
 
 }  // namespace fcl_prob_test
