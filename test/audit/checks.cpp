@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "ask.h"
+#include "band_check.h"
+#include "families.h"
 #include "oracle_check.h"
 #include "random_shape.h"
 #include "relations.h"
@@ -41,13 +43,16 @@ class SceneCheck {
         sampled_(chance(random_, 0.4)) {}
 
   std::vector<Violation> run() {
-    answer_ = askCheckingClaims(scene_, family_, found_);
+    answer_ = askCheckingClaims(scene_, scene_, family_, found_);
     checkSound(scene_, answer_, found_);
     count();
     checkDisplacements();
     if (!answer_) return std::move(found_);
     checkTruth();
     checkRelations();
+    constexpr std::uint64_t kWithBands = 8;
+    const bool chosen = options_.everything || scene_.index / families().size() % kWithBands == 0;
+    if (chosen && mayFind("bands")) checkBands(scene_, tally_, found_);
     return std::move(found_);
   }
 

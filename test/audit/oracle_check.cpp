@@ -57,9 +57,10 @@ void count(const oracle::ClaimReport& report, FamilyTally& tally, std::vector<Vi
 
 }  // namespace
 
-Answer askCheckingClaims(const Scene& scene, FamilyTally& tally, std::vector<Violation>& found) {
+Answer askCheckingClaims(const Scene& scene, const Scene& truth, FamilyTally& tally,
+                         std::vector<Violation>& found) {
 #ifdef FCL_PROB_AUDIT_CLAIMS
-  const OracleScene placed(scene);
+  const OracleScene placed(truth);
   // Where nothing moves, cells are points, and planes may leave nothing of them.
   bool moves = true;
   for (const Displacement& displacement : scene.displacements) {
@@ -74,6 +75,7 @@ Answer askCheckingClaims(const Scene& scene, FamilyTally& tally, std::vector<Vio
     return answer;
   }
 #endif
+  (void)truth;
   (void)tally;
   (void)found;
   return ask(scene);

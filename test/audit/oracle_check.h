@@ -12,7 +12,9 @@ namespace fcl_prob_audit {
 
 /// Asks the scene's question and checks some of what the partition claims meanwhile, point by
 /// point. Whatever is claimed wrongly is a violation "claim: METHOD".
-Answer askCheckingClaims(const Scene& scene, FamilyTally& tally, std::vector<Violation>& found);
+/// \param truth  the scene as it is, of which `scene` is a model with bands
+Answer askCheckingClaims(const Scene& scene, const Scene& truth, FamilyTally& tally,
+                         std::vector<Violation>& found);
 
 /// Displacements drawn and put to the oracle: for shapes that no line can be laid through. Nothing
 /// where the oracle has no answer.
