@@ -78,6 +78,36 @@ TEST_CASE("check widens by bands around the shapes", "[cli]") {
   }
 }
 
+TEST_CASE("a reconstructed cloud is between what was seen and what may be there", "[cli]") {
+  const Cubes cubes;
+  std::string larger = "v -0.6 -0.5 -0.5\nv -0.6 -0.5 0.5\nv -0.6 0.5 -0.5\nv -0.6 0.5 0.5\n";
+  larger += "v 0.6 -0.5 -0.5\nv 0.6 -0.5 0.5\nv 0.6 0.5 -0.5\nv 0.6 0.5 0.5\n";
+  larger += "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+  cubes.folder.write("larger.obj", larger);
+  const auto ask = [&](const std::string& variance, const std::string& threshold) {
+    const std::string file =
+        cubes.folder.write("seen.json", R"({"surface": "cube.obj", "obstacle": "larger.obj",
+        "obstacle_is_solid": false, "band": [0.0], "covariance": [)" +
+                                            variance + ", 0, 0, 0, 0, 0]}");
+    return checkJson({cubes.file, file, "--pose-a", "1.2,0.13,0.07", "--sigma", "0.1,0,0",
+                      "--threshold", threshold},
+                     cubes.folder);
+  };
+  const auto tail = [](double deviations) { return fcl_prob::normalTailMass(deviations); };
+  // 0.2 m to what was seen, 0.1 m to what may be there.
+  const json seen = ask("0", "0.1");
+  CHECK(seen.at("lower").get<double>() == Approx(tail(2.0)).epsilon(0.02));
+  CHECK(seen.at("upper").get<double>() == Approx(tail(1.0)).epsilon(0.02));
+  CHECK(seen.at("status") == "band-limit");
+  CHECK(seen.at("decision") == "undecided");
+  CHECK(ask("0", "0.2").at("decision") == "below");
+  CHECK(ask("0", "0.02").at("decision") == "above");
+
+  const json shared = ask("0.03", "0.25");
+  CHECK(shared.at("lower").get<double>() == Approx(tail(1.0)).epsilon(0.02));
+  CHECK(shared.at("upper").get<double>() == Approx(tail(0.5)).epsilon(0.02));
+}
+
 TEST_CASE("check takes errors of a pose", "[cli][slow]") {
   const Cubes cubes;
   const std::vector<std::string> base{cubes.file, cubes.file, "--pose-a", "1.2,0.13,0.07"};
