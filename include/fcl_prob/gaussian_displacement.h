@@ -24,8 +24,8 @@ class GaussianDisplacement {
 
   /// \param mean        metres, world frame
   /// \param covariance  square metres, world frame; symmetric to 1e-9 of its largest entry and
-  /// positive
-  ///                    semidefinite to 1e-12 of it (what rounding leaves of a singular matrix)
+  ///                    positive semidefinite to 1e-12 of it (what rounding leaves of a singular
+  ///                    matrix)
   /// \throws InvalidDistribution if either is not finite, or the covariance is not symmetric, has a
   ///         negative eigenvalue or an entry above 1e300; the message holds the offending value.
   ///
@@ -78,8 +78,8 @@ class GaussianDisplacement {
   /// The same displacement seen from a world rotated by `rotation`: that of the mean `R mean` and
   /// the covariance `R Σ Rᵀ`. A matrix R that is a rotation only to 1e-9 is used as it is, so the
   /// standard deviations may change by as much; axes() is a rotation all the same. With one that is
-  /// a rotation to rounding they are kept exactly. The rank never changes. \throws InvalidPose if
-  /// that is not a rotation to 1e-9.
+  /// a rotation to rounding they are kept exactly. The rank never changes.
+  /// \throws InvalidPose if that is not a rotation to 1e-9.
   GaussianDisplacement rotated(const Eigen::Matrix3d& rotation) const;
 
  private:
