@@ -50,8 +50,7 @@ class Estimator {
 
  private:
   double targetAt(double probability) const {
-    return std::max(request_.absolute_tolerance,
-                    request_.relative_tolerance * std::max(probability, 0.0));
+    return request_.toleranceAt(std::max(probability, 0.0));
   }
 
   double standardError() const {
