@@ -68,9 +68,4 @@ Geometry buildGeometry(const LoadedObject& object, const std::string& bounding_v
   return std::get<PrimitiveShape>(object.shape);
 }
 
-Geometry buildPossible(const LoadedObject& object, const std::string& bounding_volume) {
-  return object.possible ? buildTree(*object.possible, bounding_volume)
-                         : buildGeometry(object, bounding_volume);
-}
-
 }  // namespace fcl_prob::cli

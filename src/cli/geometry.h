@@ -37,9 +37,6 @@ struct LoadedObject {
 /// InvalidGeometry
 LoadedObject loadObject(const SceneObject& object);
 
-/// The same of what may be there: of `possible`, where there is one.
-Geometry buildPossible(const LoadedObject& object, const std::string& bounding_volume);
-
 /// The primitive itself, or the tree over the mesh.
 Geometry buildGeometry(const LoadedObject& object, const std::string& bounding_volume);
 

@@ -23,6 +23,13 @@ const TriangleMesh& requiredMesh(const LoadedObject& object) {
   return *mesh;
 }
 
+/// The tree over a mesh, built on another thread; not valid without a mesh.
+std::future<Geometry> treeBeside(const std::optional<TriangleMesh>& mesh,
+                                 const std::string& bounding_volume) {
+  if (!mesh) return {};
+  return std::async(std::launch::async, [&] { return buildTree(*mesh, bounding_volume); });
+}
+
 ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest& request) {
   ProbabilityResult result;
   result.method = request.method;
@@ -53,15 +60,13 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
       pose_error_(pose_error),
       use_of_parts_(parts) {
   const Stopwatch watch;
-  std::future<std::unique_ptr<PreparedQuery>> possible;
+  std::future<Geometry> possible_a, possible_b;
   if (a_.possible || b_.possible) {
     if (pose_error || parts != PartsUse::none || isOwnVolume(bounding_volume)) {
       throw InvalidRequest("a reconstructed cloud: not for parts, own volumes and errors of poses");
     }
-    possible = std::async(std::launch::async, [&] {
-      return std::make_unique<PreparedQuery>(buildPossible(a_, bounding_volume),
-                                             buildPossible(b_, bounding_volume));
-    });
+    possible_a = treeBeside(a_.possible, bounding_volume);
+    possible_b = treeBeside(b_.possible, bounding_volume);
   }
   const auto build = [&] {
     geometry_a_ = buildGeometry(a_, bounding_volume);
@@ -85,7 +90,11 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
     build();
     query_ = std::make_unique<PreparedQuery>(geometry_a_, geometry_b_);
   }
-  if (possible.valid()) possible_query_ = possible.get();
+  if (a_.possible || b_.possible) {
+    possible_query_ =
+        std::make_unique<PreparedQuery>(possible_a.valid() ? possible_a.get() : geometry_a_,
+                                        possible_b.valid() ? possible_b.get() : geometry_b_);
+  }
   build_ms_ = watch.milliseconds();
 }
 
