@@ -179,7 +179,7 @@ BenchReport benchCloud(const BenchOptions& options, const BenchProgress& progres
     }
   }
   if (!total.empty()) report("all", "", "", Row(std::move(total)), result);
-  addRealClouds(options, progress, result);
+  addRealClouds(finger, options, progress, result);
   return result;
 }
 

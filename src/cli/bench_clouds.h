@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/benchmark.h"
+#include "cli/geometry.h"
 
 namespace fcl_prob::cli {
 
@@ -10,6 +11,7 @@ namespace fcl_prob::cli {
 BenchReport benchCloud(const BenchOptions& options, const BenchProgress& progress);
 
 /// From file to answer, times by stage; no truth is known.
-void addRealClouds(const BenchOptions& options, const BenchProgress& progress, BenchReport& report);
+void addRealClouds(const Geometry& finger, const BenchOptions& options,
+                   const BenchProgress& progress, BenchReport& report);
 
 }  // namespace fcl_prob::cli

@@ -73,10 +73,9 @@ void addCloud(const RealCloud& real, const std::filesystem::path& folder, const 
 
 }  // namespace
 
-void addRealClouds(const BenchOptions& options, const BenchProgress& progress,
-                   BenchReport& report) {
+void addRealClouds(const Geometry& finger, const BenchOptions& options,
+                   const BenchProgress& progress, BenchReport& report) {
   const std::filesystem::path models(options.models_folder);
-  const Geometry finger = gripperFinger(models);
   TextTable table({"cloud", "points", "triangles", "band / mm", "lower", "upper", "read / ms",
                    "reconstruction / ms", "trees / ms", "query / ms", "all / ms"});
   bool any = false;
