@@ -2,10 +2,24 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cobstacle/bounding_volumes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "cobstacle/thinned_points.h"
+
 namespace fcl_prob::detail {
+namespace {
+
+/// Of the largest coordinate: by how much the slabs of a k-DOP are widened.
+constexpr double kDopPadding = 1e-14;
+
+/// Many planes of a k-DOP around a polytope go through one vertex, up to rounding. Corners nearer
+/// to each other than this, of the largest coordinate or of the extent, count as one.
+constexpr double kDopThinning = 10.0 * kDopPadding;
+constexpr double kDopThinningOfExtent = 1e-10;
+
+}  // namespace
 
 RoundedZonotope roundedZonotope(const fcl::AABBd& box) {
   RoundedZonotope result{Zonotope(0.5 * (box.min_ + box.max_)), 0.0};
@@ -65,8 +79,14 @@ ConvexMesh meshOfSlabs(const std::vector<Slab>& slabs) {
     size = std::max({size, std::abs(slabs[k].lower), std::abs(slabs[k].upper)});
   }
   FaceSet faces;
-  setToSlabs(slabs, 1e-14 * size, faces);
-  return makeConvexMesh(faces.vertices());
+  setToSlabs(slabs, kDopPadding * size, faces);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& v : faces.vertices()) box.extend(v);
+  const double distance =
+      std::max(kDopThinning * size, kDopThinningOfExtent * box.sizes().maxCoeff());
+  ConvexMesh mesh = makeConvexMesh(thinnedOut(faces.vertices(), distance));
+  mesh.slack += distance;
+  return mesh;
 }
 
 }  // namespace fcl_prob::detail
