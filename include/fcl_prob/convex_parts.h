@@ -18,7 +18,7 @@ namespace fcl_prob {
 
 struct DecompositionRequest {
   /// Parts at most, at least 1.
-  std::size_t max_parts = 24;
+  std::size_t max_parts = 40;
 
   /// Two parts become one if their common hull exceeds the two by no more than this part of the
   /// volume of the hull of the whole mesh, at least 0: fewer parts than max_parts where more would
@@ -37,17 +37,22 @@ class ConvexParts {
  public:
   /// Cuts the mesh by planes, so that the hulls of the pieces shrink as much as possible, and puts
   /// pieces together again whose common hull is hardly larger (approximate convex decomposition). A
-  /// mesh that is convex is one part; so is one of which no single cut makes the hulls smaller, as
-  /// a torus. The same mesh gives the same parts on every machine with the same rounding.
+  /// mesh that is convex is one part. The same mesh gives the same parts on every machine with the
+  /// same rounding.
   ///
   /// Every part is the hull of its pieces, moved outwards by more than what rounding may have moved
-  /// the cuts by (1e-12 to 2e-12 of the largest coordinate). That the parts cover the mesh is
+  /// the cuts by (6e-11 to 1.3e-10 of the largest coordinate). That the parts cover the mesh is
   /// proven afterwards, triangle by triangle, from the parts alone. \throws InvalidGeometry if the
   /// mesh is malformed, or the cover cannot be proven; InvalidRequest if a number is out of its
   /// range
   explicit ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request = {});
 
   std::size_t size() const;
+
+  /// Whether the parts are proven to contain every point of the solid that the mesh encloses, too:
+  /// a closed mesh of whose box nothing inside is left once the parts are taken off. False for a
+  /// mesh that is not closed.
+  bool coversSolid() const;
 
   /// Its corners and faces. Parts of flat meshes are as thick as they are moved outwards.
   const ConvexPolytope& polytope(std::size_t part) const;

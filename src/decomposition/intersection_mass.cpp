@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cobstacle/cut_polytope.h"
+#include "cobstacle/thinned_points.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/polytope_mass.h"
 
@@ -64,17 +65,14 @@ Eigen::Vector3d middleOf(const FaceSet& faces) {
   return sum / static_cast<double>(faces.vertices().size());
 }
 
-/// Leaves out points that are within `distance` of one that stays.
-std::vector<Eigen::Vector3d> thinnedOut(const std::vector<Eigen::Vector3d>& points,
-                                        double distance) {
-  std::vector<Eigen::Vector3d> kept;
-  for (const Eigen::Vector3d& point : points) {
-    const auto is_near = [&](const Eigen::Vector3d& other) {
-      return (other - point).squaredNorm() <= distance * distance;
-    };
-    if (std::none_of(kept.begin(), kept.end(), is_near)) kept.push_back(point);
+FaceSet faceSetOf(const ConvexPolytope& polytope) {
+  FaceSet faces;
+  for (const Eigen::Vector3d& v : polytope.vertices) faces.addVertex(v);
+  for (const ConvexPolytope::Face& face : polytope.faces) {
+    faces.beginFace();
+    for (const int corner : face.vertices) faces.addCorner(corner);
   }
-  return kept;
+  return faces;
 }
 
 /// Cuts leave narrow faces that are uneven; those of a hull are even, and merged where they can be.
@@ -114,7 +112,19 @@ FaceSet cutBy(const KnownObstacle& obstacle, const KnownObstacle& body, double m
 
 KnownObstacle::KnownObstacle(FaceSet faces, double error)
     : faces_(std::move(faces)), error_(error) {
-  const double margin = error + kHeightRounding * lengthOf(faces_);
+  const double distance = kThinning * lengthOf(faces_);
+  const ConvexPolytope hull = convexHull(thinnedOut(faces_.vertices(), distance));
+  FaceSet even = faceSetOf(hull);
+  // The normals of narrow faces are noise, and what is surely below their planes is little.
+  if (even.faceCount() > 0 && even.closed()) {
+    faces_ = std::move(even);
+    error_ += distance;
+  }
+  setPlanes(error);
+}
+
+void KnownObstacle::setPlanes(double inner_error) {
+  const double rounding = kHeightRounding * lengthOf(faces_);
   for (std::size_t f = 0; f < faces_.faceCount(); ++f) {
     const Eigen::Vector3d area = faces_.vectorArea(f);
     if (!(area.stableNorm() > 0.0)) continue;
@@ -124,8 +134,8 @@ KnownObstacle::KnownObstacle(FaceSet faces, double error)
       lowest = std::min(lowest, normal.dot(faces_.position(f, i)));
     }
     normals_.push_back(normal);
-    inner_.push_back(lowest - margin);
-    outer_.push_back(highest(faces_, normal) + margin);
+    inner_.push_back(lowest - (inner_error + rounding));
+    outer_.push_back(highest(faces_, normal) + (error_ + rounding));
   }
 }
 

@@ -11,12 +11,16 @@
 
 namespace fcl_prob::detail {
 
-/// A whitened C-obstacle with flat sides: its vertices are known up to `error`.
+/// A whitened C-obstacle with flat sides.
 class KnownObstacle {
  public:
+  /// \param faces  whose vertices are known up to `error`
   KnownObstacle(FaceSet faces, double error);
 
+  /// Its faces, narrow ones merged with their neighbours where that is possible.
   const FaceSet& faces() const { return faces_; }
+
+  /// No point of the obstacle is further from what faces() enclose.
   double error() const { return error_; }
 
   /// Outward unit normals of its faces.
@@ -30,6 +34,8 @@ class KnownObstacle {
   bool contains(const Eigen::Vector3d& point) const;
 
  private:
+  void setPlanes(double inner_error);
+
   FaceSet faces_;
   double error_;
   std::vector<Eigen::Vector3d> normals_;

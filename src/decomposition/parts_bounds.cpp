@@ -29,7 +29,7 @@ constexpr double kWorthTheMass = 1e-4;
 constexpr double kWorthTheIntersection = 1e-3;
 
 /// Pairs at most among which intersections are looked for.
-constexpr std::size_t kMostObstacles = 64;
+constexpr std::size_t kMostObstacles = 128;
 
 /// Pairs at most in the set for the bound from below.
 constexpr std::size_t kMostDisjoint = 8;
