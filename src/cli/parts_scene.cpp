@@ -44,6 +44,7 @@ PartsScene::Object::Object(const LoadedObject& object, PartVolume volume) : pose
     const ConvexParts parts(*mesh);
     for (std::size_t i = 0; i < parts.size(); ++i) bodies.push_back(parts.body(i));
     tree.emplace(parts, volume);
+    covers_solid = parts.coversSolid();
   } else {
     bodies.emplace_back(*std::get<PrimitiveShape>(object.shape));
   }
@@ -58,9 +59,9 @@ PartsScene::PartsScene(const LoadedObject& a, const LoadedObject& b,
 ProbabilityResult PartsScene::answer(PartsUse use, const ProbabilityRequest& request) const {
   validateRequest(request);
   detail::refuseBand(request, "sums over convex parts");
-  if (request.contact == ContactMeaning::solid && (a_.tree || b_.tree)) {
-    throw UnsupportedGeometry(
-        "parts are proven to cover the surfaces of meshes, not the solids that they enclose");
+  if (request.contact == ContactMeaning::solid && !(a_.covers_solid && b_.covers_solid)) {
+    throw UnsupportedGeometry(std::string("the parts of ") + (a_.covers_solid ? "B" : "A") +
+                              " are proven to cover its surface, but no solid inside");
   }
   return use == PartsUse::bounds ? bothSides(request) : sum(request);
 }

@@ -50,6 +50,7 @@ class PartsScene {
 
     std::vector<ConvexBody> bodies;
     std::optional<PartTree> tree;  ///< of a mesh
+    bool covers_solid = true;      ///< the bodies contain the inside of the object, too
     fcl::Transform3d pose;
   };
 

@@ -17,7 +17,7 @@ namespace fcl_prob::cli {
 namespace {
 
 constexpr double kConfidence = 0.99;  // δ of the paper
-constexpr std::size_t kFewParts = 5;
+constexpr std::size_t kOtherCounts[] = {2, 5, 12, 96};
 constexpr std::size_t kMonteCarloSamples = 10'000;
 
 const TriangleMesh& meshOf(const LoadedObject& object) {
@@ -203,8 +203,10 @@ std::vector<Table1Row> Table1Scene::partsRows() const {
   const PartsPair many = parts(DecompositionRequest().max_parts);
   std::vector<Table1Row> rows;
   for (const std::string& volume : volumesOfTable1()) rows.push_back(partsRow(volume, many));
-  rows.push_back(partsRow("convex", parts(kFewParts)));
-  rows.back().method = "convex, few parts";
+  for (const std::size_t count : kOtherCounts) {
+    rows.push_back(partsRow("convex", parts(count)));
+    rows.back().method = "convex, " + std::to_string(count) + " parts";
+  }
   rows.push_back(partsBoundsRow(many));
   return rows;
 }

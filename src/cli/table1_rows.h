@@ -55,7 +55,7 @@ class Table1Scene {
   Table1Row volumeRow(const std::string& volume) const;
 
   /// The same over trees of convex parts, the paper's own setting, for every bounding volume; then
-  /// convex hulls of fewer parts, and Hunter's and Bonferroni's bounds.
+  /// convex hulls of fewer and of more parts, and Hunter's and Bonferroni's bounds.
   std::vector<Table1Row> partsRows() const;
 
   /// The mean over frames of the world that are turned at random, as the paper averages its AABBs.

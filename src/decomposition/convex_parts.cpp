@@ -9,6 +9,7 @@
 #include "decomposition/hull_volume.h"
 #include "decomposition/padded_hull.h"
 #include "decomposition/piece_cutting.h"
+#include "decomposition/solid_cover_proof.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
 
@@ -16,9 +17,9 @@ namespace fcl_prob {
 namespace {
 
 /// Where the largest coordinate is between 1/2 and 1: by how much parts are moved outwards, and how
-/// much of that the proof of the cover may use up.
-constexpr double kPadding = 1e-12;
-constexpr double kMargin = 0.5 * kPadding;
+/// much of that the proofs of the cover may use up.
+constexpr double kPadding = 3.2e-11;
+constexpr detail::CoverMargins kMargins{0.4 * kPadding, 0.5 * kPadding};
 
 void validateDecompositionRequest(const DecompositionRequest& request) {
   if (request.max_parts == 0) throw InvalidRequest("max_parts is 0, must be at least 1");
@@ -75,11 +76,19 @@ std::vector<ConvexPolytope> coverOf(const TriangleMesh& mesh, const Decompositio
   for (const detail::PointSet& points : pointsOfParts(welded(mesh), request)) {
     polytopes.push_back(detail::paddedHull(points, kPadding));
   }
-  if (const auto triangle = detail::firstUncovered(mesh, polytopes, kMargin)) {
+  if (const auto triangle = detail::firstUncovered(mesh, polytopes, kMargins)) {
     throw InvalidGeometry("mesh to decompose: triangle " + std::to_string(*triangle) +
                           " could not be proven to be within the parts");
   }
   return polytopes;
+}
+
+/// Of a mesh whose surface is covered with kMargins.
+bool coversSolidOf(const TriangleMesh& mesh, const std::vector<ConvexPolytope>& cover) {
+  const detail::MeshView view = detail::viewOf(mesh);
+  if (detail::opennessOf(view)) return false;
+  return detail::solidIsCovered(mesh, detail::ClosedMesh(view, "mesh to decompose"), cover,
+                                kMargins);
 }
 
 std::shared_ptr<const fcl::Convexd> convexOf(const ConvexPolytope& polytope) {
@@ -104,6 +113,7 @@ struct ConvexParts::Data {
   std::vector<double> volumes;
   std::vector<std::shared_ptr<const fcl::Convexd>> geometries;
   std::vector<std::pair<std::size_t, std::size_t>> unions;
+  bool covers_solid = false;
 };
 
 ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request) {
@@ -111,7 +121,9 @@ ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& r
   validateDecompositionRequest(request);
   const int exponent = exponentOfSize(mesh);
   auto data = std::make_shared<Data>();
-  data->polytopes = coverOf(scaled(mesh, -exponent), request);
+  const TriangleMesh unit_mesh = scaled(mesh, -exponent);
+  data->polytopes = coverOf(unit_mesh, request);
+  data->covers_solid = coversSolidOf(unit_mesh, data->polytopes);
   std::vector<detail::PointSet> corners;
   for (ConvexPolytope& polytope : data->polytopes) {
     corners.push_back(polytope.vertices);
@@ -125,6 +137,8 @@ ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& r
 }
 
 std::size_t ConvexParts::size() const { return data_->polytopes.size(); }
+
+bool ConvexParts::coversSolid() const { return data_->covers_solid; }
 
 const ConvexPolytope& ConvexParts::polytope(std::size_t part) const {
   return data_->polytopes.at(part);

@@ -6,40 +6,16 @@
 #include <algorithm>
 #include <limits>
 
-#include "decomposition/surface_piece.h"
+#include "decomposition/lowered_polytope.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-/// A cut makes its points from two others: subtraction, quotient, product and sum.
-constexpr double kRoundingsOfCut = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// What is left of a triangle: a convex polygon, and how many cuts its corners come from.
 struct Rest {
   std::vector<Eigen::Vector3d> corners;
   int cuts = 0;
 };
-
-/// A polytope as half-spaces, each within all corners of its face.
-struct Solid {
-  Eigen::AlignedBox3d box;
-  std::vector<CutPlane> faces;
-};
-
-Solid solidOf(const ConvexPolytope& polytope, double margin) {
-  Solid solid;
-  for (const Eigen::Vector3d& v : polytope.vertices) solid.box.extend(v);
-  for (const ConvexPolytope::Face& face : polytope.faces) {
-    // A segment from the middle to a point outside leaves through some face, where it is no lower
-    // than that face's lowest corner: so points below all of those are inside.
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const int corner : face.vertices) {
-      lowest = std::min(lowest, face.normal.dot(polytope.vertices[corner]));
-    }
-    solid.faces.push_back({face.normal, lowest - margin});
-  }
-  return solid;
-}
 
 /// The part of a convex polygon at heights of at least 0 (or at most 0, for the sign -1).
 std::vector<Eigen::Vector3d> side(const std::vector<Eigen::Vector3d>& corners,
@@ -57,17 +33,18 @@ std::vector<Eigen::Vector3d> side(const std::vector<Eigen::Vector3d>& corners,
 
 class TriangleCover {
  public:
-  TriangleCover(const std::vector<ConvexPolytope>& polytopes, double size, double margin)
-      : most_cuts_(static_cast<int>(margin / (kRoundingsOfCut * size))) {
+  TriangleCover(const std::vector<ConvexPolytope>& polytopes, double size, CoverMargins margins)
+      : most_cuts_(static_cast<int>(margins.rounding / (kRoundingsOfCut * size))) {
+    const double margin = margins.depth + margins.rounding;
     // Heights are rounded, too, by no more than a cut.
     for (const ConvexPolytope& polytope : polytopes) {
-      solids_.push_back(solidOf(polytope, margin + kRoundingsOfCut * size));
+      solids_.emplace_back(polytope, margin + kRoundingsOfCut * size);
     }
   }
 
   bool covers(const std::vector<Eigen::Vector3d>& triangle) {
     rests_ = {{triangle, 0}};
-    for (const Solid& solid : solids_) {
+    for (const LoweredPolytope& solid : solids_) {
       takeOff(solid);
       if (rests_.empty()) return true;
     }
@@ -75,7 +52,7 @@ class TriangleCover {
   }
 
  private:
-  void takeOff(const Solid& solid) {
+  void takeOff(const LoweredPolytope& solid) {
     left_.clear();
     for (Rest& rest : rests_) {
       if (isOutside(rest, solid)) {
@@ -88,7 +65,7 @@ class TriangleCover {
   }
 
   /// What is beyond one face after the other is left; what then remains is inside.
-  void split(Rest rest, const Solid& solid) {
+  void split(Rest rest, const LoweredPolytope& solid) {
     for (const CutPlane& face : solid.faces) {
       heightsOf(rest, face);
       const auto [lowest, highest] = std::minmax_element(heights_.begin(), heights_.end());
@@ -102,7 +79,7 @@ class TriangleCover {
     }
   }
 
-  bool isOutside(const Rest& rest, const Solid& solid) {
+  bool isOutside(const Rest& rest, const LoweredPolytope& solid) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& corner : rest.corners) box.extend(corner);
     if (!box.intersects(solid.box)) return true;
@@ -118,7 +95,7 @@ class TriangleCover {
   }
 
   int most_cuts_;
-  std::vector<Solid> solids_;
+  std::vector<LoweredPolytope> solids_;
   std::vector<Rest> rests_;
   std::vector<Rest> left_;
   std::vector<double> heights_;
@@ -128,13 +105,8 @@ class TriangleCover {
 
 std::optional<std::size_t> firstUncovered(const TriangleMesh& mesh,
                                           const std::vector<ConvexPolytope>& polytopes,
-                                          double margin) {
-  double size = 0.0;
-  for (const fcl::Vector3d& v : mesh.vertices) size = std::max(size, v.stableNorm());
-  for (const ConvexPolytope& polytope : polytopes) {
-    for (const Eigen::Vector3d& v : polytope.vertices) size = std::max(size, v.stableNorm());
-  }
-  TriangleCover cover(polytopes, size, margin);
+                                          CoverMargins margins) {
+  TriangleCover cover(polytopes, sizeOf(mesh, polytopes), margins);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     std::vector<Eigen::Vector3d> corners;
     for (int c = 0; c < 3; ++c) corners.push_back(mesh.vertices[mesh.triangles[i][c]]);

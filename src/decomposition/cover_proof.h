@@ -12,12 +12,17 @@
 
 namespace fcl_prob::detail {
 
+/// By how much less a polytope counts than it is, metres; neighbours have to overlap by more.
+struct CoverMargins {
+  double rounding;  ///< more than what all cuts can have moved any point by
+  double depth;     ///< what is proven is that every point is this far inside some polytope
+};
+
 /// Takes the polytopes off every triangle, one by one, and looks if anything is left. Rounding is
-/// on the safe side: each polytope counts as smaller by `margin` (metres), which is more than all
-/// cuts can have moved any point by; so neighbours have to overlap by more than that.
+/// on the safe side.
 /// \returns the first triangle that is not proven to be in the union, if there is one
 std::optional<std::size_t> firstUncovered(const TriangleMesh& mesh,
                                           const std::vector<ConvexPolytope>& polytopes,
-                                          double margin);
+                                          CoverMargins margins);
 
 }  // namespace fcl_prob::detail

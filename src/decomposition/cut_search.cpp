@@ -7,6 +7,8 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <tuple>
 
 #include "decomposition/hull_volume.h"
 
@@ -20,7 +22,7 @@ constexpr int kSupportDirections = 92;
 constexpr int kRefinements = 4;
 
 /// Gains below this part of a hull's volume are no more than what the comparison misses.
-constexpr double kLeastGain = 1e-6;
+constexpr double kLeastGainOfPiece = 1e-6;
 
 /// Points on a sphere, about evenly (Fibonacci's spiral).
 std::vector<Eigen::Vector3d> spiral(int count) {
@@ -87,23 +89,36 @@ class ExtremePoints {
 /// Planes of one direction.
 class ParallelCuts {
  public:
-  ParallelCuts(const SurfacePiece& piece, const Eigen::Vector3d& normal)
-      : piece_(piece), normal_(normal) {
-    for (const Eigen::Vector3d& v : piece.vertices()) heights_.push_back(normal.dot(v));
+  ParallelCuts(const Piece& piece, const Eigen::Vector3d& normal)
+      : piece_(piece.surface), cell_(piece.cell), normal_(normal) {
+    for (const Eigen::Vector3d& v : piece_.vertices()) heights_.push_back(normal.dot(v));
     sorted_ = heights_;
     std::sort(sorted_.begin(), sorted_.end());
     sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
   }
 
-  /// The least volume of the two hulls at some heights, all of them heights of vertices.
-  std::pair<double, double> best() const {
+  /// At the height of the vertex nearest to the middle; nothing if no vertex is between.
+  std::optional<double> middle() const {
+    const double at = vertexHeightNear(0.5 * (sorted_.front() + sorted_.back()));
+    return isInside(at) ? std::optional(at) : std::nullopt;
+  }
+
+  /// Some heights, all of them of vertices, with the volume of the two hulls of the surface: no
+  /// more than that with what is inside.
+  std::vector<std::pair<double, double>> volumes() const {
     const std::vector<double> offsets = evenOffsets();
-    std::pair<double, double> best{std::numeric_limits<double>::infinity(), 0.0};
-    const auto volumes = volumesAt(offsets);
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      best = std::min(best, std::pair(volumes[i], offsets[i]));
-    }
-    return best;
+    const auto of_surface = volumesAt(offsets);
+    std::vector<std::pair<double, double>> volumes;
+    for (std::size_t i = 0; i < offsets.size(); ++i)
+      volumes.emplace_back(of_surface[i], offsets[i]);
+    return volumes;
+  }
+
+  /// With what is inside.
+  double wholeVolumeAt(double offset) const {
+    const CutPlane plane{normal_, offset};
+    const SolidCell below = cell_.below(plane), above = cell_.below(plane.flipped());
+    return volumesAt({offset}, below.cornersInside(), above.cornersInside()).front();
   }
 
   std::pair<double, double> refined(std::pair<double, double> best) const {
@@ -113,7 +128,7 @@ class ParallelCuts {
       const double middle = best.second;
       for (const double offset : {middle - step, middle + step}) {
         const double at = vertexHeightNear(offset);
-        if (isInside(at)) best = std::min(best, std::pair(volumesAt({at}).front(), at));
+        if (isInside(at)) best = std::min(best, std::pair(wholeVolumeAt(at), at));
       }
     }
     return best;
@@ -140,8 +155,9 @@ class ParallelCuts {
     return offsets;
   }
 
-  /// For rising offsets.
-  std::vector<double> volumesAt(const std::vector<double>& offsets) const {
+  /// For rising offsets, with some more points below the first and above the last.
+  std::vector<double> volumesAt(const std::vector<double>& offsets, const Points& low = {},
+                                const Points& high = {}) const {
     // Between two planes in a row every vertex is looked at once, whatever their number.
     std::vector<ExtremePoints> slabs(offsets.size() + 1);
     const auto slab_of = [&](double height) {
@@ -152,6 +168,9 @@ class ParallelCuts {
     }
     std::vector<ExtremePoints> on_plane(offsets.size());
     for (const auto& [from, to] : piece_.edges()) addCrossings(from, to, offsets, on_plane);
+
+    for (const Eigen::Vector3d& point : low) slabs.front().add(point);
+    for (const Eigen::Vector3d& point : high) slabs.back().add(point);
 
     std::vector<double> volumes(offsets.size(), 0.0);
     ExtremePoints below, above;
@@ -181,10 +200,32 @@ class ParallelCuts {
   }
 
   const SurfacePiece& piece_;
+  const SolidCell& cell_;
   Eigen::Vector3d normal_;
   std::vector<double> heights_;
   std::vector<double> sorted_;
 };
+
+/// Directions nearer to each other than this (radians) are taken for one: the corners between two
+/// such planes would be ill-defined.
+constexpr double kSameDirection = 1e-3;
+
+void addDirection(const Eigen::Vector3d& direction, Points& directions) {
+  const bool known = std::any_of(directions.begin(), directions.end(), [&](const auto& other) {
+    return direction.cross(other).norm() < kSameDirection;
+  });
+  if (!known) directions.push_back(direction);
+}
+
+void addPrincipalAxes(const SurfacePiece& piece, Points& directions) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& v : piece.vertices()) mean += v;
+  mean /= static_cast<double>(piece.vertices().size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& v : piece.vertices()) spread += (v - mean) * (v - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  for (int k = 0; k < 3; ++k) addDirection(axes.eigenvectors().col(k), directions);
+}
 
 /// Those of a 26-DOP and the principal axes of the vertices.
 Points cutDirections(const SurfacePiece& piece) {
@@ -197,35 +238,111 @@ Points cutDirections(const SurfacePiece& piece) {
       }
     }
   }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : piece.vertices()) mean += v;
-  mean /= static_cast<double>(piece.vertices().size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& v : piece.vertices()) spread += (v - mean) * (v - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  for (int k = 0; k < 3; ++k) directions.push_back(axes.eigenvectors().col(k));
+  addPrincipalAxes(piece, directions);
   return directions;
+}
+
+Points axesOf(const SurfacePiece& piece) {
+  Points directions{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  addPrincipalAxes(piece, directions);
+  return directions;
+}
+
+double hullVolumeOf(const Piece& piece) {
+  ExtremePoints whole;
+  for (const Eigen::Vector3d& v : piece.surface.vertices()) whole.add(v);
+  for (const Eigen::Vector3d& v : piece.cell.cornersInside()) whole.add(v);
+  return whole.hullVolume();
+}
+
+/// Of the hulls of both sides, each cut once more where that helps.
+double volumeAfterCuts(const Piece& piece, const CutPlane& plane) {
+  double volume = 0.0;
+  for (const CutPlane& side : {plane, plane.flipped()}) {
+    const Piece half = piece.below(side, side.normal == plane.normal);
+    if (!half.isEmpty()) volume += hullVolumeOf(half) - bestCut(half).gain;
+  }
+  return volume;
+}
+
+/// A plane with the volume of the two hulls.
+struct TriedCut {
+  double volume;
+  double offset;
+  std::size_t direction;
+
+  bool operator<(const TriedCut& other) const {
+    return std::tie(volume, offset, direction) <
+           std::tie(other.volume, other.offset, other.direction);
+  }
+};
+
+/// The best of those tried, by their volumes with what is inside, which are asked for only where
+/// those of the surface alone are less. Of several that are as good the first direction wins.
+TriedCut bestOf(const std::vector<ParallelCuts>& cuts, double volume) {
+  std::vector<TriedCut> tried;
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    for (const auto& [of_surface, offset] : cuts[k].volumes()) {
+      tried.push_back({of_surface, offset, k});
+    }
+  }
+  std::sort(tried.begin(), tried.end());
+  const double tie = kLeastGainOfPiece * volume;
+  TriedCut best{volume, 0.0, cuts.size()};
+  for (TriedCut& cut : tried) {
+    if (cut.volume >= best.volume + tie) break;
+    cut.volume = cuts[cut.direction].wholeVolumeAt(cut.offset);
+    const bool as_good = cut.volume < best.volume + tie && cut.direction < best.direction;
+    if (cut.volume < best.volume - tie || (as_good && cut.volume < volume - tie)) best = cut;
+  }
+  return best;
+}
+
+/// Not of the extreme points only.
+double exactHullVolumeOf(const Piece& piece) {
+  Points points = piece.surface.vertices();
+  const Points& inside = piece.cell.cornersInside();
+  points.insert(points.end(), inside.begin(), inside.end());
+  return hullVolume(points);
+}
+
+double gainOf(const Piece& piece, const CutPlane& plane) {
+  double gain = exactHullVolumeOf(piece);
+  for (const CutPlane& side : {plane, plane.flipped()}) {
+    gain -= exactHullVolumeOf(piece.below(side, side.normal == plane.normal));
+  }
+  return gain;
 }
 
 }  // namespace
 
-BestCut bestCut(const SurfacePiece& piece) {
-  ExtremePoints whole;
-  for (const Eigen::Vector3d& v : piece.vertices()) whole.add(v);
-  const double volume = whole.hullVolume();
-  std::pair<double, double> best{volume, 0.0};
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& direction : cutDirections(piece)) {
-    const auto of_direction = ParallelCuts(piece, direction).best();
-    if (of_direction.first >= best.first) continue;
-    best = of_direction;
-    normal = direction;
+BestCut bestCut(const Piece& piece) {
+  if (piece.surface.isEmpty()) return {};
+  const double volume = hullVolumeOf(piece);
+  const Points directions = cutDirections(piece.surface);
+  std::vector<ParallelCuts> cuts;
+  for (const Eigen::Vector3d& direction : directions) cuts.emplace_back(piece, direction);
+  const TriedCut tried = bestOf(cuts, volume);
+  if (tried.direction == cuts.size()) return {};
+  const auto refined = cuts[tried.direction].refined({tried.volume, tried.offset});
+  const CutPlane plane{directions[tried.direction], refined.second};
+  const double gain = gainOf(piece, plane);
+  if (!(gain > kLeastGainOfPiece * volume)) return {};
+  return {plane, gain};
+}
+
+BestCut bestFirstOfTwoCuts(const Piece& piece) {
+  if (piece.surface.isEmpty()) return {};
+  const double volume = hullVolumeOf(piece);
+  BestCut best;
+  for (const Eigen::Vector3d& direction : axesOf(piece.surface)) {
+    const auto middle = ParallelCuts(piece, direction).middle();
+    if (!middle) continue;
+    const CutPlane plane{direction, *middle};
+    const double gain = volume - volumeAfterCuts(piece, plane);
+    if (gain > std::max(best.gain, kLeastGainOfPiece * volume)) best = {plane, gain};
   }
-  if (normal.isZero()) return {};
-  best = ParallelCuts(piece, normal).refined(best);
-  const double gain = volume - best.first;
-  if (!(gain > kLeastGain * volume)) return {};
-  return {{normal, best.second}, gain};
+  return best;
 }
 
 }  // namespace fcl_prob::detail

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <optional>
 
-#include "cobstacle/cut_polytope.h"
 #include "decomposition/cut_search.h"
 #include "decomposition/hull_volume.h"
 #include "geometry/closed_mesh.h"
@@ -16,74 +15,80 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// What of the mesh is in a convex cell.
-struct Piece {
-  SurfacePiece surface;
-  CutPolytope cell;
+/// Of the volume of the mesh's hull: cuts that gain less are not worth a piece.
+constexpr double kLeastGain = 1e-5;
+
+/// A piece, and where it is best cut.
+struct CutPiece {
+  Piece piece;
   BestCut cut;
+  bool looked_ahead = false;
 };
 
 class Cutting {
  public:
   explicit Cutting(const TriangleMesh& mesh) {
-    MeshView view;
-    view.vertices = mesh.vertices.data();
-    view.vertex_count = static_cast<int>(mesh.vertices.size());
-    view.triangles = mesh.triangles.data();
-    view.triangle_count = static_cast<int>(mesh.triangles.size());
+    const MeshView view = viewOf(mesh);
     if (!opennessOf(view)) solid_.emplace(view, "mesh");
-    Eigen::AlignedBox3d box;
-    for (const fcl::Vector3d& v : mesh.vertices) box.extend(v);
-    FaceSet faces;
-    setToBox(box.min(), box.max(), faces);
-    add(SurfacePiece(mesh), CutPolytope(faces));
+    least_gain_ = kLeastGain * hullVolume({mesh.vertices.begin(), mesh.vertices.end()});
+    add({SurfacePiece(mesh), SolidCell(mesh, solid_ ? &*solid_ : nullptr)});
   }
 
   std::size_t count() const { return pieces_.size(); }
 
   /// False if no cut helps.
   bool cutOnce() {
-    const auto less = [](const Piece& p, const Piece& q) { return p.cut.gain < q.cut.gain; };
-    const auto position = std::max_element(pieces_.begin(), pieces_.end(), less);
-    if (!(position->cut.gain > 0.0)) return false;
-    const Piece whole = std::move(*position);
+    auto position = mostGain();
+    if (!(position->cut.gain > least_gain_)) {
+      lookAhead();
+      position = mostGain();
+    }
+    if (!(position->cut.gain > least_gain_)) return false;
+    const CutPiece whole = std::move(*position);
     pieces_.erase(position);
     for (const CutPlane& side : {whole.cut.plane, whole.cut.plane.flipped()}) {
-      CutPolytope cell = whole.cell;
-      cell.cut(side.normal, side.offset);
-      add(whole.surface.below(side, side.normal == whole.cut.plane.normal), std::move(cell));
+      add(whole.piece.below(side, side.normal == whole.cut.plane.normal));
     }
     return true;
   }
 
-  std::vector<PointSet> points() {
+  std::vector<PointSet> points() const {
     std::vector<PointSet> result;
-    for (Piece& piece : pieces_) {
-      result.push_back(piece.surface.vertices());
-      if (solid_) addCornersInside(piece.cell, result.back());
+    for (const CutPiece& part : pieces_) {
+      result.push_back(part.piece.surface.vertices());
+      const PointSet& inside = part.piece.cell.cornersInside();
+      result.back().insert(result.back().end(), inside.begin(), inside.end());
     }
     return result;
   }
 
  private:
-  void add(SurfacePiece surface, CutPolytope cell) {
-    if (surface.isEmpty()) return;
-    pieces_.push_back({std::move(surface), std::move(cell), {}});
-    pieces_.back().cut = bestCut(pieces_.back().surface);
+  void add(Piece piece) {
+    if (piece.isEmpty()) return;
+    const BestCut cut = bestCut(piece);
+    pieces_.push_back({std::move(piece), cut});
   }
 
-  /// What of the solid is in a cell has no other extreme points than those of its surface there and
-  /// corners of the cell inside it.
-  void addCornersInside(CutPolytope& cell, PointSet& points) const {
-    FaceSet faces;
-    cell.writeTo(faces);
-    for (const Eigen::Vector3d& corner : faces.vertices()) {
-      if (solid_->contains(corner) == Containment::inside) points.push_back(corner);
+  std::vector<CutPiece>::iterator mostGain() {
+    return std::max_element(
+        pieces_.begin(), pieces_.end(),
+        [](const CutPiece& p, const CutPiece& q) { return p.cut.gain < q.cut.gain; });
+  }
+
+  /// Of pieces of which no single cut helps, as of a ring. (Surfaces without an inside would be cut
+  /// into flat pieces: their hulls vanish, but many of them touch at once.)
+  void lookAhead() {
+    if (!solid_) return;
+    for (CutPiece& part : pieces_) {
+      if (part.looked_ahead || part.cut.gain > least_gain_) continue;
+      part.cut = bestFirstOfTwoCuts(part.piece);
+      part.looked_ahead = true;
     }
   }
 
   std::optional<ClosedMesh> solid_;
-  std::vector<Piece> pieces_;
+  double least_gain_;
+  std::vector<CutPiece> pieces_;
 };
 
 /// The corners of the hull; all points if it has no volume.

@@ -71,6 +71,16 @@ MeshView viewOf(const fcl::BVHModel<BV>& model) {
   return view;
 }
 
+/// Of triangles without a model.
+inline MeshView viewOf(const TriangleMesh& mesh) {
+  MeshView view;
+  view.vertices = mesh.vertices.data();
+  view.vertex_count = static_cast<int>(mesh.vertices.size());
+  view.triangles = mesh.triangles.data();
+  view.triangle_count = static_cast<int>(mesh.triangles.size());
+  return view;
+}
+
 /// \throws UnsupportedGeometry if `geometry` is not a mesh.
 MeshView meshView(const fcl::CollisionGeometryd& geometry);
 

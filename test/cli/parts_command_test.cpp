@@ -13,13 +13,13 @@ using nlohmann::json;
 
 namespace {
 
-/// Two boxes beside each other, in a shape that is not convex.
-std::string angleFile(const TemporaryFolder& folder) {
+using Corners = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
+
+std::string fileOfBoxes(const std::string& name, const std::vector<Corners>& boxes,
+                        const TemporaryFolder& folder) {
   std::string text;
   int first = 1;
-  for (const auto& [lower, upper] :
-       {std::pair(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.2, 1, 0.2)),
-        std::pair(Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(1, 0.2, 0.2))}) {
+  for (const auto& [lower, upper] : boxes) {
     for (int i = 0; i < 8; ++i) {
       text += "v";
       for (int k = 0; k < 3; ++k) text += " " + std::to_string((i >> k & 1) ? upper[k] : lower[k]);
@@ -37,7 +37,19 @@ std::string angleFile(const TemporaryFolder& folder) {
     }
     first += 8;
   }
-  return folder.write("angle.obj", text);
+  return folder.write(name, text);
+}
+
+/// Two boxes beside each other, in a shape that is not convex. Four faces meet at one of its edges.
+std::string angleFile(const TemporaryFolder& folder) {
+  return fileOfBoxes("angle.obj", {{{0, 0, 0}, {0.2, 1, 0.2}}, {{0.2, 0, 0}, {1, 0.2, 0.2}}},
+                     folder);
+}
+
+/// The same shape with boxes that overlap, each of them closed.
+std::string closedAngleFile(const TemporaryFolder& folder) {
+  return fileOfBoxes("closed.obj",
+                     {{{0, 0, 0}, {0.2, 1, 0.2}}, {{0.1, 0.01, 0.01}, {1, 0.19, 0.19}}}, folder);
 }
 
 json answerOf(const std::vector<std::string>& options, const TemporaryFolder& folder) {
@@ -107,8 +119,25 @@ TEST_CASE("parts are refused where they prove nothing", "[cli][slow]") {
     options.insert(options.begin(), scene.begin(), scene.end());
     return runCommand(options, folder).refused();
   };
-  CHECK(refused({"--method", "parts-bounds", "--contact", "solid"}));
-  CHECK(refused({"--method", "general-pcd", "--leaves", "parts", "--contact", "solid"}));
   CHECK(refused({"--method", "interval", "--leaves", "parts"}));
   CHECK(refused({"--method", "general-pcd", "--leaves", "vertices"}));
+}
+
+TEST_CASE("parts bound solids where they are proven to cover them", "[cli][slow]") {
+  const TemporaryFolder folder;
+  const std::string closed = closedAngleFile(folder);
+  const auto answer = [&](const std::string& mesh, const std::vector<std::string>& method) {
+    std::vector<std::string> words{"check",         mesh,      closed,        "--pose-b",
+                                   "0.3,0.45,0.05", "--sigma", "0.1,0.1,0.1", "--contact",
+                                   "solid",         "--json"};
+    words.insert(words.end(), method.begin(), method.end());
+    return runCommand(words, folder);
+  };
+  const double lower = json::parse(answer(closed, {"--method", "interval"}).out).at("lower");
+  REQUIRE(lower > 0.01);
+  const std::vector<std::string> sums{"--method", "general-pcd", "--leaves", "parts"};
+  for (const auto& method : {std::vector<std::string>{"--method", "parts-bounds"}, sums}) {
+    CHECK(json::parse(answer(closed, method).out).at("upper").get<double>() >= lower);
+    CHECK(answer(angleFile(folder), method).refused());
+  }
 }
