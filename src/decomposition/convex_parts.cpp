@@ -16,10 +16,13 @@
 namespace fcl_prob {
 namespace {
 
-/// Where the largest coordinate is between 1/2 and 1: by how much parts are moved outwards, and how
-/// much of that the proofs of the cover may use up.
+/// Where the largest coordinate is between 1/2 and 1: by how much parts are moved outwards that
+/// have no more faces than this. The proofs cut along faces, one by one.
 constexpr double kPadding = 3.2e-11;
-constexpr detail::CoverMargins kMargins{0.4 * kPadding, 0.5 * kPadding};
+constexpr std::size_t kFacesOfPadding = 400;
+
+/// How much of the padding the proofs of the cover may use up.
+detail::CoverMargins marginsOf(double padding) { return {0.4 * padding, 0.5 * padding}; }
 
 void validateDecompositionRequest(const DecompositionRequest& request) {
   if (request.max_parts == 0) throw InvalidRequest("max_parts is 0, must be at least 1");
@@ -70,25 +73,42 @@ std::vector<detail::PointSet> pointsOfParts(const TriangleMesh& mesh,
   return pieces;
 }
 
-/// Of a mesh with coordinates of at most 1. \throws InvalidGeometry if the cover is not proven.
-std::vector<ConvexPolytope> coverOf(const TriangleMesh& mesh, const DecompositionRequest& request) {
+struct Cover {
   std::vector<ConvexPolytope> polytopes;
-  for (const detail::PointSet& points : pointsOfParts(welded(mesh), request)) {
-    polytopes.push_back(detail::paddedHull(points, kPadding));
+  detail::CoverMargins margins;
+};
+
+/// Moved outwards, the further the more faces one of them has.
+Cover paddedParts(const std::vector<detail::PointSet>& parts) {
+  std::size_t faces = kFacesOfPadding;
+  for (const detail::PointSet& points : parts) {
+    faces = std::max(faces, convexHull(points).faces.size());
   }
-  if (const auto triangle = detail::firstUncovered(mesh, polytopes, kMargins)) {
+  const double padding =
+      kPadding * static_cast<double>(faces) / static_cast<double>(kFacesOfPadding);
+  Cover cover{{}, marginsOf(padding)};
+  for (const detail::PointSet& points : parts) {
+    cover.polytopes.push_back(detail::paddedHull(points, padding));
+  }
+  return cover;
+}
+
+/// Of a mesh with coordinates of at most 1. \throws InvalidGeometry if the cover is not proven.
+Cover coverOf(const TriangleMesh& mesh, const DecompositionRequest& request) {
+  Cover cover = paddedParts(pointsOfParts(welded(mesh), request));
+  if (const auto triangle = detail::firstUncovered(mesh, cover.polytopes, cover.margins)) {
     throw InvalidGeometry("mesh to decompose: triangle " + std::to_string(*triangle) +
                           " could not be proven to be within the parts");
   }
-  return polytopes;
+  return cover;
 }
 
-/// Of a mesh whose surface is covered with kMargins.
-bool coversSolidOf(const TriangleMesh& mesh, const std::vector<ConvexPolytope>& cover) {
+/// Of a mesh whose surface is covered.
+bool coversSolidOf(const TriangleMesh& mesh, const Cover& cover) {
   const detail::MeshView view = detail::viewOf(mesh);
   if (detail::opennessOf(view)) return false;
-  return detail::solidIsCovered(mesh, detail::ClosedMesh(view, "mesh to decompose"), cover,
-                                kMargins);
+  return detail::solidIsCovered(mesh, detail::ClosedMesh(view, "mesh to decompose"),
+                                cover.polytopes, cover.margins);
 }
 
 std::shared_ptr<const fcl::Convexd> convexOf(const ConvexPolytope& polytope) {
@@ -122,8 +142,9 @@ ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& r
   const int exponent = exponentOfSize(mesh);
   auto data = std::make_shared<Data>();
   const TriangleMesh unit_mesh = scaled(mesh, -exponent);
-  data->polytopes = coverOf(unit_mesh, request);
-  data->covers_solid = coversSolidOf(unit_mesh, data->polytopes);
+  Cover cover = coverOf(unit_mesh, request);
+  data->covers_solid = coversSolidOf(unit_mesh, cover);
+  data->polytopes = std::move(cover.polytopes);
   std::vector<detail::PointSet> corners;
   for (ConvexPolytope& polytope : data->polytopes) {
     corners.push_back(polytope.vertices);
