@@ -34,7 +34,7 @@ bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
   if (!isSingleMesh(a) || !isSingleMesh(b)) return false;
   if (!a.tree->fan && !b.tree->fan) return false;
   if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
-  if (a.motion || b.motion) return false;
+  if (a.motion || b.motion || a.parts[0].sweep || b.parts[0].sweep) return false;
   if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   return displacement.rank() == 3 && sigma[0] <= kMostAnisotropic * sigma[2];

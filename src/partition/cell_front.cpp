@@ -52,11 +52,7 @@ CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
       cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
       box_{},
       support_a_(pair.a),
-      support_b_(pair.b) {
-  if (!pair.band) return;
-  for (int k = 0; k < 3; ++k)
-    of_bands_[k] = 2.0 * pair.band->outwardAlong(Eigen::Vector3d::Unit(k));
-}
+      support_b_(pair.b) {}
 
 void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) {
   cell_ = cell;
@@ -127,11 +123,11 @@ void CellFront::coverAll() {
 void CellFront::gatherSection(const FrontPair& pair) {
   const SupportObstacle obstacle = obstacles_.support(pair.nodes);
   CuttingPair cutting{pair, 2, -1.0, {}, 0.0, 2.0};
-  if (least_depth_ < kDeepest && lowestOf(obstacle, deepest_.m) >= deepest_.s) {
+  if (least_depth_ < kDeepest && lowestOf(obstacle, pair.nodes, deepest_.m) >= deepest_.s) {
     cutting_.push_back(cutting);
     return;
   }
-  const CellSection section = sectionOfPair(obstacle);
+  const CellSection section = sectionOfPair(obstacle, pair.nodes);
   if (section.relation == CellSection::Relation::outside) return;
   if (section.relation == CellSection::Relation::inside) return coverAll();
   if (!section.normal.isZero(0.0)) {
@@ -148,7 +144,7 @@ void CellFront::gatherSection(const FrontPair& pair) {
 
 // Within a band V loses, from inside, what is closer to its boundary than that: what a plane leaves
 // of a cell that is larger by the band all around is known to be V's.
-CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle) const {
+CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const {
   if (!pair_.band) return sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
   Eigen::Vector3d grown;
   for (int k = 0; k < 3; ++k) grown[k] = pair_.band->inwardAlong(Eigen::Vector3d::Unit(k));
@@ -157,7 +153,7 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle) const {
   if (section.normal.isZero(0.0)) return section;
   const Eigen::Vector3d& n = section.normal;
   const double rounding = 64 * kEpsilon * (kReach + std::fabs(section.outer));
-  section.outer += pair_.band->outwardAlong(n) + rounding;
+  section.outer += pair_.band->outwardAlong(n, nodes) + rounding;
   section.inner -= pair_.band->inwardAlong(n) + rounding;
   section.relation =
       n.dot(cell_.lowestCorner(n)) - rounding > section.outer     ? CellSection::Relation::outside
@@ -167,8 +163,13 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle) const {
 }
 
 // Lower bound of m·y over the C-obstacle of two pieces.
-double CellFront::lowestOf(const SupportObstacle& obstacle, const Eigen::Vector3d& m) const {
-  return -obstacle.supportUpper(-m) - (pair_.band ? pair_.band->outwardAlong(m) : 0.0);
+double CellFront::lowestOf(const SupportObstacle& obstacle, NodePair nodes,
+                           const Eigen::Vector3d& m) const {
+  return -obstacle.supportUpper(-m) - outwardOfBand(m, nodes);
+}
+
+double CellFront::outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const {
+  return pair_.band ? pair_.band->outwardAlong(m, nodes) : 0.0;
 }
 
 double CellFront::depthOf(const CellPlane& plane) const {
@@ -195,7 +196,7 @@ void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
     ++statistics_.pairs_tested;
     const NodeBox box = obstacleBox(pair_, pair.nodes);
     if (!meetsCell(box)) continue;
-    if (largerThanCell(box, kProbeRatio)) {
+    if (largerThanCell(pair, box, kProbeRatio)) {
       const int obstacle = areLeaves(pair_, pair.nodes) ? obstacles_.find(pair.nodes) : -1;
       ordered_.emplace_back(eccentricity(box), BoxedPair{{pair.nodes, obstacle}, box});
     } else {
@@ -227,7 +228,7 @@ void CellFront::refine(const BoxedPair& coarse, int& probes) {
         carveBy(pair, kImmediateShare);
       }
       if (cell_.empty()) return;
-    } else if (largerThanCell(boxed.box, probes > 0 ? kProbeRatio : kRefineRatio)) {
+    } else if (largerThanCell(boxed.pair, boxed.box, probes > 0 ? kProbeRatio : kRefineRatio)) {
       expand(boxed);
     } else {
       --probes;
@@ -320,9 +321,11 @@ double CellFront::eccentricity(const NodeBox& box) const {
   return off;
 }
 
-bool CellFront::largerThanCell(const NodeBox& box, double ratio) const {
+// What a band adds to the box may collide, but does not for certain.
+bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const {
   for (int k = 0; k < cell_.rank; ++k) {
-    const double own = box.hi[k] - box.lo[k] - of_bands_[k];
+    const double of_band = 2.0 * outwardOfBand(Eigen::Vector3d::Unit(k), pair.nodes);
+    const double own = box.hi[k] - box.lo[k] - of_band;
     if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;
@@ -346,7 +349,7 @@ double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m)
   const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
   const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
   if (!slabs.outer_only) return lowest;
-  return std::max(lowest, lowestOf(obstacles_.support(pair.nodes), m));
+  return std::max(lowest, lowestOf(obstacles_.support(pair.nodes), pair.nodes, m));
 }
 
 // Lower bound of m·y over the C-obstacle of two nodes of meshes from their vertices. Calls with the
@@ -355,8 +358,7 @@ double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
   const double a = support_a_.along(m, nodes.a);
   const double b = -support_b_.along(-m, nodes.b);
-  const double error = 4 * m.cwiseAbs().dot(slabError(pair_, nodes)) +
-                       (pair_.band ? pair_.band->outwardAlong(m) : 0.0) +
+  const double error = 4 * m.cwiseAbs().dot(slabError(pair_, nodes)) + outwardOfBand(m, nodes) +
                        1e-15 * (std::fabs(a) + std::fabs(b));
   return b - a - error;
 }

@@ -86,8 +86,9 @@ class CellFront {
   void gather(const std::vector<FrontPair>& inherited);
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
-  CellSection sectionOfPair(const SupportObstacle& obstacle) const;
-  double lowestOf(const SupportObstacle& obstacle, const Eigen::Vector3d& m) const;
+  CellSection sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const;
+  double lowestOf(const SupportObstacle& obstacle, NodePair nodes, const Eigen::Vector3d& m) const;
+  double outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const;
   void setPlane(const CellCut& cut, CuttingPair& cutting) const;
   void coverAll();
   void noteDepth(const CuttingPair& cutting);
@@ -101,7 +102,7 @@ class CellFront {
   NodeBox obstacleBoxOf(const FrontPair& pair) const;
   bool meetsCell(const NodeBox& box) const;
   double eccentricity(const NodeBox& box) const;
-  bool largerThanCell(const NodeBox& box, double ratio) const;
+  bool largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const;
   double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
   double lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m);
 
@@ -109,7 +110,6 @@ class CellFront {
   ObstacleTable& obstacles_;
   ProbabilityStatistics& statistics_;
   const SlabKernels& kernels_;
-  Eigen::Vector3d of_bands_ = Eigen::Vector3d::Zero();  ///< what bands add to widths of boxes
 
   Cell cell_;
   CellBox box_;

@@ -119,7 +119,7 @@ SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
   const Eigen::Vector3d error = slabError(pair_, leaves);
   slabKernels().triangleSlabs(a.data(), b.data(), error.data(), data);
-  if (pair_.band) pair_.band->widen(data, kTriangleSlabs);
+  if (pair_.band) pair_.band->widen(data, kTriangleSlabs, leaves);
   return {data, kTriangleSlabs};
 }
 
@@ -128,7 +128,7 @@ SlabArrays ObstacleTable::buildPieces(NodePair leaves) {
   const PieceSlabs slabs = few ? pieceSlabs(pair_, leaves) : supportSlabs(support(leaves));
   double* data = allocate(slabs.count);
   std::copy(slabs.data.begin(), slabs.data.end(), data);
-  if (pair_.band) pair_.band->widen(data, slabs.count);
+  if (pair_.band) pair_.band->widen(data, slabs.count, leaves);
   return {data, slabs.count, !few};
 }
 

@@ -62,9 +62,11 @@ struct QueryFrame {
 class BandedPair {
  public:
   BandedPair(const PartitionObject& a, const PartitionObject& b, const ProbabilityRequest& request)
-      : a_(a), b_(b), request_(request) {
-    if (!request.hasBand()) return;
+      : a_(a), b_(b), request_(request), swept_(a.isSwept() || b.isSwept()) {
+    if (!request.hasBand() && !swept_) return;
     if (a.motion || b.motion) throw InvalidRequest("bands around shapes that turn at random");
+    if (request.hasBand() && swept_) throw InvalidRequest("bands around shapes that are swept");
+    if (swept_) return;
     of_a_.ball = std::max(request.band_a.outward, request.band_a.inward);
     of_b_.ball = std::max(request.band_b.outward, request.band_b.inward);
     a_.motion = &of_a_;
@@ -76,16 +78,19 @@ class BandedPair {
 
   void whiten(const Whitening& whitening, WhitenedPair& pair) const {
     detail::whiten(a_, b_, whitening, pair);
+    const Eigen::Matrix3d& w = whitening.matrix();
+    if (swept_) pair.band = std::make_shared<const BandMargin>(a_, b_, w);
     if (!request_.hasBand()) return;
-    pair.band = std::make_shared<const BandMargin>(
-        request_.band_a.outward + request_.band_b.outward,
-        request_.band_a.inward + request_.band_b.inward, whitening.matrix());
+    pair.band =
+        std::make_shared<const BandMargin>(request_.band_a.outward + request_.band_b.outward,
+                                           request_.band_a.inward + request_.band_b.inward, w);
   }
 
  private:
   PartitionObject a_;
   PartitionObject b_;
   const ProbabilityRequest& request_;
+  bool swept_;
   PointMotion of_a_;
   PointMotion of_b_;
 };

@@ -17,7 +17,8 @@ namespace fcl_prob::detail {
 /// rigid and the request valid. Objects with a `solid` count as solids, others as surfaces.
 ///
 /// With the request's bands the interval holds for all shapes within them; the objects may then
-/// have no motion of their own.
+/// have no motion of their own. With sweeps of their parts `upper` is that of a contact for any of
+/// the motions, `lower` that of a contact where the poses say; no estimate may then be asked for.
 ///
 /// With a `ball` the interval is that of the probability of meeting and being within that ball of
 /// the whitened frame at once; neither an estimate nor a gradient may then be asked for.

@@ -5,6 +5,7 @@
 
 #include <fcl/common/types.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "geometry/closed_mesh.h"
@@ -19,6 +20,11 @@ struct PlacedPart {
   /// The closed mesh that the part is; null for a mesh that counts as a surface and for a convex
   /// shape, whose C-obstacles are solid by themselves.
   const ClosedMesh* solid;
+
+  /// Where its points may be besides: what is free is so for all motions in the set, what collides
+  /// does so where the pose says. Null: nowhere else. No bands and no motion of the whole object
+  /// may then be asked for besides.
+  const PointMotion* sweep = nullptr;
 };
 
 /// A geometry, or a group of them that is displaced as one.
@@ -29,6 +35,11 @@ struct PartitionObject {
   /// Null: it is where the poses say. Otherwise what is settled holds for all motions in the set;
   /// no estimate may then be asked for.
   const PointMotion* motion = nullptr;
+
+  bool isSwept() const {
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const PlacedPart& part) { return part.sweep != nullptr; });
+  }
 };
 
 }  // namespace fcl_prob::detail

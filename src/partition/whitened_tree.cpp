@@ -152,24 +152,31 @@ Eigen::Vector3d motionOfBody(const PointMotion& motion, const Eigen::Matrix3d& w
   return largest;
 }
 
+const PointMotion& motionOfPart(const PartitionObject& object, std::size_t part) {
+  static const PointMotion unmoved;
+  if (object.parts[part].sweep) return *object.parts[part].sweep;
+  return object.motion ? *object.motion : unmoved;
+}
+
 // Of every vertex, and of the pieces of every node.
 void boundMotions(const PartitionObject& object, const Eigen::Matrix3d& whitening,
                   WhitenedTree& result) {
   result.vertex_motions.clear();
   result.node_motions.clear();
-  if (!object.motion) return;
+  if (!object.motion && !object.isSwept()) return;
   const PieceTree& tree = *object.tree;
   std::vector<Eigen::Vector3d> of_bodies;
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
     const PieceTree::Part& part = tree.parts[i];
     const fcl::Transform3d& pose = object.parts[i].pose;
+    const PointMotion& motion = motionOfPart(object, i);
     for (int v = part.vertices.begin; v < part.vertices.end; ++v) {
       result.vertex_motions.push_back(
-          object.motion->bound(whitening, pose * Eigen::Vector3d(part.origin + tree.vertices[v])));
+          motion.bound(whitening, pose * Eigen::Vector3d(part.origin + tree.vertices[v])));
     }
     for (int b = part.bodies.begin; b < part.bodies.end; ++b) {
       const PieceTree::Body& body = tree.bodies[b];
-      of_bodies.push_back(motionOfBody(*object.motion, whitening, pose, part.origin + body.position,
+      of_bodies.push_back(motionOfBody(motion, whitening, pose, part.origin + body.position,
                                        tree.shapes[body.shape].body));
     }
   }

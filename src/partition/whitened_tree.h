@@ -72,7 +72,7 @@ struct WhitenedTree {
   Eigen::Vector3d error = Eigen::Vector3d::Zero();
 
   /// How far the points of a node and the vertices may move besides, for each axis: empty for an
-  /// object without PointMotion. The boxes contain it.
+  /// object without PointMotion or sweeps. The boxes contain it.
   std::vector<Eigen::Vector3d> node_motions;
   std::vector<Eigen::Vector3d> vertex_motions;
 
@@ -102,7 +102,8 @@ struct WhitenedPair {
   WhitenedTree a;
   WhitenedTree b;
 
-  /// What the bands around the two shapes do, which are all of their motions; null without bands.
+  /// What the bands around the two shapes, or the sweeps of their parts, do, which are all of their
+  /// motions; null without either.
   std::shared_ptr<const BandMargin> band;
 };
 
