@@ -39,6 +39,17 @@ struct RobotBody {
   fcl::Transform3d in_link = fcl::Transform3d::Identity();  ///< metres
 };
 
+/// One of the joints that carry a body, where all joints have certain values. With v the value of
+/// joints()[joint], that of this one changes by `factor` times what v changes by: a point x of the
+/// body then moves by factor * axis × (x - point) per radian of v, or by factor * axis per metre.
+struct CarryingJoint {
+  std::size_t joint = 0;
+  double factor = 1.0;  ///< of a mimic joint; else 1
+  bool turns = true;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, world frame
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< on the axis, metres, world frame
+};
+
 /// The joints and collision elements of a robot. Values of joints are given in the order of
 /// joints(), radians or metres. Immutable: copies share what they hold, and every member may be
 /// called from several threads.
@@ -75,6 +86,11 @@ class Robot {
   /// Poses of the bodies, metres, world frame. Limits are not looked at.
   /// \throws InvalidRequest as validate()
   std::vector<fcl::Transform3d> poses(const Eigen::VectorXd& values) const;
+
+  /// The joints between the root link and a body that are not fixed, from the root outwards: what
+  /// the body's Jacobian is made of. \throws InvalidRequest as validate(), or for a body that is
+  /// not there
+  std::vector<CarryingJoint> carryingJoints(std::size_t body, const Eigen::VectorXd& values) const;
 
   /// Pose of a link, with or without collision elements. \throws InvalidRequest as validate(), or
   /// for a link that is not there

@@ -29,6 +29,12 @@ enum class ErrorsOverTime {
   independent  ///< drawn anew at every waypoint
 };
 
+/// Whether a motion is its waypoints only, or all of the way from each to the next.
+enum class BetweenWaypoints {
+  ignored,  ///< what is between them is not looked at
+  swept     ///< the joints move linearly, in continuous time; the interval is certified for that
+};
+
 /// P(any body of the robot touches any obstacle).
 struct RobotResult {
   /// Certified, rounding included.
@@ -49,6 +55,11 @@ struct RobotResult {
   /// `far_upper`, which is part of `any`: no triangle of them was looked at.
   std::size_t far_bodies = 0;
   double far_upper = 0.0;
+
+  /// Between waypoints: no point of a body that is not far is ever farther from where it is in a
+  /// state that was looked at, metres. Steps of bodies with such a state.
+  std::optional<double> swept_band;
+  std::size_t swept_steps = 0;
 
   /// The single number to use: the estimate if there is one, else the middle of the interval.
   double probability() const { return estimate ? *estimate : any.middle(); }
@@ -74,12 +85,19 @@ class RobotQuery {
   /// \throws InvalidRequest, OpenMesh, UnsupportedGeometry as GroupQuery
   RobotResult state(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
 
-  /// At any of the waypoints; what is between them is not looked at (see interpolated()).
-  /// Persistent errors: the mass of the union over time of what the robot sweeps at the waypoints,
-  /// one group query an obstacle; at least the largest P of a waypoint, at most their sum.
-  /// \throws InvalidRequest without a waypoint, and as state()
+  /// At any of the waypoints, or at any time between them, too.
+  /// Persistent errors: the mass of the union over time of what the robot sweeps, one group query
+  /// an obstacle; at least the largest P of a waypoint, at most their sum.
+  ///
+  /// With what is between them `lower` is that of states on the way, and `upper` is widened by how
+  /// far the points of a body can move besides. Steps are halved until the tolerance is met, the
+  /// threshold decided or a limit reached (`resolution_limit`: they are as short as they get);
+  /// far_bodies then counts steps of bodies.
+  /// \throws InvalidRequest without a waypoint, and, for what is between them, with independent
+  ///         errors, which would be drawn without end, or method estimate; as state()
   RobotResult motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
-                     const ProbabilityRequest& request) const;
+                     const ProbabilityRequest& request,
+                     BetweenWaypoints between = BetweenWaypoints::ignored) const;
 
   /// The same, persistent, for each body of the robot by itself: which links carry the
   /// probability. \throws as motion()

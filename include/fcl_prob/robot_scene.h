@@ -25,6 +25,7 @@ struct RobotScene {
   std::vector<PlacedObstacle> obstacles;
   std::vector<std::map<std::string, double>> waypoints;  ///< one is a state
   ErrorsOverTime errors = ErrorsOverTime::persistent;
+  BetweenWaypoints between = BetweenWaypoints::ignored;
   std::optional<double> largest_step;  ///< as interpolated() takes it
   ProbabilityRequest request;          ///< defaults where the file says nothing
 };

@@ -27,6 +27,7 @@ struct PathArguments {
   std::optional<double> largest_step;
   std::string method;
   std::string errors;
+  bool between = false;
   bool by_body = false;
   bool json = false;
   std::string output;
@@ -54,6 +55,7 @@ RobotScene sceneOf(const PathArguments& arguments) {
     scene.errors = arguments.errors == "independent" ? ErrorsOverTime::independent
                                                      : ErrorsOverTime::persistent;
   }
+  if (arguments.between) scene.between = BetweenWaypoints::swept;
   return scene;
 }
 
@@ -69,7 +71,7 @@ PathReport answer(RobotScene scene, bool by_body) {
   ProgressBar bar("fcl_prob path");
   scene.request.on_progress = std::ref(bar);
   const Stopwatch watch;
-  report.result = query.motion(waypoints, scene.errors, scene.request);
+  report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   report.time_ms = watch.milliseconds();
   if (by_body) report.by_body = query.byBody(waypoints, scene.request);
   return report;
@@ -93,6 +95,12 @@ ordered_json partsOf(const PathReport& report, const RobotScene& scene) {
   return parts;
 }
 
+/// What is told of the time between the waypoints: null where it was not looked at.
+ordered_json betweenOf(const RobotResult& result) {
+  if (!result.swept_band) return nullptr;
+  return {{"steps", result.swept_steps}, {"widening", *result.swept_band}};
+}
+
 ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
   const RobotResult& result = report.result;
   ordered_json json{{"probability", result.probability()},
@@ -103,6 +111,7 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"status", toString(result.status)},
                     {"decision", toString(result.decision)},
                     {"waypoints", report.waypoints},
+                    {"between", betweenOf(result)},
                     {"far_bodies", result.far_bodies},
                     {"far_upper", result.far_upper},
                     {"build_ms", report.build_ms},
@@ -142,10 +151,13 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     text += "  link " + report.bodies[i].link + ": " + interval(report.by_body[i].any) + "\n";
   }
-  text +=
-      std::to_string(result.far_bodies) +
-      " bodies at waypoints left out as far away, with P <= " + numberText(result.far_upper, 3) +
-      " together\n";
+  if (result.swept_band) {
+    text += "at all times: " + std::to_string(result.swept_steps) + " steps of bodies, within " +
+            numberText(*result.swept_band, 3) + " m of the states looked at\n";
+  }
+  text += std::to_string(result.far_bodies) +
+          (result.swept_band ? " steps of bodies" : " bodies at waypoints") +
+          " left out as far away, with P <= " + numberText(result.far_upper, 3) + " together\n";
   return text + numberText(report.time_ms, 4) + " ms, and " + numberText(report.build_ms, 4) +
          " ms to load\n";
 }
@@ -174,6 +186,8 @@ void addPathCommand(CLI::App& app, int& exit_code) {
   command.add_option("--time-limit", arguments->time_limit, "Seconds");
   command.add_option("--largest-step", arguments->largest_step,
                      "Add waypoints such that no joint moves further at once (radians, metres)");
+  command.add_flag("--between", arguments->between,
+                   "Certified for all of the way between the waypoints, too");
   command.add_flag("--by-body", arguments->by_body, "Also each collision body by itself");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");

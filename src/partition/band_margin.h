@@ -28,6 +28,9 @@ class BandMargin {
   BandMargin(const PartitionObject& a, const PartitionObject& b, const Eigen::Matrix3d& whitening)
       : outward_(0.0), inward_(0.0), metres_(whitening.transpose()), of_a_(a), of_b_(b) {}
 
+  /// Whether it is all of sweeps, which whoever asks can make shorter.
+  bool isOfSweeps() const { return !of_a_.isEmpty() || !of_b_.isEmpty(); }
+
   /// By how much the C-obstacle of two nodes grows along a whitened direction (any length), rounded
   /// up.
   double outwardAlong(const Eigen::Vector3d& m, NodePair nodes) const;

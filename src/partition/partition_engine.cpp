@@ -37,6 +37,11 @@ constexpr double kDeviationShare = 0.6;
 constexpr std::size_t kFirstLookAtBand = 4000;
 constexpr double kStalled = 0.97;
 
+// Sweeps can be made shorter, which helps more than cells once they are about half of the width:
+// without them twice as many cells leave about 0.6 of it.
+constexpr std::size_t kFirstLookAtSweeps = 500;
+constexpr double kStalledBySweeps = 0.75;
+
 // The density changes over one standard deviation, a smaller C-obstacle over its own width.
 Eigen::Vector3d scalesOf(const WhitenedPair& pair) {
   const NodeBox box = obstacleBox(pair, {0, 0});
@@ -57,7 +62,7 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
       ball_(ball),
       scales_(scalesOf(pair)),
       band_(pair.band),
-      next_look_(kFirstLookAtBand),
+      next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
       limits_(request, statistics) {
   Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
   const double reach = ball ? std::min(kReach, 1.001 * ball->radius()) : kReach;
@@ -244,7 +249,8 @@ void PartitionEngine::lookAtBand() {
   if (statistics_.cells < next_look_) return;
   next_look_ = 2 * statistics_.cells;
   const Bounds now = interval();
-  stalled_ = now.width() > kStalled * at_last_look_.width();
+  const double stalled = band_->isOfSweeps() ? kStalledBySweeps : kStalled;
+  stalled_ = now.width() > stalled * at_last_look_.width();
   at_last_look_ = now;
 }
 

@@ -47,6 +47,8 @@ KDL::Frame kdlOf(const fcl::Transform3d& pose) {
           kdlOf(Eigen::Vector3d(pose.translation()))};
 }
 
+Eigen::Vector3d eigenOf(const KDL::Vector& v) { return {v.x(), v.y(), v.z()}; }
+
 fcl::Transform3d transformOf(const KDL::Frame& frame) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   for (int i = 0; i < 3; ++i) {
@@ -139,12 +141,32 @@ std::vector<fcl::Transform3d> Kinematics::linkPoses(const Eigen::VectorXd& value
   std::vector<KDL::Frame> frames{KDL::Frame::Identity()};
   for (std::size_t i = 1; i < links_.size(); ++i) {
     const CarriedLink& link = links_[i];
-    const double value = link.joint < 0 ? 0.0 : link.factor * values[link.joint] + link.offset;
-    frames.push_back(frames[static_cast<std::size_t>(link.parent)] * link.segment.pose(value));
+    frames.push_back(frames[static_cast<std::size_t>(link.parent)] * link.poseInParent(values));
   }
   std::vector<fcl::Transform3d> poses;
   for (const KDL::Frame& frame : frames) poses.push_back(transformOf(frame));
   return poses;
+}
+
+std::vector<CarryingJoint> Kinematics::carryingJoints(int link,
+                                                      const Eigen::VectorXd& values) const {
+  std::vector<const CarriedLink*> outwards;
+  for (int i = link; i > 0; i = links_[static_cast<std::size_t>(i)].parent) {
+    outwards.insert(outwards.begin(), &links_[static_cast<std::size_t>(i)]);
+  }
+  std::vector<CarryingJoint> joints;
+  KDL::Frame parent = KDL::Frame::Identity();
+  for (const CarriedLink* carried : outwards) {
+    if (carried->joint >= 0) {
+      const KDL::Joint& joint = carried->segment.getJoint();
+      joints.push_back({static_cast<std::size_t>(carried->joint), carried->factor,
+                        joint.getType() == KDL::Joint::RotAxis,
+                        eigenOf(parent.M * joint.JointAxis()),
+                        eigenOf(parent * joint.JointOrigin())});
+    }
+    parent = parent * carried->poseInParent(values);
+  }
+  return joints;
 }
 
 }  // namespace fcl_prob::detail

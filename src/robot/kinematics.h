@@ -29,6 +29,9 @@ class Kinematics {
   /// Relative to the root link. \param values  one a joint
   std::vector<fcl::Transform3d> linkPoses(const Eigen::VectorXd& values) const;
 
+  /// Those between the root link and a link, relative to the former.
+  std::vector<CarryingJoint> carryingJoints(int link, const Eigen::VectorXd& values) const;
+
  private:
   /// A link with the joint that carries it: at `factor` times the value of `joint` plus `offset`.
   struct CarriedLink {
@@ -37,6 +40,10 @@ class Kinematics {
     int joint;  ///< -1: it does not move
     double factor = 1.0;
     double offset = 0.0;
+
+    KDL::Frame poseInParent(const Eigen::VectorXd& values) const {
+      return segment.pose(joint < 0 ? 0.0 : factor * values[joint] + offset);
+    }
   };
 
   void addJoints(const urdf::ModelInterface& model, const std::string& path);

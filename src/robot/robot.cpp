@@ -107,6 +107,21 @@ std::vector<fcl::Transform3d> Robot::poses(const Eigen::VectorXd& values) const 
   return result;
 }
 
+std::vector<CarryingJoint> Robot::carryingJoints(std::size_t body,
+                                                 const Eigen::VectorXd& values) const {
+  implementation_->validate(values);
+  if (body >= bodies().size()) {
+    throw InvalidRequest(implementation_->name + " has " + std::to_string(bodies().size()) +
+                         " bodies, none with number " + std::to_string(body));
+  }
+  auto joints = implementation_->kinematics.carryingJoints(implementation_->links[body], values);
+  for (CarryingJoint& joint : joints) {
+    joint.axis = implementation_->base.linear() * joint.axis;
+    joint.point = implementation_->base * joint.point;
+  }
+  return joints;
+}
+
 fcl::Transform3d Robot::linkPose(const std::string& link, const Eigen::VectorXd& values) const {
   implementation_->validate(values);
   const int index = implementation_->kinematics.linkIndex(link);

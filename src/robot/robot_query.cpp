@@ -3,16 +3,17 @@
 #include "fcl_prob/robot_query.h"
 
 #include <algorithm>
-#include <cmath>
+#include <deque>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
 #include "robot/body_balls.h"
 #include "robot/obstacle_answer.h"
+#include "robot/reversed.h"
+#include "robot/swept_motion.h"
 
 namespace fcl_prob {
 namespace {
@@ -22,20 +23,6 @@ using Poses = std::vector<fcl::Transform3d>;
 
 /// Of the absolute tolerance: what all bodies that are left out may add up to.
 constexpr double kShareOfFar = 0.05;
-
-GaussianDisplacement reversed(const GaussianDisplacement& displacement) {
-  return displacement.reversed();
-}
-
-GaussianMixture reversed(const GaussianMixture& mixture) {
-  std::vector<GaussianMixture::Component> components = mixture.components();
-  for (auto& component : components) component.displacement = component.displacement.reversed();
-  return GaussianMixture(std::move(components));
-}
-
-TruncatedGaussian reversed(const TruncatedGaussian& truncated) {
-  return {truncated.gaussian().reversed(), truncated.deviations()};
-}
 
 void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
          const GaussianDisplacement& displacement, const ProbabilityRequest& request,
@@ -69,6 +56,19 @@ void addUp(const std::vector<FarBodies>& far, RobotResult& result) {
   }
 }
 
+void requireContinuous(ErrorsOverTime errors, const ProbabilityRequest& request) {
+  if (errors != ErrorsOverTime::persistent) {
+    throw InvalidRequest(
+        "between waypoints only persistent errors have a probability: there is no end to how often "
+        "others are drawn in a continuous time");
+  }
+  if (request.method != ProbabilityMethod::interval &&
+      request.method != ProbabilityMethod::automatic) {
+    throw InvalidRequest("method " + toString(request.method) +
+                         " cannot answer for what is between waypoints, only interval and auto");
+  }
+}
+
 }  // namespace
 
 struct RobotQuery::Implementation {
@@ -76,12 +76,14 @@ struct RobotQuery::Implementation {
       : robot(the_robot), obstacles(std::move(the_obstacles)) {
     if (obstacles.empty()) throw InvalidRequest("a robot query needs an obstacle");
     for (const RobotBody& body : robot.bodies()) {
-      balls.push_back(detail::ballAround({body.geometry, "a body of link " + body.link}));
+      geometries.emplace_back(body.geometry, "a body of link " + body.link);
+      balls.push_back(detail::ballAround(geometries.back()));
     }
     for (const Obstacle& obstacle : obstacles) {
       detail::validatePose(obstacle.pose, "obstacle " + obstacle.name);
-      const detail::PreparedGeometry prepared(obstacle.geometry, "obstacle " + obstacle.name);
-      obstacle_balls.push_back(detail::ballAround(prepared).placed(obstacle.pose));
+      obstacle_geometries.emplace_back(obstacle.geometry, "obstacle " + obstacle.name);
+      obstacle_balls.push_back(
+          detail::ballAround(obstacle_geometries.back()).placed(obstacle.pose));
     }
   }
 
@@ -150,7 +152,7 @@ struct RobotQuery::Implementation {
     const GroupQuery query(std::move(geometries), {obstacle.geometry});
     std::visit(
         [&](const auto& displacement) {
-          ask(query, poses, {obstacle.pose}, reversed(displacement), request, result);
+          ask(query, poses, {obstacle.pose}, detail::reversed(displacement), request, result);
         },
         obstacle.displacement);
     if (far > 0.0 && result.upper) {
@@ -170,8 +172,34 @@ struct RobotQuery::Implementation {
     return result;
   }
 
+  /// At any time: what the bodies sweep between the waypoints, too.
+  RobotResult ofAllTimes(const std::vector<Eigen::VectorXd>& waypoints,
+                         const ProbabilityRequest& request) const {
+    const detail::SweptPath path(robot, balls, waypoints);
+    std::vector<detail::SweptAnswer> answers(obstacles.size());
+    RobotResult result = detail::anyOfAsked(
+        obstacles.size(), request,
+        [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
+          const Obstacle& obstacle = obstacles[i];
+          answers[i] = detail::sweptMotion(
+              path, geometries, {obstacle_geometries[i], obstacle.pose, obstacle.displacement},
+              obstacle_balls[i], kShareOfFar * of_one.absolute_tolerance, of_one);
+          answer = answers[i].result;
+        });
+    result.swept_band = 0.0;
+    for (const detail::SweptAnswer& answer : answers) {
+      result.swept_band = std::max(*result.swept_band, answer.reach);
+      result.swept_steps += answer.steps;
+      result.far_bodies += answer.far;
+      result.far_upper += answer.far_upper;
+    }
+    return result;
+  }
+
   Robot robot;
   std::vector<Obstacle> obstacles;
+  std::deque<detail::PreparedGeometry> geometries;  ///< of the robot's bodies
+  std::deque<detail::PreparedGeometry> obstacle_geometries;
   std::vector<Ball> balls;           ///< of the robot's bodies, in their frames
   std::vector<Ball> obstacle_balls;  ///< world frame
 };
@@ -191,11 +219,12 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 }
 
 RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
-                               const ProbabilityRequest& request) const {
-  validateRequest(request);
-  detail::refuseBand(request, "robots");
-  if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
-  for (const Eigen::VectorXd& values : waypoints) robot().isWithinLimits(values);  // validates
+                               const ProbabilityRequest& request, BetweenWaypoints between) const {
+  implementation_->validate(waypoints, request);
+  if (between == BetweenWaypoints::swept) {
+    requireContinuous(errors, request);
+    return implementation_->ofAllTimes(waypoints, request);
+  }
   if (errors == ErrorsOverTime::persistent)
     return implementation_->ofAll(implementation_->placed(waypoints), request);
   const std::size_t obstacles = implementation_->obstacles.size();
@@ -218,30 +247,6 @@ std::vector<RobotResult> RobotQuery::byBody(const std::vector<Eigen::VectorXd>& 
   std::vector<RobotResult> results;
   for (const auto& bodies : by_body) results.push_back(implementation_->ofAll(bodies, request));
   return results;
-}
-
-std::vector<Eigen::VectorXd> interpolated(const std::vector<Eigen::VectorXd>& waypoints,
-                                          double largest_step) {
-  if (!(largest_step > 0.0)) {
-    throw InvalidRequest("the largest step must be > 0, is " + detail::numberText(largest_step));
-  }
-  std::vector<Eigen::VectorXd> result;
-  for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    if (waypoints[i].size() != waypoints[0].size()) {
-      throw InvalidRequest("waypoint " + std::to_string(i) + " has " +
-                           std::to_string(waypoints[i].size()) + " values, the first has " +
-                           std::to_string(waypoints[0].size()));
-    }
-    if (i > 0 && waypoints[i].size() > 0) {
-      const Eigen::VectorXd change = waypoints[i] - waypoints[i - 1];
-      const double steps = std::ceil(change.cwiseAbs().maxCoeff() / largest_step);
-      for (double k = 1.0; k < steps; k += 1.0) {
-        result.push_back(waypoints[i - 1] + k / steps * change);
-      }
-    }
-    result.push_back(waypoints[i]);
-  }
-  return result;
 }
 
 }  // namespace fcl_prob

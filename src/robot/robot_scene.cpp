@@ -52,6 +52,13 @@ ErrorsOverTime readErrors(StrictObject& root) {
   root.fail("errors", "neither persistent nor independent");
 }
 
+BetweenWaypoints readBetween(StrictObject& root) {
+  const std::string between = root.text("between");
+  if (between == "ignored") return BetweenWaypoints::ignored;
+  if (between != "swept") root.fail("between", "neither ignored nor swept");
+  return BetweenWaypoints::swept;
+}
+
 std::shared_ptr<const fcl::CollisionGeometryd> geometryOf(const SceneObject& object) {
   if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) return *primitive;
   const MeshFile& mesh = std::get<MeshFile>(object.shape);
@@ -80,6 +87,7 @@ RobotScene loadRobotScene(const std::string& path) {
     if (scene.waypoints.empty()) root.fail("waypoints", "there are none");
   }
   if (root.has("errors")) scene.errors = readErrors(root);
+  if (root.has("between")) scene.between = readBetween(root);
   if (root.has("largest_step")) {
     scene.largest_step = root.number("largest_step");
     if (!(*scene.largest_step > 0.0)) root.fail("largest_step", "must be > 0");

@@ -39,6 +39,19 @@ TEST_CASE("path answers the motion that the project ships", "[cli]") {
   CHECK(independent.at("parts").size() == 2 * independent.at("waypoints").get<std::size_t>());
 }
 
+TEST_CASE("path answers for the time between waypoints", "[cli]") {
+  const json some = answerOf({"--threshold", "0.9999"});
+  CHECK(some.at("between").is_null());
+  const json all = answerOf({"--threshold", "0.9999", "--between"});
+  CHECK(all.at("upper").get<double>() >= some.at("lower").get<double>());
+  CHECK(all.at("between").at("steps").get<int>() > 10);
+  CHECK(all.at("between").at("widening").get<double>() > 0.0);
+  const TemporaryFolder folder;
+  const std::string scene = dataFile("arm_path.json");
+  CHECK(runCommand({"path", "--scene", scene, "--between", "--errors", "independent"}, folder)
+            .refused());
+}
+
 TEST_CASE("path says in one line what is wrong with a scene", "[cli]") {
   const TemporaryFolder folder;
   CHECK(runCommand({"path"}, folder).refused());

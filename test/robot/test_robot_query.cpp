@@ -3,11 +3,7 @@
 // States and motions of a robot against fcl::collide on displaced obstacles.
 #include "fcl_prob/robot_query.h"
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/collision.h>
-
-#include "arm_cases.h"
+#include "arm_motions.h"
 #include "catch.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
@@ -16,90 +12,6 @@
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
-
-namespace {
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
-
-GaussianDisplacement sigma(double x, double y, double z) {
-  return GaussianDisplacement::fromStandardDeviations({x, y, z});
-}
-
-std::vector<Obstacle> ballAndBox() {
-  return {
-      {"ball", std::make_shared<fcl::Sphered>(0.1), at(0.55, 0.25, 0.35), sigma(0.03, 0.02, 0.04)},
-      {"box", std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4), at(0.5, -0.45, 0.2),
-       sigma(0.02, 0.05, 0.01)}};
-}
-
-std::vector<Eigen::VectorXd> sweep(const Robot& arm, int waypoints) {
-  std::vector<Eigen::VectorXd> result;
-  for (int i = 0; i < waypoints; ++i) {
-    const double t = i / (waypoints - 1.0);
-    result.push_back(
-        arm.values({{"turn", 0.75 - 1.5 * t}, {"shoulder", 0.15}, {"elbow", 0.3}, {"grip", 0.02}}));
-  }
-  return result;
-}
-
-bool touches(const Robot& robot, const Eigen::VectorXd& values, const Obstacle& obstacle,
-             const Eigen::Vector3d& moved) {
-  fcl::Transform3d pose = obstacle.pose;
-  pose.translation() += moved;
-  const auto poses = robot.poses(values);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    fcl::CollisionResultd result;
-    const auto& geometry = robot.bodies()[i].geometry;
-    if (fcl::collide(geometry.get(), poses[i], obstacle.geometry.get(), pose,
-                     fcl::CollisionRequestd(), result) > 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// How often any of the waypoints touches, errors drawn once, in so many draws.
-double counted(const RobotQuery& query, const std::vector<Eigen::VectorXd>& waypoints, int draws,
-               unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  int hits = 0;
-  for (int i = 0; i < draws; ++i) {
-    bool hit = false;
-    for (const Obstacle& obstacle : query.obstacles()) {
-      const auto& displacement = std::get<GaussianDisplacement>(obstacle.displacement);
-      Eigen::Vector3d y;
-      for (int k = 0; k < 3; ++k) y[k] = normal(random) * displacement.standardDeviations()[k];
-      const Eigen::Vector3d moved = displacement.mean() + displacement.axes() * y;
-      for (const Eigen::VectorXd& values : waypoints) {
-        if (!hit) hit = touches(query.robot(), values, obstacle, moved);
-      }
-    }
-    hits += hit;
-  }
-  return static_cast<double>(hits) / draws;
-}
-
-void checkCounted(const Bounds& bounds, double counted, int draws) {
-  const double error = 5.0 * std::sqrt(bounds.upper * (1.0 - bounds.lower) / draws) + 5.0 / draws;
-  CAPTURE(bounds.lower, bounds.upper, counted);
-  CHECK(bounds.lower <= counted + error);
-  CHECK(bounds.upper >= counted - error);
-}
-
-ProbabilityRequest withTolerance(double relative) {
-  ProbabilityRequest request;
-  request.relative_tolerance = relative;
-  return request;
-}
-
-bool overlap(const Bounds& x, const Bounds& y) { return x.lower <= y.upper && y.lower <= x.upper; }
-
-}  // namespace
 
 TEST_CASE("without errors a state is what fcl::collide says of it") {
   const Robot arm = shippedArm();
@@ -296,5 +208,6 @@ TEST_CASE("the shipped motion is read and answered; bad robot scenes are refused
   refused("\"urdf\": \"a.urdf\"", "\"urdf\": \"a.urdf\", \"base\": [1, 2]");
   refused("\"joints\"", "\"errors\": \"some\", \"joints\"");
   refused("\"joints\"", "\"largest_step\": 0, \"joints\"");
+  refused("\"joints\"", "\"between\": \"some\", \"joints\"");
   refused("[1, 1, 1]", "[1, -1, 1]");
 }

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include <cmath>
+
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/robot_query.h"
+#include "gaussian/number_text.h"
+
+namespace fcl_prob {
+
+std::vector<Eigen::VectorXd> interpolated(const std::vector<Eigen::VectorXd>& waypoints,
+                                          double largest_step) {
+  if (!(largest_step > 0.0)) {
+    throw InvalidRequest("the largest step must be > 0, is " + detail::numberText(largest_step));
+  }
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    if (waypoints[i].size() != waypoints[0].size()) {
+      throw InvalidRequest("waypoint " + std::to_string(i) + " has " +
+                           std::to_string(waypoints[i].size()) + " values, the first has " +
+                           std::to_string(waypoints[0].size()));
+    }
+    if (i > 0 && waypoints[i].size() > 0) {
+      const Eigen::VectorXd change = waypoints[i] - waypoints[i - 1];
+      const double steps = std::ceil(change.cwiseAbs().maxCoeff() / largest_step);
+      for (double k = 1.0; k < steps; k += 1.0) {
+        result.push_back(waypoints[i - 1] + k / steps * change);
+      }
+    }
+    result.push_back(waypoints[i]);
+  }
+  return result;
+}
+
+}  // namespace fcl_prob

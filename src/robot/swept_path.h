@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What the bodies of a robot sweep between its waypoints, in steps that can be halved.
+#pragma once
+
+#include <vector>
+
+#include "robot/body_sweep.h"
+
+namespace fcl_prob::detail {
+
+/// What one body does in a part of the way between two waypoints.
+struct SweptBody {
+  std::size_t body;
+  std::size_t from;    ///< index of the waypoint before it
+  double first, last;  ///< part of the way to the next one, 0 to 1
+  BodySweep sweep;
+  double weight;     ///< its share of all that all bodies do, before anything was halved
+  double far_upper;  ///< bound on its own probability, once it is known
+};
+
+/// A motion that is linear in the joints between waypoints.
+class SweptPath {
+ public:
+  /// Keeps references. \param balls  around the bodies, in their frames
+  SweptPath(const Robot& robot, const std::vector<Ball>& balls,
+            const std::vector<Eigen::VectorXd>& waypoints)
+      : robot_(robot), balls_(balls), waypoints_(waypoints) {}
+
+  /// All that all bodies do: one step from each waypoint to the next, where a body moves at all.
+  std::vector<SweptBody> wholeSteps() const;
+
+  /// The two halves of a step.
+  std::vector<SweptBody> halvesOf(const SweptBody& step) const;
+
+ private:
+  SweptBody part(std::size_t body, std::size_t from, double first, double last,
+                 double weight) const;
+
+  const Robot& robot_;
+  const std::vector<Ball>& balls_;
+  const std::vector<Eigen::VectorXd>& waypoints_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/swept_query.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "geometry/occupancy.h"
+#include "partition/partition.h"
+#include "partition/without_contact.h"
+#include "query/bounded_part.h"
+#include "query/mixture_query.h"
+#include "query/single_collide.h"
+#include "query/tolerance_note.h"
+#include "query/truncation.h"
+#include "robot/reversed.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// Of the whitened copies of a tree, per node and per vertex.
+constexpr std::size_t kNodeBytes = 200;
+constexpr std::size_t kVertexBytes = 150;
+
+class SweptBodies {
+ public:
+  SweptBodies(const std::vector<SweptBody>& bodies, const std::deque<PreparedGeometry>& geometries,
+              const PlacedObstacle& obstacle, ContactMeaning contact)
+      : bodies_(bodies), geometries_(geometries), obstacle_(obstacle), contact_(contact) {
+    std::vector<const PieceTree*> trees;
+    for (const SweptBody& body : bodies) {
+      const PreparedGeometry& geometry = geometries[body.body];
+      trees.push_back(&geometry.pieces());
+      const BodySweep& sweep = body.sweep;
+      object_.parts.push_back(
+          {sweep.middle, geometry.solid(contact), sweep.reach > 0.0 ? &sweep.motion : nullptr});
+      reach_ = std::max(reach_, sweep.reach);
+    }
+    tree_ = joinPieceTrees(trees);
+    object_.tree = tree_.get();
+  }
+
+  /// \param ball  null: the displacement is not truncated
+  ProbabilityResult answer(const GaussianDisplacement& of_bodies, const ProbabilityRequest& request,
+                           const BallTruncation* ball = nullptr) const {
+    ProbabilityResult result = inPartition(of_bodies, request, ball);
+    if (of_bodies.rank() > 0 || !(*result.lower < *result.upper)) return result;
+    // A partition of a single point may not tell what fcl::collide does.
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      ProbabilityResult one =
+          singleCollide(geometries_[bodies_[i].body].geometry(), object_.parts[i].pose,
+                        obstacle_.geometry.geometry(), obstacle_.pose, of_bodies.mean(), request);
+      if (*one.lower > 0.0) return one;
+    }
+    return result;
+  }
+
+ private:
+  ProbabilityResult inPartition(const GaussianDisplacement& of_bodies,
+                                const ProbabilityRequest& request,
+                                const BallTruncation* ball) const {
+    const PreparedGeometry& geometry = obstacle_.geometry;
+    if (geometry.hasPieces()) {
+      const PartitionObject obstacle{&geometry.pieces(),
+                                     {{obstacle_.pose, geometry.solid(contact_)}}};
+      return partitionProbability(object_, obstacle, of_bodies, request, ball);
+    }
+    ReachedBall reached = reachedBall(object_, of_bodies, kReach);
+    reached.radius += reach_;
+    const BoundedPart part = boundedPart(geometry.geometry(), obstacle_.pose, reached);
+    const auto stand_in = buildPieceTree(*part.geometry);
+    return partitionProbability(object_, {stand_in.get(), {{part.pose, nullptr}}}, of_bodies,
+                                request, ball);
+  }
+
+  const std::vector<SweptBody>& bodies_;
+  const std::deque<PreparedGeometry>& geometries_;
+  const PlacedObstacle& obstacle_;
+  ContactMeaning contact_;
+  std::shared_ptr<const PieceTree> tree_;
+  PartitionObject object_{};
+  double reach_ = 0.0;  ///< no point is farther from where the middle of its step has it
+};
+
+ProbabilityResult askSwept(const SweptBodies& bodies, const GaussianDisplacement& of_bodies,
+                           const ProbabilityRequest& request) {
+  return bodies.answer(of_bodies, request);
+}
+
+ProbabilityResult askSwept(const SweptBodies& bodies, const GaussianMixture& of_bodies,
+                           const ProbabilityRequest& request) {
+  return mixtureProbability(of_bodies, request,
+                            [&](const GaussianDisplacement& one, const ProbabilityRequest& of_one) {
+                              return bodies.answer(one, of_one);
+                            });
+}
+
+ProbabilityResult askSwept(const SweptBodies& bodies, const TruncatedGaussian& of_bodies,
+                           const ProbabilityRequest& request) {
+  const TruncatedQuery truncated(of_bodies, request);
+  ProbabilityResult result;
+  if (truncated.isWhole()) {
+    result = bodies.answer(of_bodies.gaussian(), truncated.requestOfContact());
+    truncated.ofContact(result);
+  } else {
+    result = bodies.answer(of_bodies.gaussian(), truncated.requestOfJoint(), &truncated.ball());
+    truncated.ofJoint(result);
+  }
+  return result;
+}
+
+bool isLeftOut(const fcl::CollisionGeometryd& geometry) {
+  return geometry.getNodeType() != fcl::GEOM_OCTREE && !geometry.isOccupied();
+}
+
+}  // namespace
+
+ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
+                                   const std::deque<PreparedGeometry>& geometries,
+                                   const PlacedObstacle& obstacle,
+                                   const ProbabilityRequest& request) {
+  if (isLeftOut(obstacle.geometry.geometry())) {
+    return withoutContact(request, "fcl::collide leaves out what is not occupied");
+  }
+  const SweptBodies swept(bodies, geometries, obstacle, request.contact);
+  ProbabilityResult result = std::visit(
+      [&](const auto& displacement) { return askSwept(swept, reversed(displacement), request); },
+      obstacle.displacement);
+  noteTolerance(request, result);
+  return result;
+}
+
+std::size_t memoryOf(const std::vector<SweptBody>& bodies,
+                     const std::deque<PreparedGeometry>& geometries) {
+  std::size_t bytes = 0;
+  for (const SweptBody& body : bodies) {
+    const PieceTree& tree = geometries[body.body].pieces();
+    bytes += tree.nodes.size() * kNodeBytes + tree.vertices.size() * kVertexBytes;
+  }
+  return bytes;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Swept bodies against one obstacle: one partition for all of them.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "fcl_prob/robot_query.h"
+#include "query/prepared_geometry.h"
+#include "robot/swept_path.h"
+
+namespace fcl_prob::detail {
+
+/// An obstacle as its perception places it.
+struct PlacedObstacle {
+  const PreparedGeometry& geometry;
+  const fcl::Transform3d& pose;
+  const Displacement& displacement;  ///< of the obstacle
+};
+
+/// P(any of the bodies touches the obstacle at any time of its step). `upper` is that of all times,
+/// `lower` that of the middles of the steps. Tolerance, threshold and limits as in every query;
+/// status `band_limit` where the steps are too long for the tolerance.
+/// \param geometries  of the robot's bodies
+/// \throws UnsupportedGeometry, OpenMesh
+ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
+                                   const std::deque<PreparedGeometry>& geometries,
+                                   const PlacedObstacle& obstacle,
+                                   const ProbabilityRequest& request);
+
+/// Bytes that such a query takes before its first cell, roughly.
+std::size_t memoryOf(const std::vector<SweptBody>& bodies,
+                     const std::deque<PreparedGeometry>& geometries);
+
+}  // namespace fcl_prob::detail
