@@ -14,6 +14,12 @@
 
 namespace fcl_prob {
 
+/// Where an obstacle is at one waypoint of a motion, and how well that is known.
+struct ObstacleState {
+  fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
+  Displacement displacement = GaussianDisplacement();    ///< as Obstacle::displacement
+};
+
 /// Something that the robot may touch, with the error of where it was perceived.
 struct Obstacle {
   std::string name;
@@ -21,12 +27,19 @@ struct Obstacle {
   fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
   /// Of the obstacle, metres, world frame; independent of that of every other one.
   Displacement displacement = GaussianDisplacement();
+
+  /// Of one that moves, or that is known less and less well: one state a waypoint of the motion,
+  /// which count instead of `pose` and `displacement`. Empty: it stays.
+  std::vector<ObstacleState> over_time = {};
 };
 
-/// Whether the errors of a motion are drawn once or ever again.
+/// What the errors of an obstacle at one waypoint have to do with those at another one.
 enum class ErrorsOverTime {
-  persistent,  ///< the obstacle was perceived once: its error is the same all along
-  independent  ///< drawn anew at every waypoint
+  /// The obstacle was perceived once: its error is the same all along. One that moves may then only
+  /// shift, and its covariance may not change.
+  persistent,
+  independent,    ///< drawn anew at every waypoint
+  any_dependence  ///< anything: bounds that hold whatever it is
 };
 
 /// Whether a motion is its waypoints only, or all of the way from each to the next.
@@ -47,14 +60,20 @@ struct RobotResult {
   Decision decision = Decision::none;
   ProbabilityStatus status = ProbabilityStatus::converged;
 
-  /// By obstacle, in their order; independent errors: by waypoint, and for each by obstacle. Empty
-  /// `upper` where the decision did not need it.
+  /// By obstacle, in their order; unless errors are persistent: by waypoint, and for each by
+  /// obstacle. Empty `upper` where the decision did not need it.
   std::vector<ProbabilityResult> parts;
 
   /// Bodies at waypoints that are so far away that together they are no likelier to touch than
   /// `far_upper`, which is part of `any`: no triangle of them was looked at.
   std::size_t far_bodies = 0;
   double far_upper = 0.0;
+
+  /// Unless errors are persistent: P that anything is touched at each waypoint, and bounds on P for
+  /// the motion that hold whatever the errors of an obstacle at one waypoint have to do with those
+  /// at another one: of the worst waypoint and of their sum.
+  std::vector<Bounds> by_waypoint;
+  std::optional<Bounds> any_dependence;
 
   /// Between waypoints: no point of a body that is not far is ever farther from where it is in a
   /// state that was looked at, metres. Steps of bodies with such a state.
@@ -89,17 +108,24 @@ class RobotQuery {
   /// Persistent errors: the mass of the union over time of what the robot sweeps, one group query
   /// an obstacle; at least the largest P of a waypoint, at most their sum.
   ///
+  /// Obstacles that move, linearly between waypoints, take part in that. Errors of any dependence:
+  /// `any` is RobotResult::any_dependence, as wide as that is, and the tolerance that of each
+  /// waypoint.
+  ///
   /// With what is between them `lower` is that of states on the way, and `upper` is widened by how
   /// far the points of a body can move besides. Steps are halved until the tolerance is met, the
   /// threshold decided or a limit reached (`resolution_limit`: they are as short as they get);
   /// far_bodies then counts steps of bodies.
-  /// \throws InvalidRequest without a waypoint, and, for what is between them, with independent
-  ///         errors, which would be drawn without end, or method estimate; as state()
+  /// \throws InvalidRequest without a waypoint, or unless an obstacle that moves has a state at
+  /// each;
+  ///         with persistent errors for one that turns or whose covariance changes; with any
+  ///         dependence for method estimate; for what is between waypoints with other than
+  ///         persistent errors, which would be drawn without end, or method estimate; as state()
   RobotResult motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
                      const ProbabilityRequest& request,
                      BetweenWaypoints between = BetweenWaypoints::ignored) const;
 
-  /// The same, persistent, for each body of the robot by itself: which links carry the
+  /// At the waypoints, persistent, for each body of the robot by itself: which links carry the
   /// probability. \throws as motion()
   std::vector<RobotResult> byBody(const std::vector<Eigen::VectorXd>& waypoints,
                                   const ProbabilityRequest& request) const;

@@ -16,8 +16,9 @@ namespace fcl_prob {
 struct RobotScene {
   struct PlacedObstacle {
     std::string name;
-    SceneObject object;                 ///< a mesh still in its file
-    GaussianDisplacement displacement;  ///< of the obstacle, metres, world frame
+    SceneObject object;                    ///< a mesh still in its file
+    GaussianDisplacement displacement;     ///< of the obstacle, metres, world frame
+    std::vector<ObstacleState> over_time;  ///< of one that moves: one a waypoint of the file
   };
 
   std::string urdf;  ///< path
@@ -34,7 +35,8 @@ struct RobotScene {
 /// \throws FileError as loadScene()
 RobotScene loadRobotScene(const std::string& path);
 
-/// Reads what the scene names. \throws FileError, InvalidGeometry, InvalidRequest
+/// Reads what the scene names; obstacles that move have a state at each of waypointsOf(). \throws
+/// FileError, InvalidGeometry, InvalidRequest
 RobotQuery loadRobotQuery(const RobotScene& scene);
 
 /// The waypoints as values in the order of the robot's joints, with those between them if the scene

@@ -42,6 +42,23 @@ struct PathReport {
   double time_ms = 0.0;
 };
 
+ErrorsOverTime errorsFrom(const std::string& name) {
+  if (name == "independent") return ErrorsOverTime::independent;
+  return name == "persistent" ? ErrorsOverTime::persistent : ErrorsOverTime::any_dependence;
+}
+
+std::string errorsTold(ErrorsOverTime errors) {
+  switch (errors) {
+    case ErrorsOverTime::persistent:
+      return "the same errors at all of them";
+    case ErrorsOverTime::independent:
+      return "errors drawn anew at each";
+    case ErrorsOverTime::any_dependence:
+      return "whatever the errors at one have to do with those at another";
+  }
+  return "";
+}
+
 RobotScene sceneOf(const PathArguments& arguments) {
   RobotScene scene = loadRobotScene(arguments.scene);
   if (arguments.relative_tolerance) {
@@ -52,8 +69,7 @@ RobotScene sceneOf(const PathArguments& arguments) {
   if (arguments.largest_step) scene.largest_step = arguments.largest_step;
   if (!arguments.method.empty()) scene.request.method = *methodFromString(arguments.method);
   if (!arguments.errors.empty()) {
-    scene.errors = arguments.errors == "independent" ? ErrorsOverTime::independent
-                                                     : ErrorsOverTime::persistent;
+    scene.errors = errorsFrom(arguments.errors);
   }
   if (arguments.between) scene.between = BetweenWaypoints::swept;
   return scene;
@@ -83,7 +99,7 @@ ordered_json partsOf(const PathReport& report, const RobotScene& scene) {
   for (std::size_t i = 0; i < report.result.parts.size(); ++i) {
     const ProbabilityResult& part = report.result.parts[i];
     ordered_json entry{{"obstacle", scene.obstacles[i % scene.obstacles.size()].name}};
-    if (scene.errors == ErrorsOverTime::independent) {
+    if (scene.errors != ErrorsOverTime::persistent) {
       entry["waypoint"] = i / scene.obstacles.size();
     }
     entry["lower"] = orNull(part.lower);
@@ -93,6 +109,24 @@ ordered_json partsOf(const PathReport& report, const RobotScene& scene) {
     parts.push_back(entry);
   }
   return parts;
+}
+
+ordered_json intervalOf(const Bounds& bounds) {
+  return {{"lower", bounds.lower}, {"upper", bounds.upper}};
+}
+
+/// P at every waypoint, the worst of them, and what holds for all whatever the dependence.
+void addWaypoints(const RobotResult& result, ordered_json& json) {
+  if (!result.any_dependence) return;
+  std::size_t worst = 0;
+  for (const Bounds& bounds : result.by_waypoint) {
+    const std::size_t i = json["by_waypoint"].size();
+    json["by_waypoint"].push_back(intervalOf(bounds));
+    if (bounds.middle() > result.by_waypoint[worst].middle()) worst = i;
+  }
+  json["worst"] = intervalOf(result.by_waypoint[worst]);
+  json["worst"]["waypoint"] = worst;
+  json["any_dependence"] = intervalOf(*result.any_dependence);
 }
 
 /// What is told of the time between the waypoints: null where it was not looked at.
@@ -117,6 +151,7 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"build_ms", report.build_ms},
                     {"time_ms", report.time_ms},
                     {"parts", partsOf(report, scene)}};
+  addWaypoints(result, json);
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     json["bodies"].push_back({{"link", report.bodies[i].link},
                               {"lower", report.by_body[i].any.lower},
@@ -139,8 +174,10 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   }
   if (result.decision != Decision::none) text += "decision: " + toString(result.decision) + "\n";
   text += "status: " + toString(result.status) + "\n";
-  text += std::to_string(report.waypoints) + " waypoints, " +
-          (persistent ? "the same errors at all of them\n" : "errors drawn anew at each\n");
+  text += std::to_string(report.waypoints) + " waypoints, " + errorsTold(scene.errors) + "\n";
+  if (result.any_dependence) {
+    text += "whatever the dependence: " + interval(*result.any_dependence) + "\n";
+  }
   if (persistent) {
     for (std::size_t i = 0; i < result.parts.size(); ++i) {
       const ProbabilityResult& part = result.parts[i];
@@ -179,8 +216,10 @@ void addPathCommand(CLI::App& app, int& exit_code) {
   command.add_option("--scene", arguments->scene, "Robot scene file (docs/robots.md)")->required();
   command.add_option("--method", arguments->method)
       ->check(CLI::IsMember({"auto", "interval", "estimate"}));
-  command.add_option("--errors", arguments->errors, "Drawn once, or anew at every waypoint")
-      ->check(CLI::IsMember({"persistent", "independent"}));
+  command
+      .add_option("--errors", arguments->errors,
+                  "Drawn once, anew at every waypoint, or bounds for whatever they are")
+      ->check(CLI::IsMember({"persistent", "independent", "any-dependence"}));
   command.add_option("--tolerance", arguments->relative_tolerance, "Relative");
   command.add_option("--threshold", arguments->threshold, "Decide whether P is below or above");
   command.add_option("--time-limit", arguments->time_limit, "Seconds");

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include <cmath>
+#include <string>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_query.h"
 #include "gaussian/number_text.h"
+#include "robot/waypoint_steps.h"
 
 namespace fcl_prob {
 
-std::vector<Eigen::VectorXd> interpolated(const std::vector<Eigen::VectorXd>& waypoints,
-                                          double largest_step) {
+namespace detail {
+
+std::vector<WaypointStep> stepsBetween(const std::vector<Eigen::VectorXd>& waypoints,
+                                       double largest_step) {
   if (!(largest_step > 0.0)) {
-    throw InvalidRequest("the largest step must be > 0, is " + detail::numberText(largest_step));
+    throw InvalidRequest("the largest step must be > 0, is " + numberText(largest_step));
   }
-  std::vector<Eigen::VectorXd> result;
+  std::vector<WaypointStep> result;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     if (waypoints[i].size() != waypoints[0].size()) {
       throw InvalidRequest("waypoint " + std::to_string(i) + " has " +
@@ -23,11 +27,22 @@ std::vector<Eigen::VectorXd> interpolated(const std::vector<Eigen::VectorXd>& wa
     if (i > 0 && waypoints[i].size() > 0) {
       const Eigen::VectorXd change = waypoints[i] - waypoints[i - 1];
       const double steps = std::ceil(change.cwiseAbs().maxCoeff() / largest_step);
-      for (double k = 1.0; k < steps; k += 1.0) {
-        result.push_back(waypoints[i - 1] + k / steps * change);
-      }
+      for (double k = 1.0; k < steps; k += 1.0) result.push_back({i - 1, k / steps});
     }
-    result.push_back(waypoints[i]);
+    result.push_back({i, 0.0});
+  }
+  return result;
+}
+
+}  // namespace detail
+
+std::vector<Eigen::VectorXd> interpolated(const std::vector<Eigen::VectorXd>& waypoints,
+                                          double largest_step) {
+  std::vector<Eigen::VectorXd> result;
+  for (const detail::WaypointStep& step : detail::stepsBetween(waypoints, largest_step)) {
+    result.push_back(waypoints[step.from]);
+    if (step.fraction == 0.0) continue;
+    result.back() += step.fraction * (waypoints[step.from + 1] - waypoints[step.from]);
   }
   return result;
 }

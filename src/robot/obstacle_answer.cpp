@@ -14,8 +14,14 @@ namespace {
 
 class EventAnswers {
  public:
-  EventAnswers(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask)
-      : request_(request), ask_(ask), budget_(request), bounds_(count, Bounds{0.0, 1.0}) {
+  /// \param combine  null: the events are independent
+  EventAnswers(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask,
+               const CombineEvents* combine)
+      : request_(request),
+        ask_(ask),
+        combine_(combine),
+        budget_(request),
+        bounds_(count, Bounds{0.0, 1.0}) {
     result_.parts.resize(count);
   }
 
@@ -65,14 +71,14 @@ class EventAnswers {
   }
 
   bool isDecided() {
-    result_.any = anyOfIndependent(bounds_);
+    result_.any = combine_ ? (*combine_)(bounds_) : anyOfIndependent(bounds_);
     result_.decision = decisionOf(result_.any, request_);
     return result_.decision == Decision::below || result_.decision == Decision::above;
   }
 
   RobotResult finished() {
     const bool decided = isDecided();
-    addEstimate();
+    if (!combine_) addEstimate();
     result_.status = decided ? ProbabilityStatus::decided : statusOfParts();
     return std::move(result_);
   }
@@ -110,7 +116,7 @@ class EventAnswers {
       if (!within) return part.status;
       common = ProbabilityStatus::converged;
     }
-    if (common == ProbabilityStatus::exact || isWithinTolerance()) return common;
+    if (common == ProbabilityStatus::exact || combine_ || isWithinTolerance()) return common;
     return ProbabilityStatus::resolution_limit;
   }
 
@@ -123,6 +129,7 @@ class EventAnswers {
 
   const ProbabilityRequest& request_;
   const AskEvent& ask_;
+  const CombineEvents* combine_;
   CallBudget budget_;
   std::vector<Bounds> bounds_;
   RobotResult result_;
@@ -132,7 +139,12 @@ class EventAnswers {
 }  // namespace
 
 RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask) {
-  return EventAnswers(count, request, ask).run();
+  return EventAnswers(count, request, ask, nullptr).run();
+}
+
+RobotResult anyOfDependent(std::size_t count, const ProbabilityRequest& request,
+                           const AskEvent& ask, const CombineEvents& combine) {
+  return EventAnswers(count, request, ask, &combine).run();
 }
 
 }  // namespace fcl_prob::detail

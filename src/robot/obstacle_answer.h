@@ -20,4 +20,12 @@ using AskEvent =
 /// that are narrow relative to P so is that of 1 - Π(1 - P).
 RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask);
 
+/// What the intervals of single events say of any of them.
+using CombineEvents = std::function<Bounds(const std::vector<Bounds>& events)>;
+
+/// The same for events of which only `combine` knows how they depend on each other; it must be at
+/// most the sum. There is no estimate, and the tolerance is that of each event.
+RobotResult anyOfDependent(std::size_t count, const ProbabilityRequest& request,
+                           const AskEvent& ask, const CombineEvents& combine);
+
 }  // namespace fcl_prob::detail

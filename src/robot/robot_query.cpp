@@ -5,49 +5,22 @@
 #include <algorithm>
 #include <deque>
 
+#include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
-#include "fcl_prob/group.h"
 #include "geometry/validation.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
-#include "robot/body_balls.h"
+#include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
-#include "robot/reversed.h"
+#include "robot/placed_query.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {
 namespace {
 
 using detail::Ball;
-using Poses = std::vector<fcl::Transform3d>;
-
-/// Of the absolute tolerance: what all bodies that are left out may add up to.
-constexpr double kShareOfFar = 0.05;
-
-void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
-         const GaussianDisplacement& displacement, const ProbabilityRequest& request,
-         ProbabilityResult& result) {
-  query.collisionProbability(bodies, obstacle, displacement, request, result);
-}
-
-template <typename Other>
-void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
-         const Other& displacement, const ProbabilityRequest& request, ProbabilityResult& result) {
-  collisionProbability(query, bodies, obstacle, displacement, request, result);
-}
-
-/// A body of the robot at one of the waypoints.
-struct PlacedBody {
-  std::size_t body;
-  fcl::Transform3d pose;
-  double far_upper;  ///< bound on its own probability
-};
-
-/// What was left out of one query.
-struct FarBodies {
-  std::size_t count = 0;
-  double upper = 0.0;
-};
+using detail::FarBodies;
+using detail::PlacedBody;
 
 void addUp(const std::vector<FarBodies>& far, RobotResult& result) {
   for (const FarBodies& of_one : far) {
@@ -69,6 +42,31 @@ void requireContinuous(ErrorsOverTime errors, const ProbabilityRequest& request)
   }
 }
 
+/// Of events by waypoint, and for each by obstacle: the errors of an obstacle at one waypoint may
+/// have anything to do with those at another, but nothing with those of other obstacles.
+Bounds ofAnyDependence(const std::vector<Bounds>& events, std::size_t obstacles) {
+  std::vector<Bounds> by_obstacle;
+  for (std::size_t i = 0; i < obstacles; ++i) {
+    std::vector<Bounds> of_one;
+    for (std::size_t k = i; k < events.size(); k += obstacles) of_one.push_back(events[k]);
+    by_obstacle.push_back(anyOf(of_one));
+  }
+  return anyOfIndependent(by_obstacle);
+}
+
+void addWaypoints(std::size_t obstacles, RobotResult& result) {
+  std::vector<Bounds> events;
+  for (const ProbabilityResult& part : result.parts) {
+    events.push_back({part.lower.value_or(0.0), part.upper.value_or(1.0)});
+  }
+  for (auto first = events.begin(); first != events.end();) {
+    const auto last = first + static_cast<std::ptrdiff_t>(obstacles);
+    result.by_waypoint.push_back(anyOfIndependent({first, last}));
+    first = last;
+  }
+  result.any_dependence = ofAnyDependence(events, obstacles);
+}
+
 }  // namespace
 
 struct RobotQuery::Implementation {
@@ -81,9 +79,11 @@ struct RobotQuery::Implementation {
     }
     for (const Obstacle& obstacle : obstacles) {
       detail::validatePose(obstacle.pose, "obstacle " + obstacle.name);
+      for (const ObstacleState& state : obstacle.over_time) {
+        detail::validatePose(state.pose, "obstacle " + obstacle.name);
+      }
       obstacle_geometries.emplace_back(obstacle.geometry, "obstacle " + obstacle.name);
-      obstacle_balls.push_back(
-          detail::ballAround(obstacle_geometries.back()).placed(obstacle.pose));
+      obstacle_balls.push_back(detail::ballAround(obstacle_geometries.back()));
     }
   }
 
@@ -93,97 +93,98 @@ struct RobotQuery::Implementation {
     detail::refuseBand(request, "robots");
     if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
     for (const Eigen::VectorXd& values : waypoints) robot.validate(values);
+    for (const Obstacle& obstacle : obstacles) detail::requireStates(obstacle, waypoints.size());
   }
 
-  std::vector<PlacedBody> placed(const std::vector<Eigen::VectorXd>& waypoints) const {
+  std::vector<PlacedBody> placed(const Eigen::VectorXd& values) const {
     std::vector<PlacedBody> result;
-    for (const Eigen::VectorXd& values : waypoints) {
-      const Poses poses = robot.poses(values);
-      for (std::size_t i = 0; i < poses.size(); ++i) result.push_back({i, poses[i], 0.0});
-    }
+    for (const fcl::Transform3d& pose : robot.poses(values))
+      result.push_back({result.size(), pose});
     return result;
   }
 
-  /// Leaves out the bodies that are so far from an obstacle that together they hardly matter.
-  /// \return  bound on P that any of them touches it
-  double leaveOutFar(std::size_t obstacle, double most, std::vector<PlacedBody>& bodies) const {
-    for (PlacedBody& body : bodies) {
-      body.far_upper =
-          detail::farContactUpper(balls[body.body].placed(body.pose), obstacle_balls[obstacle],
-                                  obstacles[obstacle].displacement);
-    }
-    std::stable_sort(bodies.begin(), bodies.end(), [](const PlacedBody& x, const PlacedBody& y) {
-      return x.far_upper > y.far_upper;
-    });
-    double sum = 0.0;
-    while (!bodies.empty()) {
-      const double next = (sum + bodies.back().far_upper) * (1.0 + 1e-15);
-      if (next > most) break;
-      sum = next;
-      bodies.pop_back();
-    }
-    return sum;
+  std::vector<std::vector<PlacedBody>> placedAll(
+      const std::vector<Eigen::VectorXd>& waypoints) const {
+    std::vector<std::vector<PlacedBody>> result;
+    for (const Eigen::VectorXd& values : waypoints) result.push_back(placed(values));
+    return result;
   }
 
-  /// P that any of the placed bodies touches one obstacle.
-  void askObstacle(std::size_t index, std::vector<PlacedBody> bodies,
-                   const ProbabilityRequest& request, FarBodies& left_out,
-                   ProbabilityResult& result) const {
-    const std::size_t all = bodies.size();
-    const double far = leaveOutFar(index, kShareOfFar * request.absolute_tolerance, bodies);
-    left_out = {all - bodies.size(), far};
-    const Obstacle& obstacle = obstacles[index];
-    if (bodies.empty()) {
-      result.lower = 0.0;
-      result.upper = far;
-      if (request.method == ProbabilityMethod::estimate) {
-        result.estimate = 0.5 * far;
-        result.standard_error = 0.5 * far;
+  ProbabilityResult askObstacle(std::size_t index, const ObstacleState& state,
+                                std::vector<PlacedBody> bodies, const ProbabilityRequest& request,
+                                FarBodies& left_out) const {
+    return detail::placedProbability(
+        {robot, balls, obstacles[index].geometry, obstacle_balls[index]}, state, std::move(bodies),
+        request, left_out);
+  }
+
+  /// Errors that are the same all along: an obstacle that has shifted is where it was at first, and
+  /// the bodies have shifted the other way.
+  /// \param body  the only one that counts, or -1
+  RobotResult ofUnion(const std::vector<Eigen::VectorXd>& waypoints, int body,
+                      const ProbabilityRequest& request) const {
+    const auto all = placedAll(waypoints);
+    std::vector<std::vector<PlacedBody>> relative;
+    for (const Obstacle& obstacle : obstacles) {
+      const auto offsets = detail::offsetsSinceFirst(obstacle, waypoints.size());
+      relative.emplace_back();
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        for (PlacedBody one : all[k]) {
+          if (body >= 0 && one.body != static_cast<std::size_t>(body)) continue;
+          one.pose.translation() -= offsets[k];
+          relative.back().push_back(one);
+        }
       }
-      result.plan.push_back("all bodies are far from it: bounded by balls around them");
-      return;
     }
-    GroupQuery::Geometries geometries;
-    Poses poses;
-    for (const PlacedBody& body : bodies) {
-      geometries.push_back(robot.bodies()[body.body].geometry);
-      poses.push_back(body.pose);
-    }
-    const GroupQuery query(std::move(geometries), {obstacle.geometry});
-    std::visit(
-        [&](const auto& displacement) {
-          ask(query, poses, {obstacle.pose}, detail::reversed(displacement), request, result);
-        },
-        obstacle.displacement);
-    if (far > 0.0 && result.upper) {
-      result.upper = std::min(1.0, (*result.upper + far) * (1.0 + 1e-15));
-    }
-  }
-
-  RobotResult ofAll(const std::vector<PlacedBody>& bodies,
-                    const ProbabilityRequest& request) const {
     std::vector<FarBodies> far(obstacles.size());
     RobotResult result = detail::anyOfAsked(
         obstacles.size(), request,
         [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
-          askObstacle(i, bodies, of_one, far[i], answer);
+          answer = askObstacle(i, detail::stateAt(obstacles[i], 0), relative[i], of_one, far[i]);
         });
     addUp(far, result);
+    return result;
+  }
+
+  /// Errors that are not: each obstacle at each waypoint.
+  RobotResult ofWaypoints(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
+                          const ProbabilityRequest& request) const {
+    const std::size_t count = obstacles.size();
+    std::vector<FarBodies> far(waypoints.size() * count);
+    const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one,
+                         ProbabilityResult& answer) {
+      const std::size_t k = i / count;
+      answer = askObstacle(i % count, detail::stateAt(obstacles[i % count], k),
+                           placed(waypoints[k]), of_one, far[i]);
+    };
+    RobotResult result = errors == ErrorsOverTime::independent
+                             ? detail::anyOfAsked(far.size(), request, ask)
+                             : detail::anyOfDependent(far.size(), request, ask,
+                                                      [count](const std::vector<Bounds>& events) {
+                                                        return ofAnyDependence(events, count);
+                                                      });
+    addUp(far, result);
+    addWaypoints(count, result);
     return result;
   }
 
   /// At any time: what the bodies sweep between the waypoints, too.
   RobotResult ofAllTimes(const std::vector<Eigen::VectorXd>& waypoints,
                          const ProbabilityRequest& request) const {
-    const detail::SweptPath path(robot, balls, waypoints);
+    std::vector<detail::SweptPath> paths;
+    for (const Obstacle& obstacle : obstacles) {
+      paths.emplace_back(robot, balls, waypoints,
+                         detail::offsetsSinceFirst(obstacle, waypoints.size()));
+    }
     std::vector<detail::SweptAnswer> answers(obstacles.size());
     RobotResult result = detail::anyOfAsked(
         obstacles.size(), request,
         [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
-          const Obstacle& obstacle = obstacles[i];
-          answers[i] = detail::sweptMotion(
-              path, geometries, {obstacle_geometries[i], obstacle.pose, obstacle.displacement},
-              obstacle_balls[i], kShareOfFar * of_one.absolute_tolerance, of_one);
+          const ObstacleState state = detail::stateAt(obstacles[i], 0);
+          answers[i] = detail::sweptMotion(paths[i], geometries,
+                                           {obstacle_geometries[i], state.pose, state.displacement},
+                                           obstacle_balls[i].placed(state.pose),
+                                           detail::kShareOfFar * of_one.absolute_tolerance, of_one);
           answer = answers[i].result;
         });
     result.swept_band = 0.0;
@@ -201,7 +202,7 @@ struct RobotQuery::Implementation {
   std::deque<detail::PreparedGeometry> geometries;  ///< of the robot's bodies
   std::deque<detail::PreparedGeometry> obstacle_geometries;
   std::vector<Ball> balls;           ///< of the robot's bodies, in their frames
-  std::vector<Ball> obstacle_balls;  ///< world frame
+  std::vector<Ball> obstacle_balls;  ///< in their frames
 };
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles)
@@ -225,27 +226,23 @@ RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, Er
     requireContinuous(errors, request);
     return implementation_->ofAllTimes(waypoints, request);
   }
-  if (errors == ErrorsOverTime::persistent)
-    return implementation_->ofAll(implementation_->placed(waypoints), request);
-  const std::size_t obstacles = implementation_->obstacles.size();
-  std::vector<FarBodies> far(waypoints.size() * obstacles);
-  RobotResult result = detail::anyOfAsked(
-      far.size(), request,
-      [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
-        const auto bodies = implementation_->placed({waypoints[i / obstacles]});
-        implementation_->askObstacle(i % obstacles, bodies, of_one, far[i], answer);
-      });
-  addUp(far, result);
-  return result;
+  if (errors == ErrorsOverTime::persistent) {
+    return implementation_->ofUnion(waypoints, -1, request);
+  }
+  if (errors == ErrorsOverTime::any_dependence && request.method == ProbabilityMethod::estimate) {
+    throw InvalidRequest(
+        "method estimate cannot answer for errors of any dependence: only bounds can");
+  }
+  return implementation_->ofWaypoints(waypoints, errors, request);
 }
 
 std::vector<RobotResult> RobotQuery::byBody(const std::vector<Eigen::VectorXd>& waypoints,
                                             const ProbabilityRequest& request) const {
   implementation_->validate(waypoints, request);
-  std::vector<std::vector<PlacedBody>> by_body(robot().bodies().size());
-  for (PlacedBody& body : implementation_->placed(waypoints)) by_body[body.body].push_back(body);
   std::vector<RobotResult> results;
-  for (const auto& bodies : by_body) results.push_back(implementation_->ofAll(bodies, request));
+  for (std::size_t i = 0; i < robot().bodies().size(); ++i) {
+    results.push_back(implementation_->ofUnion(waypoints, static_cast<int>(i), request));
+  }
   return results;
 }
 

@@ -7,6 +7,7 @@
 #include "io/quantities.h"
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
+#include "robot/moving_obstacle.h"
 
 namespace fcl_prob {
 namespace {
@@ -36,11 +37,35 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
   object.finish();
 }
 
+// What a state does not say is as it is for the whole motion.
+std::vector<ObstacleState> readStates(StrictObject& object,
+                                      const RobotScene::PlacedObstacle& obstacle) {
+  std::vector<ObstacleState> states;
+  for (StrictObject& entry : object.objects("over_time")) {
+    ObstacleState state{obstacle.object.pose, obstacle.displacement};
+    if (entry.has("pose")) {
+      const std::vector<double> numbers = entry.numbers("pose");
+      try {
+        state.pose = detail::poseFrom(numbers);
+      } catch (const Exception& error) {
+        entry.fail("pose", error.what());
+      }
+    }
+    if (entry.has("displacement")) {
+      state.displacement = detail::readDisplacement(entry.object("displacement"));
+    }
+    entry.finish();
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
 RobotScene::PlacedObstacle readObstacle(StrictObject object, const std::filesystem::path& folder) {
   RobotScene::PlacedObstacle obstacle;
   obstacle.name = object.text("name");
   obstacle.object = detail::readShapeAndPose(object, folder);
   obstacle.displacement = detail::readDisplacement(object.object("displacement"));
+  if (object.has("over_time")) obstacle.over_time = readStates(object, obstacle);
   object.finish();
   return obstacle;
 }
@@ -49,7 +74,8 @@ ErrorsOverTime readErrors(StrictObject& root) {
   const std::string errors = root.text("errors");
   if (errors == "persistent") return ErrorsOverTime::persistent;
   if (errors == "independent") return ErrorsOverTime::independent;
-  root.fail("errors", "neither persistent nor independent");
+  if (errors == "any-dependence") return ErrorsOverTime::any_dependence;
+  root.fail("errors", "none of persistent, independent and any-dependence");
 }
 
 BetweenWaypoints readBetween(StrictObject& root) {
@@ -63,6 +89,12 @@ std::shared_ptr<const fcl::CollisionGeometryd> geometryOf(const SceneObject& obj
   if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) return *primitive;
   const MeshFile& mesh = std::get<MeshFile>(object.shape);
   return buildModel<fcl::OBBRSSd>(loadMeshIsolated(mesh.path, mesh.options));
+}
+
+std::vector<Eigen::VectorXd> valuesOf(const RobotScene& scene, const Robot& robot) {
+  std::vector<Eigen::VectorXd> waypoints;
+  for (const auto& by_name : scene.waypoints) waypoints.push_back(robot.values(by_name));
+  return waypoints;
 }
 
 }  // namespace
@@ -86,6 +118,13 @@ RobotScene loadRobotScene(const std::string& path) {
     }
     if (scene.waypoints.empty()) root.fail("waypoints", "there are none");
   }
+  for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
+    const std::size_t states = obstacle.over_time.size();
+    if (states == 0 || states == scene.waypoints.size()) continue;
+    root.fail("obstacles", obstacle.name + " has " + std::to_string(states) +
+                               " states over time, " + "for " +
+                               std::to_string(scene.waypoints.size()) + " waypoints");
+  }
   if (root.has("errors")) scene.errors = readErrors(root);
   if (root.has("between")) scene.between = readBetween(root);
   if (root.has("largest_step")) {
@@ -98,17 +137,22 @@ RobotScene loadRobotScene(const std::string& path) {
 }
 
 RobotQuery loadRobotQuery(const RobotScene& scene) {
+  const Robot robot(scene.urdf, scene.robot);
   std::vector<Obstacle> obstacles;
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
-    obstacles.push_back(
-        {obstacle.name, geometryOf(obstacle.object), obstacle.object.pose, obstacle.displacement});
+    std::vector<ObstacleState> states = obstacle.over_time;
+    if (!states.empty() && scene.largest_step) {
+      states = detail::statesAt(states,
+                                detail::stepsBetween(valuesOf(scene, robot), *scene.largest_step));
+    }
+    obstacles.push_back({obstacle.name, geometryOf(obstacle.object), obstacle.object.pose,
+                         obstacle.displacement, std::move(states)});
   }
-  return {Robot(scene.urdf, scene.robot), std::move(obstacles)};
+  return {robot, std::move(obstacles)};
 }
 
 std::vector<Eigen::VectorXd> waypointsOf(const RobotScene& scene, const Robot& robot) {
-  std::vector<Eigen::VectorXd> waypoints;
-  for (const auto& by_name : scene.waypoints) waypoints.push_back(robot.values(by_name));
+  const std::vector<Eigen::VectorXd> waypoints = valuesOf(scene, robot);
   return scene.largest_step ? interpolated(waypoints, *scene.largest_step) : waypoints;
 }
 

@@ -3,19 +3,50 @@
 #include "robot/swept_path.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fcl_prob::detail {
+namespace {
+
+// More than what the sums below are rounded by.
+constexpr double kRoundedShifts = 1e-14;
+
+/// To an obstacle that has shifted by `offset` in the middle of the step, and by `shift` less or
+/// more at its ends.
+void makeRelative(const Eigen::Vector3d& offset, const Eigen::Vector3d& shift, BodySweep& sweep) {
+  const double size =
+      sweep.middle.translation().norm() + sweep.motion.centre.norm() + offset.norm();
+  sweep.middle.translation() -= offset;
+  sweep.motion.centre -= offset;
+  sweep.around.centre -= offset;
+  const double moved = shift.norm();
+  if (!(moved > 0.0)) return;
+  const double rounded = kRoundedShifts * (size + moved);
+  if (sweep.motion.shifts.empty()) sweep.motion.shifts.push_back(Eigen::Vector3d::Zero());
+  sweep.motion.shifts[0] -= shift;
+  sweep.motion.ball += rounded;
+  sweep.reach += moved + rounded;
+  sweep.around.radius += moved + rounded;
+}
+
+}  // namespace
 
 SweptBody SweptPath::part(std::size_t body, std::size_t from, double first, double last,
                           double weight) const {
   JointStep step{waypoints_[from], Eigen::VectorXd::Zero(waypoints_[from].size())};
+  Eigen::Vector3d offset = offsets_[from], shift = Eigen::Vector3d::Zero();
   if (from + 1 < waypoints_.size()) {
     const Eigen::VectorXd change = waypoints_[from + 1] - waypoints_[from];
     step.middle += 0.5 * (first + last) * change;
     step.half = 0.5 * (last - first) * change;
+    const Eigen::Vector3d shifted = offsets_[from + 1] - offsets_[from];
+    offset += 0.5 * (first + last) * shifted;
+    shift = 0.5 * (last - first) * shifted;
   }
   const fcl::Transform3d pose = robot_.poses(step.middle)[body];
-  return {body, from, first, last, sweepOf(robot_, body, pose, balls_[body], step), weight, 1.0};
+  BodySweep sweep = sweepOf(robot_, body, pose, balls_[body], step);
+  makeRelative(offset, shift, sweep);
+  return {body, from, first, last, std::move(sweep), weight, 1.0};
 }
 
 // A body that does not move from one waypoint to the next is where it was at the last one.

@@ -3,6 +3,7 @@
 // What the bodies of a robot sweep between its waypoints, in steps that can be halved.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "robot/body_sweep.h"
@@ -19,13 +20,16 @@ struct SweptBody {
   double far_upper;  ///< bound on its own probability, once it is known
 };
 
-/// A motion that is linear in the joints between waypoints.
+/// A motion that is linear in the joints between waypoints, and so is the obstacle's.
 class SweptPath {
  public:
-  /// Keeps references. \param balls  around the bodies, in their frames
+  /// Keeps references to the first three.
+  /// \param balls    around the bodies, in their frames
+  /// \param offsets  how far the obstacle, relative to which the bodies move, has shifted at each
+  ///                 waypoint
   SweptPath(const Robot& robot, const std::vector<Ball>& balls,
-            const std::vector<Eigen::VectorXd>& waypoints)
-      : robot_(robot), balls_(balls), waypoints_(waypoints) {}
+            const std::vector<Eigen::VectorXd>& waypoints, std::vector<Eigen::Vector3d> offsets)
+      : robot_(robot), balls_(balls), waypoints_(waypoints), offsets_(std::move(offsets)) {}
 
   /// All that all bodies do: one step from each waypoint to the next, where a body moves at all.
   std::vector<SweptBody> wholeSteps() const;
@@ -40,6 +44,7 @@ class SweptPath {
   const Robot& robot_;
   const std::vector<Ball>& balls_;
   const std::vector<Eigen::VectorXd>& waypoints_;
+  std::vector<Eigen::Vector3d> offsets_;
 };
 
 }  // namespace fcl_prob::detail

@@ -37,6 +37,10 @@ TEST_CASE("path answers the motion that the project ships", "[cli]") {
   const json independent = answerOf({"--errors", "independent", "--tolerance", "0.5"});
   CHECK(independent.at("upper").get<double>() >= persistent.at("lower").get<double>());
   CHECK(independent.at("parts").size() == 2 * independent.at("waypoints").get<std::size_t>());
+  CHECK(independent.at("by_waypoint").size() == independent.at("waypoints").get<std::size_t>());
+  const json any = answerOf({"--errors", "any-dependence", "--tolerance", "0.5"});
+  CHECK(any.at("upper") == any.at("any_dependence").at("upper"));
+  CHECK(any.at("worst").at("lower").get<double>() <= any.at("upper").get<double>());
 }
 
 TEST_CASE("path answers for the time between waypoints", "[cli]") {

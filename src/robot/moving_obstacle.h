@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Obstacles that are elsewhere, or less certain, at every waypoint.
+#pragma once
+
+#include <vector>
+
+#include "fcl_prob/robot_query.h"
+#include "robot/waypoint_steps.h"
+
+namespace fcl_prob::detail {
+
+/// The obstacle as it is at a waypoint.
+ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint);
+
+/// \throws InvalidRequest unless it stays or has one state a waypoint
+void requireStates(const Obstacle& obstacle, std::size_t waypoints);
+
+/// How far the obstacle has moved since the first of so many waypoints, its mean displacement
+/// included: with that, an error that is the same all along is one displacement of one obstacle.
+/// \throws InvalidRequest if it turns on the way or its covariance changes: there is then no such
+///         error
+std::vector<Eigen::Vector3d> offsetsSinceFirst(const Obstacle& obstacle, std::size_t waypoints);
+
+/// States at steps between the given ones: positions, means and covariances linear in between,
+/// orientations along the shortest turn. Empty for an obstacle that stays.
+/// \throws InvalidRequest for displacements that are not Gaussian
+std::vector<ObstacleState> statesAt(const std::vector<ObstacleState>& given,
+                                    const std::vector<WaypointStep>& steps);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/placed_query.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "fcl_prob/group.h"
+#include "robot/reversed.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+using Poses = std::vector<fcl::Transform3d>;
+
+void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
+         const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+         ProbabilityResult& result) {
+  query.collisionProbability(bodies, obstacle, displacement, request, result);
+}
+
+template <typename Other>
+void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
+         const Other& displacement, const ProbabilityRequest& request, ProbabilityResult& result) {
+  collisionProbability(query, bodies, obstacle, displacement, request, result);
+}
+
+/// Leaves out the bodies that are so far from the obstacle that together they hardly matter.
+/// \return  bound on P that any of them touches it
+double leaveOutFar(const ObstacleAmongBodies& scene, const ObstacleState& state, double most,
+                   std::vector<PlacedBody>& bodies) {
+  const Ball around = scene.around.placed(state.pose);
+  std::vector<std::pair<double, PlacedBody>> ordered;
+  for (const PlacedBody& body : bodies) {
+    const Ball ball = scene.balls[body.body].placed(body.pose);
+    ordered.emplace_back(farContactUpper(ball, around, state.displacement), body);
+  }
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& x, const auto& y) { return x.first > y.first; });
+  double sum = 0.0;
+  while (!ordered.empty()) {
+    const double next = (sum + ordered.back().first) * (1.0 + 1e-15);
+    if (next > most) break;
+    sum = next;
+    ordered.pop_back();
+  }
+  bodies.clear();
+  for (const auto& [unused, body] : ordered) bodies.push_back(body);
+  return sum;
+}
+
+ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.lower = 0.0;
+  result.upper = far;
+  if (request.method == ProbabilityMethod::estimate) {
+    result.estimate = 0.5 * far;
+    result.standard_error = 0.5 * far;
+  }
+  result.plan.push_back("all bodies are far from it: bounded by balls around them");
+  return result;
+}
+
+}  // namespace
+
+ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                                    std::vector<PlacedBody> bodies,
+                                    const ProbabilityRequest& request, FarBodies& left_out) {
+  const std::size_t all = bodies.size();
+  const double far = leaveOutFar(scene, state, kShareOfFar * request.absolute_tolerance, bodies);
+  left_out = {all - bodies.size(), far};
+  if (bodies.empty()) return allFar(far, request);
+  GroupQuery::Geometries geometries;
+  Poses poses;
+  for (const PlacedBody& body : bodies) {
+    geometries.push_back(scene.robot.bodies()[body.body].geometry);
+    poses.push_back(body.pose);
+  }
+  // What is left out widens the interval, too.
+  ProbabilityRequest of_near = request;
+  if (far > 0.0) {
+    of_near.absolute_tolerance *= 1.0 - kShareOfFar;
+    of_near.relative_tolerance *= 1.0 - kShareOfFar;
+  }
+  const GroupQuery query(std::move(geometries), {scene.obstacle});
+  ProbabilityResult result;
+  std::visit(
+      [&](const auto& displacement) {
+        ask(query, poses, {state.pose}, reversed(displacement), of_near, result);
+      },
+      state.displacement);
+  if (far > 0.0 && result.upper) {
+    result.upper = std::min(1.0, (*result.upper + far) * (1.0 + 1e-15));
+  }
+  return result;
+}
+
+}  // namespace fcl_prob::detail

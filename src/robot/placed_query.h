@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Bodies of a robot at certain poses against one obstacle.
+#pragma once
+
+#include <vector>
+
+#include "fcl_prob/robot_query.h"
+#include "robot/body_balls.h"
+
+namespace fcl_prob::detail {
+
+/// Of the absolute tolerance: what all bodies that are left out may add up to.
+inline constexpr double kShareOfFar = 0.05;
+
+/// A body of the robot at one of the waypoints.
+struct PlacedBody {
+  std::size_t body;
+  fcl::Transform3d pose;
+};
+
+/// What was left out of one query.
+struct FarBodies {
+  std::size_t count = 0;
+  double upper = 0.0;
+};
+
+/// An obstacle with what is known of its geometry and of those of the robot's bodies.
+struct ObstacleAmongBodies {
+  const Robot& robot;
+  const std::vector<Ball>& balls;  ///< of its bodies, in their frames
+  const std::shared_ptr<const fcl::CollisionGeometryd>& obstacle;
+  const Ball& around;  ///< the obstacle, in its frame
+};
+
+/// P that any of the placed bodies touches an obstacle in some state: one group query, without
+/// those that are too far away to matter. \throws as GroupQuery
+ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                                    std::vector<PlacedBody> bodies,
+                                    const ProbabilityRequest& request, FarBodies& left_out);
+
+}  // namespace fcl_prob::detail
