@@ -10,6 +10,7 @@
 
 #include "fcl_prob/mixture.h"
 #include "fcl_prob/probability_result.h"
+#include "fcl_prob/probable_decision.h"
 #include "fcl_prob/robot.h"
 
 namespace fcl_prob {
@@ -124,6 +125,16 @@ class RobotQuery {
   RobotResult motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
                      const ProbabilityRequest& request,
                      BetweenWaypoints between = BetweenWaypoints::ignored) const;
+
+  /// On which side of a threshold P is at any of the waypoints, with persistent errors, from
+  /// whatever tells it first: bounds, cells, or samples of what the cells leave open. What samples
+  /// decided is wrong with a chance of at most `chance_of_error`, however often they were looked
+  /// at; a certain decision is never. (Obstacles that cannot be sampled, unbounded ones and those
+  /// with a displacement that is not Gaussian, are decided by motion().) \param request  method
+  /// automatic; its limits and its seed count, tolerances do not \throws InvalidRequest for a
+  /// chance that is not in (0, 1), another method, and as motion()
+  ProbableResult decideProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
+                                double chance_of_error, const ProbabilityRequest& request) const;
 
   /// At the waypoints, persistent, for each body of the robot by itself: which links carry the
   /// probability. \throws as motion()

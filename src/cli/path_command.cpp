@@ -12,6 +12,7 @@
 #include "cli/result_report.h"
 #include "cli/run.h"
 #include "cli/stopwatch.h"
+#include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
 
 namespace fcl_prob::cli {
@@ -25,6 +26,7 @@ struct PathArguments {
   std::optional<double> threshold;
   std::optional<double> time_limit;
   std::optional<double> largest_step;
+  std::optional<double> probable;
   std::string method;
   std::string errors;
   bool between = false;
@@ -199,8 +201,66 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
          " ms to load\n";
 }
 
+struct ProbableReport {
+  ProbableResult result;
+  std::size_t waypoints = 0;
+  double build_ms = 0.0;
+  double time_ms = 0.0;
+};
+
+ordered_json jsonOf(const ProbableReport& report) {
+  const ProbableResult& result = report.result;
+  return {{"decision", toString(result.decision)},
+          {"chance_of_error", result.chance_of_error},
+          {"certified", intervalOf(result.certified)},
+          {"probable", intervalOf(result.probable)},
+          {"status", toString(result.status)},
+          {"waypoints", report.waypoints},
+          {"cells", result.cells},
+          {"samples", result.samples},
+          {"build_ms", report.build_ms},
+          {"time_ms", report.time_ms}};
+}
+
+std::string textOf(const ProbableReport& report) {
+  const ProbableResult& result = report.result;
+  return "decision: " + toString(result.decision) + ", wrong with a chance of at most " +
+         numberText(result.chance_of_error, 3) + "\nP certainly in " + interval(result.certified) +
+         ", probably in " + interval(result.probable) + "\nstatus: " + toString(result.status) +
+         ", " + std::to_string(result.cells) + " cells, " + std::to_string(result.samples) +
+         " samples\n" + numberText(report.time_ms, 4) + " ms, and " +
+         numberText(report.build_ms, 4) + " ms to load\n";
+}
+
+ProbableReport answerProbably(RobotScene scene, double chance) {
+  if (!scene.request.threshold) throw InvalidRequest("a probable decision needs a threshold");
+  if (scene.errors != ErrorsOverTime::persistent || scene.between != BetweenWaypoints::ignored) {
+    throw InvalidRequest("a probable decision is of waypoints with persistent errors");
+  }
+  ProbableReport report;
+  const Stopwatch building;
+  const RobotQuery query = loadRobotQuery(scene);
+  const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
+  report.waypoints = waypoints.size();
+  report.build_ms = building.milliseconds();
+  noteInterrupts();
+  ProgressBar bar("fcl_prob path");
+  scene.request.on_progress = std::ref(bar);
+  const Stopwatch watch;
+  report.result = query.decideProbably(waypoints, *scene.request.threshold, chance, scene.request);
+  report.time_ms = watch.milliseconds();
+  return report;
+}
+
+int runProbably(const PathArguments& arguments, const RobotScene& scene) {
+  const ProbableReport report = answerProbably(scene, *arguments.probable);
+  deliver(arguments.json ? jsonOf(report).dump() + "\n" : textOf(report), arguments.output);
+  return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
+}
+
 int runPath(const PathArguments& arguments) {
   const RobotScene scene = sceneOf(arguments);
+  if (arguments.probable) return runProbably(arguments, scene);
   const PathReport report = answer(scene, arguments.by_body);
   deliver(arguments.json ? jsonOf(report, scene).dump() + "\n" : textOf(report, scene),
           arguments.output);
@@ -222,6 +282,8 @@ void addPathCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"persistent", "independent", "any-dependence"}));
   command.add_option("--tolerance", arguments->relative_tolerance, "Relative");
   command.add_option("--threshold", arguments->threshold, "Decide whether P is below or above");
+  command.add_option("--probable", arguments->probable,
+                     "Decide the threshold with samples, wrong with at most this chance");
   command.add_option("--time-limit", arguments->time_limit, "Seconds");
   command.add_option("--largest-step", arguments->largest_step,
                      "Add waypoints such that no joint moves further at once (radians, metres)");

@@ -5,30 +5,14 @@
 #include <Random123/philox.h>
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
 
-#include "fcl_prob/normal_mass.h"
+#include "partition/cell_draw.h"
 
 namespace fcl_prob::detail {
 
 namespace {
-
-constexpr double kSqrt2 = 1.41421356237309504880;
-
-// Boost would compute in long double, at three times the cost.
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-
-// The point of [lo, hi] below which lies the share `u` of the interval's normal mass.
-double truncatedNormal(double lo, double hi, double u) {
-  if (lo + hi > 0) return -truncatedNormal(-hi, -lo, 1.0 - u);
-  // On the side of the lower tail: Φ(y) = Φ(lo) + u (Φ(hi) - Φ(lo)).
-  const double mass = normalTailMass(-lo) + u * normalIntervalMass(lo, hi);
-  if (!(mass > 0.0)) return hi;
-  const double y = -kSqrt2 * boost::math::erfc_inv(2.0 * std::min(mass, 0.999999), InDouble());
-  return std::clamp(y, lo, hi);
-}
 
 // Sets of samples a cell: their differences give the variance. A few cells have more, so that the
 // variance of all of them together is known well enough.
@@ -138,38 +122,6 @@ CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
                          const SolidContact* solids, std::uint64_t seed)
     : tester_(pair, obstacles, solids), seed_(seed) {}
 
-// A point of the uncertain part with the density of the normal distribution up to `weight`: the
-// axis along which the plane is steepest is drawn last, between the planes.
-CellSampler::Draw CellSampler::draw(const OpenCell& open, const Eigen::Vector3d& uniform) const {
-  const Cell& cell = open.cell;
-  Draw result{Eigen::Vector3d::Zero(), 1.0};
-  int steepest = -1;
-  if (open.has_plane) {
-    steepest = 0;
-    for (int k = 1; k < cell.rank; ++k) {
-      if (std::fabs(open.plane.m[k]) > std::fabs(open.plane.m[steepest])) steepest = k;
-    }
-  }
-  double along = 0.0;
-  for (int k = 0; k < cell.rank; ++k) {
-    if (k == steepest) continue;
-    result.point[k] = truncatedNormal(cell.lo[k], cell.hi[k], uniform[k]);
-    result.weight *= normalIntervalMass(cell.lo[k], cell.hi[k]);
-    if (open.has_plane) along += open.plane.m[k] * result.point[k];
-  }
-  if (steepest < 0) return result;
-  const double slope = open.plane.m[steepest];
-  double lo = (open.possible_from - along) / slope;
-  const double end = open.plane_covers ? open.plane.s : 2 * kReach;
-  double hi = (end - along) / slope;
-  if (slope < 0) std::swap(lo, hi);
-  lo = std::clamp(lo, cell.lo[steepest], cell.hi[steepest]);
-  hi = std::clamp(hi, cell.lo[steepest], cell.hi[steepest]);
-  result.weight *= normalIntervalMass(lo, hi);
-  result.point[steepest] = hi > lo ? truncatedNormal(lo, hi, uniform[steepest]) : lo;
-  return result;
-}
-
 // Means and spreads are updated set by set (Welford): a difference of sums of squares may come out
 // negative where all sets agree.
 CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index, int sets,
@@ -181,7 +133,7 @@ CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64
     const std::uint64_t number = sets_drawn_ + static_cast<std::uint64_t>(set);
     const Eigen::Vector3d shift = uniformPoint(seed_, index, number);
     for (int i = 0; i < in_set; ++i) {
-      const Draw drawn = draw(cell, evenPoint(shift, i));
+      const CellDraw drawn = drawFrom(cell, evenPoint(shift, i));
       const bool counted = drawn.weight > 0.0 && !measure.counts(cell.part, drawn.point);
       points_.push_back({drawn.point, !counted, false});
       weights_.push_back(counted ? drawn.weight / unit_ / in_set : 0.0);

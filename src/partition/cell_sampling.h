@@ -69,14 +69,9 @@ class CellSampler {
     Eigen::Vector3d moment_spread = Eigen::Vector3d::Zero();
     double largest_weight = 0.0;  ///< of one sample
   };
-  struct Draw {
-    Eigen::Vector3d point;
-    double weight;
-  };
   CellMeans sampleCell(const OpenCell& cell, std::uint64_t index, int sets, int in_set);
   void add(const CellMeans& means, const OpenCell& cell, int sets, int in_set,
            SampledMass& total) const;
-  Draw draw(const OpenCell& cell, const Eigen::Vector3d& uniform) const;
 
   PointTester tester_;
   std::uint64_t seed_;

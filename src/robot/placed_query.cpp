@@ -25,15 +25,27 @@ void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
   collisionProbability(query, bodies, obstacle, displacement, request, result);
 }
 
-/// Leaves out the bodies that are so far from the obstacle that together they hardly matter.
-/// \return  bound on P that any of them touches it
-double leaveOutFar(const ObstacleAmongBodies& scene, const ObstacleState& state, double most,
-                   std::vector<PlacedBody>& bodies) {
-  const Ball around = scene.around.placed(state.pose);
+ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.lower = 0.0;
+  result.upper = far;
+  if (request.method == ProbabilityMethod::estimate) {
+    result.estimate = 0.5 * far;
+    result.standard_error = 0.5 * far;
+  }
+  result.plan.push_back("all bodies are far from it: bounded by balls around them");
+  return result;
+}
+
+}  // namespace
+
+double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const ObstacleState& state,
+                   double most, std::vector<PlacedBody>& bodies) {
+  const Ball obstacle = around.placed(state.pose);
   std::vector<std::pair<double, PlacedBody>> ordered;
   for (const PlacedBody& body : bodies) {
-    const Ball ball = scene.balls[body.body].placed(body.pose);
-    ordered.emplace_back(farContactUpper(ball, around, state.displacement), body);
+    const Ball ball = balls[body.body].placed(body.pose);
+    ordered.emplace_back(farContactUpper(ball, obstacle, state.displacement), body);
   }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& x, const auto& y) { return x.first > y.first; });
@@ -49,25 +61,12 @@ double leaveOutFar(const ObstacleAmongBodies& scene, const ObstacleState& state,
   return sum;
 }
 
-ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  result.lower = 0.0;
-  result.upper = far;
-  if (request.method == ProbabilityMethod::estimate) {
-    result.estimate = 0.5 * far;
-    result.standard_error = 0.5 * far;
-  }
-  result.plan.push_back("all bodies are far from it: bounded by balls around them");
-  return result;
-}
-
-}  // namespace
-
 ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
                                     std::vector<PlacedBody> bodies,
                                     const ProbabilityRequest& request, FarBodies& left_out) {
   const std::size_t all = bodies.size();
-  const double far = leaveOutFar(scene, state, kShareOfFar * request.absolute_tolerance, bodies);
+  const double far = leaveOutFar(scene.balls, scene.around, state,
+                                 kShareOfFar * request.absolute_tolerance, bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   GroupQuery::Geometries geometries;

@@ -25,6 +25,14 @@ struct FarBodies {
   double upper = 0.0;
 };
 
+/// Leaves out the bodies that are so far from the obstacle that together they hardly matter.
+/// \param balls   of the robot's bodies, in their frames
+/// \param around  the obstacle, in its frame
+/// \param most    what those left out may add up to
+/// \return  bound on P that any of them touches it
+double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const ObstacleState& state,
+                   double most, std::vector<PlacedBody>& bodies);
+
 /// An obstacle with what is known of its geometry and of those of the robot's bodies.
 struct ObstacleAmongBodies {
   const Robot& robot;

@@ -7,12 +7,14 @@
 
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 #include "robot/placed_query.h"
+#include "robot/probable_answer.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {
@@ -52,6 +54,23 @@ Bounds ofAnyDependence(const std::vector<Bounds>& events, std::size_t obstacles)
     by_obstacle.push_back(anyOf(of_one));
   }
   return anyOfIndependent(by_obstacle);
+}
+
+ProbabilityRequest withThreshold(ProbabilityRequest request, double threshold) {
+  request.threshold = threshold;
+  return request;
+}
+
+/// A certified answer as one that might have been probable.
+ProbableResult certainly(const RobotResult& result) {
+  ProbableResult same;
+  if (result.decision == Decision::below) same.decision = ProbableDecision::certainly_below;
+  if (result.decision == Decision::above) same.decision = ProbableDecision::certainly_above;
+  same.certified = result.any;
+  same.probable = result.any;
+  same.status = result.status;
+  for (const ProbabilityResult& part : result.parts) same.cells += part.statistics.cells;
+  return same;
 }
 
 void addWaypoints(std::size_t obstacles, RobotResult& result) {
@@ -121,8 +140,8 @@ struct RobotQuery::Implementation {
   /// Errors that are the same all along: an obstacle that has shifted is where it was at first, and
   /// the bodies have shifted the other way.
   /// \param body  the only one that counts, or -1
-  RobotResult ofUnion(const std::vector<Eigen::VectorXd>& waypoints, int body,
-                      const ProbabilityRequest& request) const {
+  std::vector<std::vector<PlacedBody>> relativeTo(const std::vector<Eigen::VectorXd>& waypoints,
+                                                  int body) const {
     const auto all = placedAll(waypoints);
     std::vector<std::vector<PlacedBody>> relative;
     for (const Obstacle& obstacle : obstacles) {
@@ -136,6 +155,12 @@ struct RobotQuery::Implementation {
         }
       }
     }
+    return relative;
+  }
+
+  RobotResult ofUnion(const std::vector<Eigen::VectorXd>& waypoints, int body,
+                      const ProbabilityRequest& request) const {
+    const auto relative = relativeTo(waypoints, body);
     std::vector<FarBodies> far(obstacles.size());
     RobotResult result = detail::anyOfAsked(
         obstacles.size(), request,
@@ -144,6 +169,20 @@ struct RobotQuery::Implementation {
         });
     addUp(far, result);
     return result;
+  }
+
+  ProbableResult ofUnionProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
+                                 double chance, const ProbabilityRequest& request) const {
+    const auto relative = relativeTo(waypoints, -1);
+    std::vector<detail::ProbableScene> scenes;
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      const ObstacleState state = detail::stateAt(obstacles[i], 0);
+      if (!detail::canBeSampled(obstacle_geometries[i], state)) {
+        return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
+      }
+      scenes.push_back({&obstacle_geometries[i], &obstacle_balls[i], state, relative[i]});
+    }
+    return detail::probablyAny(scenes, geometries, balls, threshold, chance, request);
   }
 
   /// Errors that are not: each obstacle at each waypoint.
@@ -234,6 +273,20 @@ RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, Er
         "method estimate cannot answer for errors of any dependence: only bounds can");
   }
   return implementation_->ofWaypoints(waypoints, errors, request);
+}
+
+ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& waypoints,
+                                          double threshold, double chance_of_error,
+                                          const ProbabilityRequest& request) const {
+  implementation_->validate(waypoints, withThreshold(request, threshold));
+  if (!(chance_of_error > 0.0 && chance_of_error < 1.0)) {
+    throw InvalidRequest("the chance of a wrong decision must be above 0 and below 1, is " +
+                         detail::numberText(chance_of_error));
+  }
+  if (request.method != ProbabilityMethod::automatic) {
+    throw InvalidRequest("a probable decision has its own method, not " + toString(request.method));
+  }
+  return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error, request);
 }
 
 std::vector<RobotResult> RobotQuery::byBody(const std::vector<Eigen::VectorXd>& waypoints,

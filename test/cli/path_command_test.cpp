@@ -56,6 +56,18 @@ TEST_CASE("path answers for the time between waypoints", "[cli]") {
             .refused());
 }
 
+TEST_CASE("path decides probably where it is asked to", "[cli]") {
+  const json probable = answerOf({"--probable", "1e-4"});
+  const std::string decision = probable.at("decision");
+  CHECK((decision == "probably-below" || decision == "certainly-below"));
+  CHECK(probable.at("probable").at("upper").get<double>() < 0.05);
+  CHECK(probable.at("certified").at("upper") >= probable.at("probable").at("upper"));
+  const TemporaryFolder folder;
+  const std::string scene = dataFile("arm_path.json");
+  CHECK(runCommand({"path", "--scene", scene, "--probable", "2"}, folder).refused());
+  CHECK(runCommand({"path", "--scene", scene, "--probable", "0.1", "--between"}, folder).refused());
+}
+
 TEST_CASE("path says in one line what is wrong with a scene", "[cli]") {
   const TemporaryFolder folder;
   CHECK(runCommand({"path"}, folder).refused());

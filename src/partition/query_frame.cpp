@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/query_frame.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "fcl_prob/exceptions.h"
+#include "partition/band_margin.h"
+#include "partition/closest_approach.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Whitening stretches the objects by this ratio at most where the frame is turned: a long stretch
+// that is not along an axis would make their bounding boxes useless.
+constexpr double kMostStretched = 30.0;
+
+// The objects with the bands of the request among their motions.
+class BandedPair {
+ public:
+  BandedPair(const PartitionObject& a, const PartitionObject& b, const ProbabilityRequest& request)
+      : a_(a), b_(b), request_(request), swept_(a.isSwept() || b.isSwept()) {
+    if (!request.hasBand() && !swept_) return;
+    if (a.motion || b.motion) throw InvalidRequest("bands around shapes that turn at random");
+    if (request.hasBand() && swept_) throw InvalidRequest("bands around shapes that are swept");
+    if (swept_) return;
+    of_a_.ball = std::max(request.band_a.outward, request.band_a.inward);
+    of_b_.ball = std::max(request.band_b.outward, request.band_b.inward);
+    a_.motion = &of_a_;
+    b_.motion = &of_b_;
+  }
+
+  BandedPair(const BandedPair&) = delete;
+  BandedPair& operator=(const BandedPair&) = delete;
+
+  void whiten(const Whitening& whitening, WhitenedPair& pair) const {
+    detail::whiten(a_, b_, whitening, pair);
+    const Eigen::Matrix3d& w = whitening.matrix();
+    if (swept_) pair.band = std::make_shared<const BandMargin>(a_, b_, w);
+    if (!request_.hasBand()) return;
+    pair.band =
+        std::make_shared<const BandMargin>(request_.band_a.outward + request_.band_b.outward,
+                                           request_.band_a.inward + request_.band_b.inward, w);
+  }
+
+ private:
+  PartitionObject a_;
+  PartitionObject b_;
+  const ProbabilityRequest& request_;
+  bool swept_;
+  PointMotion of_a_;
+  PointMotion of_b_;
+};
+
+}  // namespace
+
+QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
+                      const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
+  const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
+  const Whitening plain(displacement, unit);
+  const BandedPair banded(a, b, request);
+  WhitenedPair pair;
+  banded.whiten(plain, pair);
+  const Eigen::Vector3d& sigma = displacement.standardDeviations();
+  if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
+    return {plain, std::move(pair)};
+  }
+  const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
+  banded.whiten(rotated, pair);
+  return {rotated, std::move(pair)};
+}
+
+}  // namespace fcl_prob::detail

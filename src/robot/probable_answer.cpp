@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/probable_answer.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "fcl_prob/combined_bounds.h"
+#include "narrowphase/convex_pair_mass.h"
+#include "partition/probable_partition.h"
+#include "query/call_budget.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// Of the threshold: what bodies that are far may add up to, over all obstacles.
+constexpr double kFarOfThreshold = 1e-3;
+
+/// Bodies against one obstacle, as far as they have been looked at.
+class ObstacleSampling {
+ public:
+  ObstacleSampling(const ProbableScene& scene, const std::deque<PreparedGeometry>& geometries,
+                   const std::vector<Ball>& balls, double most_far)
+      : scene_(scene), geometries_(geometries), displacement_(gaussian(scene).reversed()) {
+    far_ = leaveOutFar(balls, *scene.around, scene.state, most_far, scene_.bodies);
+    certified_ = {0.0, scene_.bodies.empty() ? far_ : 1.0};
+    probable_ = certified_;
+  }
+
+  Bounds certified() const { return certified_; }
+  Bounds probable() const { return probable_; }
+  bool isDone() const { return done_ || scene_.bodies.empty(); }
+  std::size_t cells() const { return partition_ ? partition_->statistics().cells : 0; }
+  std::size_t samples() const { return partition_ ? partition_->statistics().samples : 0; }
+
+  /// The sum of the bounds of the volumes around all pairs, by support values: what needs their
+  /// masses takes longer than samples. \param useful  a larger sum is not
+  void boundByRoots(double useful) {
+    const auto at_once = [] { return true; };
+    double sum = far_;
+    const PreparedGeometry& obstacle = *scene_.obstacle;
+    if (!obstacle.hasRootBody()) return;
+    for (const PlacedBody& body : scene_.bodies) {
+      const PreparedGeometry& geometry = geometries_[body.body];
+      if (!geometry.hasRootBody()) return;
+      sum += convexPcd(geometry.rootBody(), body.pose, obstacle.rootBody(), scene_.state.pose,
+                       displacement_, at_once)
+                 .least;
+      sum *= 1.0 + 1e-15;
+      if (sum >= useful) return;
+    }
+    certified_.upper = std::min(certified_.upper, sum);
+    probable_.upper = std::min(probable_.upper, sum);
+  }
+
+  /// \return  why it stopped, if that is a limit
+  std::optional<ProbabilityStatus> improve(const ProbabilityRequest& request, double chance,
+                                           const std::function<bool()>& enough) {
+    if (!partition_) begin(request, chance);
+    const auto stopped = partition_->improve([&] {
+      certified_ = within(partition_->certified(), certified_);
+      probable_ = within(partition_->probable(), probable_);
+      return enough();
+    });
+    done_ = stopped.has_value();
+    return stopped == ProbabilityStatus::exact ? std::nullopt : stopped;
+  }
+
+ private:
+  static const GaussianDisplacement& gaussian(const ProbableScene& scene) {
+    return std::get<GaussianDisplacement>(scene.state.displacement);
+  }
+
+  void begin(const ProbabilityRequest& request, double chance) {
+    std::vector<const PieceTree*> trees;
+    for (const PlacedBody& body : scene_.bodies) {
+      const PreparedGeometry& geometry = geometries_[body.body];
+      trees.push_back(&geometry.pieces());
+      bodies_.parts.push_back({body.pose, geometry.solid(request.contact)});
+    }
+    tree_ = joinPieceTrees(trees);
+    bodies_.tree = tree_.get();
+    const PreparedGeometry& obstacle = *scene_.obstacle;
+    obstacle_ = {&obstacle.pieces(), {{scene_.state.pose, obstacle.solid(request.contact)}}};
+    partition_ =
+        std::make_unique<ProbablePartition>(bodies_, obstacle_, displacement_, request, chance);
+  }
+
+  /// What is far is besides.
+  Bounds within(const Bounds& of_near, const Bounds& known) const {
+    const double upper = std::min(known.upper, (of_near.upper + far_) * (1.0 + 1e-15));
+    return {std::min(upper, std::max(known.lower, of_near.lower)), upper};
+  }
+
+  ProbableScene scene_;
+  const std::deque<PreparedGeometry>& geometries_;
+  GaussianDisplacement displacement_;  ///< of the bodies
+  double far_ = 0.0;
+  std::shared_ptr<const PieceTree> tree_;
+  PartitionObject bodies_{};
+  PartitionObject obstacle_{};
+  std::unique_ptr<ProbablePartition> partition_;
+  bool done_ = false;
+  Bounds certified_;
+  Bounds probable_;
+};
+
+class AnyProbably {
+ public:
+  AnyProbably(const std::vector<ProbableScene>& scenes,
+              const std::deque<PreparedGeometry>& geometries, const std::vector<Ball>& balls,
+              double threshold, double chance, const ProbabilityRequest& request)
+      : threshold_(threshold), chance_(chance), request_(request), budget_(request_) {
+    const double far = kFarOfThreshold * threshold / static_cast<double>(scenes.size());
+    for (const ProbableScene& scene : scenes) {
+      obstacles_.push_back(std::make_unique<ObstacleSampling>(scene, geometries, balls, far));
+    }
+    // Of several obstacles none decides by itself.
+    request_.threshold.reset();
+    if (scenes.size() == 1) request_.threshold = threshold;
+  }
+
+  ProbableResult run() {
+    if (decide()) return finished(ProbabilityStatus::decided);
+    for (const auto& obstacle : obstacles_) obstacle->boundByRoots(threshold_);
+    const double share = chance_ / static_cast<double>(obstacles_.size());
+    while (!decide()) {
+      ObstacleSampling* next = widest();
+      if (next == nullptr) return finished(stopped_.value_or(ProbabilityStatus::exact));
+      const auto limit = next->improve(request_, share, [this] { return decide(); });
+      if (limit && !decide()) {
+        stopped_ = limit;
+        if (*limit == ProbabilityStatus::cancelled) return finished(*limit);
+      }
+      if (const auto out = budget_.exhausted(); out && !decide()) return finished(*out);
+      if (cells() >= request_.max_cells && !decide()) {
+        return finished(ProbabilityStatus::cell_limit);
+      }
+    }
+    return finished(ProbabilityStatus::decided);
+  }
+
+ private:
+  /// The obstacle that leaves most open and is not done.
+  ObstacleSampling* widest() {
+    ObstacleSampling* found = nullptr;
+    for (const auto& obstacle : obstacles_) {
+      if (obstacle->isDone()) continue;
+      if (!found || obstacle->probable().width() > found->probable().width()) {
+        found = obstacle.get();
+      }
+    }
+    return found;
+  }
+
+  bool decide() {
+    std::vector<Bounds> certified, probable;
+    for (const auto& obstacle : obstacles_) {
+      certified.push_back(obstacle->certified());
+      probable.push_back(obstacle->probable());
+    }
+    result_.certified = anyOfIndependent(certified);
+    result_.probable = anyOfIndependent(probable);
+    result_.decision = ProbableDecision::undecided;
+    result_.chance_of_error = 0.0;
+    if (result_.certified.upper < threshold_) {
+      result_.decision = ProbableDecision::certainly_below;
+    } else if (result_.certified.lower > threshold_) {
+      result_.decision = ProbableDecision::certainly_above;
+    } else if (result_.probable.upper < threshold_) {
+      result_.decision = ProbableDecision::probably_below;
+      result_.chance_of_error = chance_;
+    } else if (result_.probable.lower > threshold_) {
+      result_.decision = ProbableDecision::probably_above;
+      result_.chance_of_error = chance_;
+    }
+    return result_.decision != ProbableDecision::undecided;
+  }
+
+  std::size_t cells() const {
+    std::size_t sum = 0;
+    for (const auto& obstacle : obstacles_) sum += obstacle->cells();
+    return sum;
+  }
+
+  ProbableResult finished(ProbabilityStatus status) {
+    result_.status = status;
+    result_.cells = cells();
+    for (const auto& obstacle : obstacles_) result_.samples += obstacle->samples();
+    return result_;
+  }
+
+  double threshold_;
+  double chance_;
+  ProbabilityRequest request_;
+  CallBudget budget_;
+  std::vector<std::unique_ptr<ObstacleSampling>> obstacles_;
+  std::optional<ProbabilityStatus> stopped_;
+  ProbableResult result_;
+};
+
+}  // namespace
+
+bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state) {
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
+  const bool left_out =
+      obstacle.geometry().getNodeType() != fcl::GEOM_OCTREE && !obstacle.geometry().isOccupied();
+  return gaussian && gaussian->rank() > 0 && obstacle.hasPieces() && !left_out &&
+         !obstacle.pieces().isEmpty();
+}
+
+ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
+                           const std::deque<PreparedGeometry>& geometries,
+                           const std::vector<Ball>& balls, double threshold, double chance,
+                           const ProbabilityRequest& request) {
+  return AnyProbably(scenes, geometries, balls, threshold, chance, request).run();
+}
+
+}  // namespace fcl_prob::detail

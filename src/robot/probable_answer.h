@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// On which side of a threshold the probability of any of several obstacles is, with samples.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "fcl_prob/probable_decision.h"
+#include "query/prepared_geometry.h"
+#include "robot/placed_query.h"
+
+namespace fcl_prob::detail {
+
+/// Placed bodies against one obstacle whose displacement is Gaussian and not 0.
+struct ProbableScene {
+  const PreparedGeometry* obstacle;  ///< bounded
+  const Ball* around;                ///< in its frame
+  ObstacleState state;
+  std::vector<PlacedBody> bodies;
+};
+
+/// Whether that can be sampled; else only the certified way is left.
+bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state);
+
+/// \param geometries, balls  of the robot's bodies, in their frames
+/// \param chance             of a wrong decision, in (0, 1)
+ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
+                           const std::deque<PreparedGeometry>& geometries,
+                           const std::vector<Ball>& balls, double threshold, double chance,
+                           const ProbabilityRequest& request);
+
+}  // namespace fcl_prob::detail
