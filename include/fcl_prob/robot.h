@@ -32,6 +32,13 @@ struct RobotJoint {
   double upper = 0.0;
 };
 
+/// A link, and how it hangs on the one that carries it.
+struct RobotLink {
+  std::string name;
+  int parent = -1;     ///< index in Robot::links(), below its own; the root link has none
+  bool moves = false;  ///< relative to its parent: the joint between them is not fixed
+};
+
 /// A collision element of a link.
 struct RobotBody {
   std::string link;
@@ -68,6 +75,9 @@ class Robot {
   const std::string& name() const;
   const std::vector<RobotJoint>& joints() const;
   const std::vector<RobotBody>& bodies() const;
+
+  /// All links, with or without collision elements; parents before what they carry.
+  const std::vector<RobotLink>& links() const;
 
   /// The geometries of the bodies, as GroupQuery takes them.
   std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> geometries() const;

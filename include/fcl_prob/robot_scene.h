@@ -10,6 +10,7 @@
 
 #include "fcl_prob/robot_query.h"
 #include "fcl_prob/scene_io.h"
+#include "fcl_prob/self_collision.h"
 
 namespace fcl_prob {
 
@@ -22,6 +23,7 @@ struct RobotScene {
   };
 
   std::string urdf;  ///< path
+  std::string srdf;  ///< path of what says which links may touch; empty: nothing does
   RobotOptions robot;
   std::vector<PlacedObstacle> obstacles;
   std::vector<std::map<std::string, double>> waypoints;  ///< one is a state
@@ -35,9 +37,15 @@ struct RobotScene {
 /// \throws FileError as loadScene()
 RobotScene loadRobotScene(const std::string& path);
 
+/// Reads the robot that the scene names. \throws FileError, InvalidGeometry
+Robot loadRobot(const RobotScene& scene);
+
 /// Reads what the scene names; obstacles that move have a state at each of waypointsOf(). \throws
 /// FileError, InvalidGeometry, InvalidRequest
 RobotQuery loadRobotQuery(const RobotScene& scene);
+
+/// The scene's robot against itself, with the pairs that its SRDF allows. \throws FileError
+SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot);
 
 /// The waypoints as values in the order of the robot's joints, with those between them if the scene
 /// asks for them. \throws InvalidRequest for a name that is no joint

@@ -11,6 +11,7 @@
 #include "cli/progress_bar.h"
 #include "cli/result_report.h"
 #include "cli/run.h"
+#include "cli/self_report.h"
 #include "cli/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
@@ -39,6 +40,7 @@ struct PathReport {
   std::vector<RobotBody> bodies;  ///< of the robot
   RobotResult result;
   std::vector<RobotResult> by_body;
+  std::vector<TouchingBodies> self_collisions;
   std::size_t waypoints = 0;
   double build_ms = 0.0;
   double time_ms = 0.0;
@@ -92,6 +94,7 @@ PathReport answer(RobotScene scene, bool by_body) {
   report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   report.time_ms = watch.milliseconds();
   if (by_body) report.by_body = query.byBody(waypoints, scene.request);
+  report.self_collisions = selfCollisionsOf(loadSelfCollision(scene, query.robot()), waypoints);
   return report;
 }
 
@@ -152,7 +155,8 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"far_upper", result.far_upper},
                     {"build_ms", report.build_ms},
                     {"time_ms", report.time_ms},
-                    {"parts", partsOf(report, scene)}};
+                    {"parts", partsOf(report, scene)},
+                    {"self_collisions", jsonOf(report.self_collisions)}};
   addWaypoints(result, json);
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     json["bodies"].push_back({{"link", report.bodies[i].link},
@@ -190,6 +194,7 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     text += "  link " + report.bodies[i].link + ": " + interval(report.by_body[i].any) + "\n";
   }
+  text += textOf(report.self_collisions);
   if (result.swept_band) {
     text += "at all times: " + std::to_string(result.swept_steps) + " steps of bodies, within " +
             numberText(*result.swept_band, 3) + " m of the states looked at\n";

@@ -78,6 +78,7 @@ Kinematics::Kinematics(const urdf::ModelInterface& model, const std::string& pat
   addJoints(model, path);
   link_index_[model.getRoot()->name] = 0;
   links_.push_back({KDL::Segment(), -1, -1});
+  tree_.push_back({model.getRoot()->name});
   addLinks(*model.getRoot(), 0, model, path);
   for (const auto& [name, link] : model.links_) {
     if (link_index_.count(name) == 0) {
@@ -106,6 +107,7 @@ void Kinematics::addLinks(const urdf::Link& link, int parent, const urdf::ModelI
     const int index = static_cast<int>(links_.size());
     link_index_[child->name] = index;
     links_.push_back(carried);
+    tree_.push_back({child->name, parent, !isFixed(joint)});
     addLinks(*child, index, model, path);
   }
 }

@@ -23,6 +23,9 @@ class Kinematics {
   /// Those that move by themselves, by name.
   const std::vector<RobotJoint>& joints() const { return joints_; }
 
+  /// In the order of linkPoses().
+  const std::vector<RobotLink>& links() const { return tree_; }
+
   /// Index of a link in linkPoses(); -1 if there is none of that name.
   int linkIndex(const std::string& name) const;
 
@@ -55,6 +58,7 @@ class Kinematics {
   std::vector<RobotJoint> joints_;
   std::map<std::string, int> joint_index_;
   std::vector<CarriedLink> links_;  ///< parents before what they carry; the root first
+  std::vector<RobotLink> tree_;     ///< the same links, as the robot tells them
   std::map<std::string, int> link_index_;
 };
 

@@ -55,6 +55,7 @@ const std::vector<RobotJoint>& Robot::joints() const {
   return implementation_->kinematics.joints();
 }
 const std::vector<RobotBody>& Robot::bodies() const { return implementation_->bodies; }
+const std::vector<RobotLink>& Robot::links() const { return implementation_->kinematics.links(); }
 
 std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> Robot::geometries() const {
   std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> result;

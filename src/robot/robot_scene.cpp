@@ -20,6 +20,7 @@ std::string besideScene(const std::filesystem::path& folder, const std::string& 
 
 void readRobot(StrictObject object, const std::filesystem::path& folder, RobotScene& scene) {
   scene.urdf = besideScene(folder, object.text("urdf"));
+  if (object.has("srdf")) scene.srdf = besideScene(folder, object.text("srdf"));
   if (object.has("packages")) {
     for (const auto& [name, path] : object.object("packages").textsByName()) {
       scene.robot.packages[name] = besideScene(folder, path);
@@ -136,8 +137,15 @@ RobotScene loadRobotScene(const std::string& path) {
   return scene;
 }
 
+Robot loadRobot(const RobotScene& scene) { return Robot(scene.urdf, scene.robot); }
+
+SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot) {
+  if (scene.srdf.empty()) return SelfCollision(robot);
+  return SelfCollision(robot, loadAllowedPairs(scene.srdf, robot));
+}
+
 RobotQuery loadRobotQuery(const RobotScene& scene) {
-  const Robot robot(scene.urdf, scene.robot);
+  const Robot robot = loadRobot(scene);
   std::vector<Obstacle> obstacles;
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     std::vector<ObstacleState> states = obstacle.over_time;

@@ -13,7 +13,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 constexpr int kDeepest = 64;
 constexpr std::size_t kMostLinks = 1000;
 
@@ -73,7 +72,7 @@ void checkXmlText(const std::string& text, const std::string& path) {
     } else if (text.compare(i, 2, "<?") == 0) {
       i = behind(text, "?>", i);
     } else if (text.compare(i, 2, "<!") == 0) {
-      throw FileError(path + ": a document type or CDATA, which no URDF needs");
+      throw FileError(path + ": a document type or CDATA, which no URDF or SRDF needs");
     } else {
       const std::size_t end = endOfTag(text, i);
       if (text.compare(i, 2, "</") == 0) {
@@ -87,7 +86,7 @@ void checkXmlText(const std::string& text, const std::string& path) {
 }
 
 urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path) {
-  const std::string text = fileContent(path, kMostBytes);
+  const std::string text = fileContent(path, kMostXmlBytes);
   checkXmlText(text, path);
   UrdfMessages messages;
   urdf::ModelInterfaceSharedPtr model;

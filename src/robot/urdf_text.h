@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// What is looked at before a URDF reaches an XML parser.
+// What is looked at before a URDF or SRDF reaches an XML parser.
 #pragma once
 
 #include <urdf_world/types.h>
 
+#include <cstddef>
 #include <string>
 
 namespace fcl_prob::detail {
+
+/// Of a URDF or SRDF.
+inline constexpr std::size_t kMostXmlBytes = std::size_t{16} << 20;
 
 /// The model that a file describes. \throws FileError
 urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path);

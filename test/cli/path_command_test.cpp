@@ -68,6 +68,26 @@ TEST_CASE("path decides probably where it is asked to", "[cli]") {
   CHECK(runCommand({"path", "--scene", scene, "--probable", "0.1", "--between"}, folder).refused());
 }
 
+TEST_CASE("path tells of a state that collides with itself", "[cli]") {
+  CHECK(answerOf({}).at("self_collisions").empty());
+  const TemporaryFolder folder;
+  const std::string scene =
+      R"({"robot": {"urdf": ")" + dataFile("arm.urdf") +
+      R"("}, "waypoints": [{"grip": 0.01}, {"grip": 0}, {}], "obstacles": [{"name": "o",)"
+      R"( "sphere": 0.1, "pose": [2, 0, 0], "displacement": {"sigma": [0.1, 0.1, 0.1]}}]})";
+  folder.write("scene.json", scene);
+  const CommandResult result = runCommand({"path", "--scene", "scene.json", "--json"}, folder);
+  REQUIRE(result.exit_code == 0);
+  const json touching = json::parse(result.out).at("self_collisions");
+  REQUIRE(touching.size() == 1);
+  CHECK(touching[0].at("links") == json{"left_finger", "right_finger"});
+  CHECK(touching[0].at("first_waypoint") == 1);
+  CHECK(touching[0].at("waypoints") == 2);
+  const CommandResult text = runCommand({"path", "--scene", "scene.json"}, folder);
+  CHECK(text.out.find("collides with itself: left_finger and right_finger at 2") !=
+        std::string::npos);
+}
+
 TEST_CASE("path says in one line what is wrong with a scene", "[cli]") {
   const TemporaryFolder folder;
   CHECK(runCommand({"path"}, folder).refused());

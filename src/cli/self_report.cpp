@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/self_report.h"
+
+#include <map>
+
+namespace fcl_prob::cli {
+
+std::vector<TouchingBodies> selfCollisionsOf(const SelfCollision& self,
+                                             const std::vector<Eigen::VectorXd>& waypoints) {
+  std::vector<TouchingBodies> touching;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;
+  const auto& bodies = self.robot().bodies();
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    for (const BodyPair& pair : self.collisions(waypoints[i])) {
+      const auto [entry, is_new] = known.try_emplace({pair.first, pair.second}, touching.size());
+      if (is_new) touching.push_back({i, 0, bodies[pair.first].link, bodies[pair.second].link});
+      ++touching[entry->second].waypoints;
+    }
+  }
+  return touching;
+}
+
+nlohmann::ordered_json jsonOf(const std::vector<TouchingBodies>& touching) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const TouchingBodies& pair : touching) {
+    json.push_back({{"links", {pair.first, pair.second}},
+                    {"first_waypoint", pair.waypoint},
+                    {"waypoints", pair.waypoints}});
+  }
+  return json;
+}
+
+std::string textOf(const std::vector<TouchingBodies>& touching) {
+  std::string text;
+  for (const TouchingBodies& pair : touching) {
+    text += "the robot collides with itself: " + pair.first + " and " + pair.second + " at " +
+            std::to_string(pair.waypoints) + " waypoints, first at " +
+            std::to_string(pair.waypoint) + "\n";
+  }
+  return text;
+}
+
+}  // namespace fcl_prob::cli
