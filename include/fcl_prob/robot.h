@@ -39,11 +39,25 @@ struct RobotLink {
   bool moves = false;  ///< relative to its parent: the joint between them is not fixed
 };
 
-/// A collision element of a link.
+/// A collision element of a link, or an object attached to it.
 struct RobotBody {
   std::string link;
   std::shared_ptr<const fcl::CollisionGeometryd> geometry;
   fcl::Transform3d in_link = fcl::Transform3d::Identity();  ///< metres
+  std::string object = {};  ///< name of the attached object; empty: the link itself
+
+  const std::string& name() const { return object.empty() ? link : object; }
+};
+
+/// Something that a link carries from now on: a grasped can.
+struct AttachedObject {
+  std::string name;
+  std::string link;  ///< that carries it
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  fcl::Transform3d in_link = fcl::Transform3d::Identity();  ///< metres
+
+  /// Links that it may touch, besides the one that carries it (SelfCollision).
+  std::vector<std::string> touch_links = {};
 };
 
 /// One of the joints that carry a body, where all joints have certain values. With v the value of
@@ -72,9 +86,19 @@ class Robot {
   ///         no collision element; as loadMesh() for its meshes; InvalidPose for the base
   explicit Robot(const std::string& urdf_file, const RobotOptions& options = {});
 
+  /// The same robot with an object that moves with a link: the last of its bodies. A query that
+  /// was made before does not know of it.
+  /// \throws InvalidRequest for a link that is not there, or a name that is empty or another
+  /// body's;
+  ///         InvalidPose, InvalidGeometry, UnsupportedGeometry
+  Robot withAttached(AttachedObject object) const;
+
   const std::string& name() const;
   const std::vector<RobotJoint>& joints() const;
+
+  /// Those of the links, then what is attached to them.
   const std::vector<RobotBody>& bodies() const;
+  const std::vector<AttachedObject>& attached() const;
 
   /// All links, with or without collision elements; parents before what they carry.
   const std::vector<RobotLink>& links() const;
@@ -108,6 +132,7 @@ class Robot {
 
  private:
   struct Implementation;
+  explicit Robot(std::shared_ptr<const Implementation> implementation);
   std::shared_ptr<const Implementation> implementation_;
 };
 

@@ -22,9 +22,18 @@ struct RobotScene {
     std::vector<ObstacleState> over_time;  ///< of one that moves: one a waypoint of the file
   };
 
+  /// As AttachedObject; the pose of the object is that in the link's frame.
+  struct CarriedObject {
+    std::string name;
+    std::string link;
+    SceneObject object;  ///< a mesh still in its file
+    std::vector<std::string> touch_links;
+  };
+
   std::string urdf;  ///< path
   std::string srdf;  ///< path of what says which links may touch; empty: nothing does
   RobotOptions robot;
+  std::vector<CarriedObject> attached;
   std::vector<PlacedObstacle> obstacles;
   std::vector<std::map<std::string, double>> waypoints;  ///< one is a state
   ErrorsOverTime errors = ErrorsOverTime::persistent;
@@ -37,7 +46,8 @@ struct RobotScene {
 /// \throws FileError as loadScene()
 RobotScene loadRobotScene(const std::string& path);
 
-/// Reads the robot that the scene names. \throws FileError, InvalidGeometry
+/// Reads the robot that the scene names, with what is attached to it. \throws FileError,
+/// InvalidGeometry, InvalidRequest
 Robot loadRobot(const RobotScene& scene);
 
 /// Reads what the scene names; obstacles that move have a state at each of waypointsOf(). \throws

@@ -36,8 +36,8 @@ struct BodyPair {
 /// meshes are surfaces, of which one inside another does not touch it.
 ///
 /// Left out are pairs that may touch, pairs of one link or of two links with a joint between them,
-/// and pairs of bodies that do not move relative to each other. An attached object may besides
-/// touch the links that it names.
+/// and pairs of bodies that do not move relative to each other. For an attached object only the
+/// links that it names and what does not move relative to it are left out.
 ///
 /// Const and thread-safe after construction.
 class SelfCollision {

@@ -160,6 +160,7 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
   addWaypoints(result, json);
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     json["bodies"].push_back({{"link", report.bodies[i].link},
+                              {"name", report.bodies[i].name()},
                               {"lower", report.by_body[i].any.lower},
                               {"upper", report.by_body[i].any.upper}});
   }
@@ -192,7 +193,7 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
     }
   }
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
-    text += "  link " + report.bodies[i].link + ": " + interval(report.by_body[i].any) + "\n";
+    text += "  " + report.bodies[i].name() + ": " + interval(report.by_body[i].any) + "\n";
   }
   text += textOf(report.self_collisions);
   if (result.swept_band) {

@@ -14,7 +14,7 @@ std::vector<TouchingBodies> selfCollisionsOf(const SelfCollision& self,
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     for (const BodyPair& pair : self.collisions(waypoints[i])) {
       const auto [entry, is_new] = known.try_emplace({pair.first, pair.second}, touching.size());
-      if (is_new) touching.push_back({i, 0, bodies[pair.first].link, bodies[pair.second].link});
+      if (is_new) touching.push_back({i, 0, bodies[pair.first].name(), bodies[pair.second].name()});
       ++touching[entry->second].waypoints;
     }
   }
@@ -24,7 +24,7 @@ std::vector<TouchingBodies> selfCollisionsOf(const SelfCollision& self,
 nlohmann::ordered_json jsonOf(const std::vector<TouchingBodies>& touching) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const TouchingBodies& pair : touching) {
-    json.push_back({{"links", {pair.first, pair.second}},
+    json.push_back({{"bodies", {pair.first, pair.second}},
                     {"first_waypoint", pair.waypoint},
                     {"waypoints", pair.waypoints}});
   }

@@ -37,9 +37,30 @@ struct Robot::Implementation {
     }
   }
 
+  void attach(AttachedObject object) {
+    const std::string what = "attached object " + object.name;
+    const int link = kinematics.linkIndex(object.link);
+    if (link < 0) throw InvalidRequest(what + ": " + name + " has no link " + object.link);
+    for (const std::string& touched : object.touch_links) {
+      if (kinematics.linkIndex(touched) < 0) {
+        throw InvalidRequest(what + ": " + name + " has no link " + touched);
+      }
+    }
+    const auto has_its_name = [&](const RobotBody& body) { return body.name() == object.name; };
+    if (object.name.empty() || std::any_of(bodies.begin(), bodies.end(), has_its_name)) {
+      throw InvalidRequest(what + ": its name is empty or another body's");
+    }
+    detail::validateGeometry(object.geometry.get(), what);
+    detail::validatePose(object.in_link, what);
+    bodies.push_back({object.link, object.geometry, object.in_link, object.name});
+    links.push_back(link);
+    attached.push_back(std::move(object));
+  }
+
   std::string name;
   detail::Kinematics kinematics;
   std::vector<RobotBody> bodies;
+  std::vector<AttachedObject> attached;
   std::vector<int> links;  ///< of the bodies
   fcl::Transform3d base;
 };
@@ -50,11 +71,21 @@ Robot::Robot(const std::string& urdf_file, const RobotOptions& options) {
   implementation_ = std::make_shared<const Implementation>(*model, urdf_file, options);
 }
 
+Robot::Robot(std::shared_ptr<const Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+
+Robot Robot::withAttached(AttachedObject object) const {
+  auto more = std::make_shared<Implementation>(*implementation_);
+  more->attach(std::move(object));
+  return Robot(std::move(more));
+}
+
 const std::string& Robot::name() const { return implementation_->name; }
 const std::vector<RobotJoint>& Robot::joints() const {
   return implementation_->kinematics.joints();
 }
 const std::vector<RobotBody>& Robot::bodies() const { return implementation_->bodies; }
+const std::vector<AttachedObject>& Robot::attached() const { return implementation_->attached; }
 const std::vector<RobotLink>& Robot::links() const { return implementation_->kinematics.links(); }
 
 std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> Robot::geometries() const {

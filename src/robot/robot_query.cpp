@@ -93,7 +93,7 @@ struct RobotQuery::Implementation {
       : robot(the_robot), obstacles(std::move(the_obstacles)) {
     if (obstacles.empty()) throw InvalidRequest("a robot query needs an obstacle");
     for (const RobotBody& body : robot.bodies()) {
-      geometries.emplace_back(body.geometry, "a body of link " + body.link);
+      geometries.emplace_back(body.geometry, "a body of " + body.name());
       balls.push_back(detail::ballAround(geometries.back()));
     }
     for (const Obstacle& obstacle : obstacles) {

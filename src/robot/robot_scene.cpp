@@ -18,6 +18,16 @@ std::string besideScene(const std::filesystem::path& folder, const std::string& 
   return (folder / path).lexically_normal().string();
 }
 
+RobotScene::CarriedObject readAttached(StrictObject object, const std::filesystem::path& folder) {
+  RobotScene::CarriedObject attached;
+  attached.name = object.text("name");
+  attached.link = object.text("link");
+  attached.object = detail::readShapeAndPose(object, folder);
+  if (object.has("touch_links")) attached.touch_links = object.texts("touch_links");
+  object.finish();
+  return attached;
+}
+
 void readRobot(StrictObject object, const std::filesystem::path& folder, RobotScene& scene) {
   scene.urdf = besideScene(folder, object.text("urdf"));
   if (object.has("srdf")) scene.srdf = besideScene(folder, object.text("srdf"));
@@ -27,6 +37,11 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
     }
   }
   if (object.has("links")) scene.robot.links = object.texts("links");
+  if (object.has("attached")) {
+    for (StrictObject& attached : object.objects("attached")) {
+      scene.attached.push_back(readAttached(std::move(attached), folder));
+    }
+  }
   if (object.has("base")) {
     const std::vector<double> numbers = object.numbers("base");
     try {
@@ -137,7 +152,14 @@ RobotScene loadRobotScene(const std::string& path) {
   return scene;
 }
 
-Robot loadRobot(const RobotScene& scene) { return Robot(scene.urdf, scene.robot); }
+Robot loadRobot(const RobotScene& scene) {
+  Robot robot(scene.urdf, scene.robot);
+  for (const RobotScene::CarriedObject& attached : scene.attached) {
+    robot = robot.withAttached({attached.name, attached.link, geometryOf(attached.object),
+                                attached.object.pose, attached.touch_links});
+  }
+  return robot;
+}
 
 SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot) {
   if (scene.srdf.empty()) return SelfCollision(robot);

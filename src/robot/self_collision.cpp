@@ -34,6 +34,7 @@ class TouchingLinks {
   bool mayTouch(const RobotBody& x, const RobotBody& y) const {
     const std::size_t a = of(x.link), b = of(y.link);
     if (rigid_[a] == rigid_[b]) return true;
+    if (!x.object.empty() || !y.object.empty()) return namesAsTouched(x, y) || namesAsTouched(y, x);
     const auto& links = robot_.links();
     if (links[a].parent == static_cast<int>(b) || links[b].parent == static_cast<int>(a)) {
       return true;
@@ -50,6 +51,17 @@ class TouchingLinks {
     const auto found = index_.find(link);
     if (found == index_.end()) throw InvalidRequest(robot_.name() + " has no link " + link);
     return found->second;
+  }
+
+  bool namesAsTouched(const RobotBody& object, const RobotBody& other) const {
+    if (object.object.empty() || !other.object.empty()) return false;
+    for (const AttachedObject& attached : robot_.attached()) {
+      const auto& links = attached.touch_links;
+      if (attached.name == object.object) {
+        return std::find(links.begin(), links.end(), other.link) != links.end();
+      }
+    }
+    return false;
   }
 
   const Robot& robot_;
@@ -70,7 +82,7 @@ struct SelfCollision::Implementation {
   Implementation(const Robot& the_robot, const std::vector<LinkPair>& allowed) : robot(the_robot) {
     const auto& bodies = robot.bodies();
     for (const RobotBody& body : bodies) {
-      balls.push_back(detail::ballAround({body.geometry, "a body of link " + body.link}));
+      balls.push_back(detail::ballAround({body.geometry, "a body of " + body.name()}));
     }
     const TouchingLinks touching(robot, allowed);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -84,8 +96,8 @@ struct SelfCollision::Implementation {
 
   static void requireSupported(const RobotBody& x, const RobotBody& y) {
     if (fclSupportsPair(*x.geometry, *y.geometry)) return;
-    throw UnsupportedGeometry("fcl::collide does not support a body of link " + x.link +
-                              " with one of link " + y.link);
+    throw UnsupportedGeometry("fcl::collide does not support a body of " + x.name() +
+                              " with one of " + y.name());
   }
 
   /// Calls `found` with each pair that touches, until it returns false.

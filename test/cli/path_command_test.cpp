@@ -80,7 +80,7 @@ TEST_CASE("path tells of a state that collides with itself", "[cli]") {
   REQUIRE(result.exit_code == 0);
   const json touching = json::parse(result.out).at("self_collisions");
   REQUIRE(touching.size() == 1);
-  CHECK(touching[0].at("links") == json{"left_finger", "right_finger"});
+  CHECK(touching[0].at("bodies") == json{"left_finger", "right_finger"});
   CHECK(touching[0].at("first_waypoint") == 1);
   CHECK(touching[0].at("waypoints") == 2);
   const CommandResult text = runCommand({"path", "--scene", "scene.json"}, folder);
