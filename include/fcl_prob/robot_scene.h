@@ -30,12 +30,23 @@ struct RobotScene {
     std::vector<std::string> touch_links;
   };
 
+  /// What is to be planned: a motion from one state to another.
+  struct Plan {
+    std::map<std::string, double> start;
+    std::map<std::string, double> goal;
+    std::vector<std::string> joints;         ///< that may move; none named: all
+    std::optional<double> motion_threshold;  ///< of the whole motion
+    std::uint64_t seed = 1;
+    std::optional<std::size_t> max_states;
+  };
+
   std::string urdf;  ///< path
   std::string srdf;  ///< path of what says which links may touch; empty: nothing does
   RobotOptions robot;
   std::vector<CarriedObject> attached;
   std::vector<PlacedObstacle> obstacles;
-  std::vector<std::map<std::string, double>> waypoints;  ///< one is a state
+  std::vector<std::map<std::string, double>> waypoints;  ///< one is a state; none with a plan
+  std::optional<Plan> plan;
   ErrorsOverTime errors = ErrorsOverTime::persistent;
   BetweenWaypoints between = BetweenWaypoints::ignored;
   std::optional<double> largest_step;  ///< as interpolated() takes it
@@ -45,6 +56,11 @@ struct RobotScene {
 /// Reads a scene file. Paths are relative to its folder; neither the URDF nor the meshes are read.
 /// \throws FileError as loadScene()
 RobotScene loadRobotScene(const std::string& path);
+
+/// The waypoints of a CSV file, whose first line names the joints, or of a JSON file: an object
+/// with a list `waypoints`, as `fcl_prob plan` writes both. Whatever else is in the object is
+/// ignored. \throws FileError
+std::vector<std::map<std::string, double>> loadWaypoints(const std::string& path);
 
 /// Reads the robot that the scene names, with what is attached to it. \throws FileError,
 /// InvalidGeometry, InvalidRequest

@@ -23,6 +23,7 @@ using nlohmann::ordered_json;
 
 struct PathArguments {
   std::string scene;
+  std::string motion;
   std::optional<double> relative_tolerance;
   std::optional<double> threshold;
   std::optional<double> time_limit;
@@ -65,6 +66,7 @@ std::string errorsTold(ErrorsOverTime errors) {
 
 RobotScene sceneOf(const PathArguments& arguments) {
   RobotScene scene = loadRobotScene(arguments.scene);
+  if (!arguments.motion.empty()) scene.waypoints = loadWaypoints(arguments.motion);
   if (arguments.relative_tolerance) {
     scene.request.relative_tolerance = *arguments.relative_tolerance;
   }
@@ -280,6 +282,8 @@ void addPathCommand(CLI::App& app, int& exit_code) {
   CLI::App& command =
       *app.add_subcommand("path", "The probability that a robot touches anything along a motion");
   command.add_option("--scene", arguments->scene, "Robot scene file (docs/robots.md)")->required();
+  command.add_option("--motion", arguments->motion,
+                     "JSON or CSV file of waypoints in place of the scene's, as plan writes them");
   command.add_option("--method", arguments->method)
       ->check(CLI::IsMember({"auto", "interval", "estimate"}));
   command

@@ -16,6 +16,9 @@
 #include "cli/path_command.h"
 #endif
 #include "cli/sweep_command.h"
+#ifdef FCL_PROB_HAS_PLANNING
+#include "cli/plan_command.h"
+#endif
 #ifdef FCL_PROB_HAS_CLOUD
 #include "cli/reconstruct_command.h"
 #endif
@@ -43,6 +46,9 @@ int parseAndRun(int argc, const char* const* argv) {
   addSweepCommand(app, exit_code);
 #ifdef FCL_PROB_HAS_ROBOT
   addPathCommand(app, exit_code);
+#endif
+#ifdef FCL_PROB_HAS_PLANNING
+  addPlanCommand(app, exit_code);
 #endif
 #ifdef FCL_PROB_HAS_CLOUD
   addReconstructCommand(app, exit_code);

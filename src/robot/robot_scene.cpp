@@ -14,6 +14,8 @@ namespace {
 
 using detail::StrictObject;
 
+constexpr std::size_t kCellsOfPlannedState = 2'000;
+
 std::string besideScene(const std::filesystem::path& folder, const std::string& path) {
   return (folder / path).lexically_normal().string();
 }
@@ -86,6 +88,33 @@ RobotScene::PlacedObstacle readObstacle(StrictObject object, const std::filesyst
   return obstacle;
 }
 
+RobotScene::Plan readPlan(StrictObject object) {
+  RobotScene::Plan plan;
+  plan.start = object.object("start").numbersByName();
+  plan.goal = object.object("goal").numbersByName();
+  if (object.has("joints")) plan.joints = object.texts("joints");
+  if (object.has("motion_threshold")) plan.motion_threshold = object.number("motion_threshold");
+  if (object.has("seed")) plan.seed = object.count("seed");
+  if (object.has("max_states")) plan.max_states = object.count("max_states");
+  object.finish();
+  return plan;
+}
+
+/// One state, several, or two to be planned between.
+void readStates(StrictObject& root, RobotScene& scene) {
+  const std::string given = root.oneOf({"joints", "waypoints", "plan"});
+  if (given == "plan") {
+    scene.plan = readPlan(root.object("plan"));
+  } else if (given == "joints") {
+    scene.waypoints.push_back(root.object("joints").numbersByName());
+  } else {
+    for (const StrictObject& waypoint : root.objects("waypoints")) {
+      scene.waypoints.push_back(waypoint.numbersByName());
+    }
+    if (scene.waypoints.empty()) root.fail("waypoints", "there are none");
+  }
+}
+
 ErrorsOverTime readErrors(StrictObject& root) {
   const std::string errors = root.text("errors");
   if (errors == "persistent") return ErrorsOverTime::persistent;
@@ -126,14 +155,7 @@ RobotScene loadRobotScene(const std::string& path) {
     scene.obstacles.push_back(readObstacle(std::move(obstacle), folder));
   }
   if (scene.obstacles.empty()) root.fail("obstacles", "there are none");
-  if (root.oneOf({"joints", "waypoints"}) == "joints") {
-    scene.waypoints.push_back(root.object("joints").numbersByName());
-  } else {
-    for (const StrictObject& waypoint : root.objects("waypoints")) {
-      scene.waypoints.push_back(waypoint.numbersByName());
-    }
-    if (scene.waypoints.empty()) root.fail("waypoints", "there are none");
-  }
+  readStates(root, scene);
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     const std::size_t states = obstacle.over_time.size();
     if (states == 0 || states == scene.waypoints.size()) continue;
@@ -147,7 +169,11 @@ RobotScene loadRobotScene(const std::string& path) {
     scene.largest_step = root.number("largest_step");
     if (!(*scene.largest_step > 0.0)) root.fail("largest_step", "must be > 0");
   }
-  if (root.has("request")) scene.request = detail::readRequest(root.object("request"));
+  // A planner asks for thousands of states, and those that are hard to decide are not needed.
+  if (scene.plan) scene.request.max_cells = kCellsOfPlannedState;
+  if (root.has("request")) {
+    scene.request = detail::readRequest(root.object("request"), scene.request);
+  }
   root.finish();
   return scene;
 }

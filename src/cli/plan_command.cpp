@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/plan_command.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/output.h"
+#include "cli/planned_path.h"
+#include "cli/progress_bar.h"
+#include "cli/run.h"
+#include "cli/stopwatch.h"
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/robot_scene.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+struct PlanArguments {
+  std::string scene;
+  std::optional<double> threshold;
+  std::optional<double> motion_threshold;
+  std::optional<double> largest_step;
+  std::optional<double> time_limit;
+  std::optional<std::size_t> max_states;
+  std::optional<std::uint64_t> seed;
+  bool not_shortened = false;
+  bool json = false;
+  std::string output;
+  std::string csv;
+};
+
+RobotScene planSceneOf(const PlanArguments& arguments) {
+  RobotScene scene = loadRobotScene(arguments.scene);
+  if (!scene.plan) throw FileError(arguments.scene + ": plan: is missing");
+  if (arguments.threshold) scene.request.threshold = arguments.threshold;
+  if (!scene.request.threshold) {
+    throw FileError(arguments.scene + ": request: threshold: is missing, nor is it an option");
+  }
+  if (arguments.motion_threshold) scene.plan->motion_threshold = arguments.motion_threshold;
+  if (arguments.largest_step) scene.largest_step = arguments.largest_step;
+  if (arguments.max_states) scene.plan->max_states = arguments.max_states;
+  if (arguments.seed) scene.plan->seed = *arguments.seed;
+  return scene;
+}
+
+/// The scene's own time limit is that of a state.
+CertifiedPlanningRequest requestOf(const RobotScene& scene, const PlanArguments& arguments) {
+  CertifiedPlanningRequest request;
+  request.state = scene.request;
+  request.motion_threshold = scene.plan->motion_threshold;
+  request.planning.joints = scene.plan->joints;
+  request.planning.seed = scene.plan->seed;
+  if (scene.largest_step) request.planning.largest_step = *scene.largest_step;
+  if (scene.plan->max_states) request.planning.max_states = *scene.plan->max_states;
+  request.planning.time_limit = arguments.time_limit;
+  request.planning.shorten = !arguments.not_shortened;
+  return request;
+}
+
+int runPlan(const PlanArguments& arguments) {
+  const RobotScene scene = planSceneOf(arguments);
+  const Stopwatch building;
+  const RobotQuery query = loadRobotQuery(scene);
+  const Robot& robot = query.robot();
+  const SelfCollision self = loadSelfCollision(scene, robot);
+  CertifiedPlanningRequest request = requestOf(scene, arguments);
+  const double build_ms = building.milliseconds();
+  noteInterrupts();
+  ProgressBar bar("fcl_prob plan");
+  request.planning.on_progress = [&](const PlanningProgress& progress) {
+    const auto most = static_cast<double>(request.planning.max_states);
+    bar.show(static_cast<double>(progress.states) / most,
+             std::to_string(progress.states) + " states" +
+                 (progress.shortening ? ", shortening a path" : ", looking for a path"));
+    return !interrupted();
+  };
+  const Stopwatch watch;
+  const CertifiedPlan plan = planCertified(query, self, robot.values(scene.plan->start),
+                                           robot.values(scene.plan->goal), request);
+  const bool solved = plan.path.status == PlanningStatus::solved;
+  std::string report = planText(plan, robot);
+  if (arguments.json) {
+    nlohmann::ordered_json json = planJson(plan, robot);
+    json["largest_step"] = request.planning.largest_step;
+    json["seed"] = request.planning.seed;
+    json["build_ms"] = build_ms;
+    json["time_ms"] = watch.milliseconds();
+    report = json.dump() + "\n";
+  }
+  deliver(report, arguments.output);
+  if (solved && !arguments.csv.empty()) writeFile(arguments.csv, planCsv(plan, robot));
+  return solved ? kAnswered : kStopped;
+}
+
+}  // namespace
+
+void addPlanCommand(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<PlanArguments>();
+  CLI::App& command = *app.add_subcommand(
+      "plan", "A motion of a robot at every state of which P is certainly below a threshold");
+  command
+      .add_option("--scene", arguments->scene, "Robot scene file with a plan (docs/planning.md)")
+      ->required();
+  command.add_option("--threshold", arguments->threshold, "P of every state stays below");
+  command.add_option("--motion-threshold", arguments->motion_threshold,
+                     "P of the whole motion stays below, errors being the same all along");
+  command.add_option("--largest-step", arguments->largest_step,
+                     "States are asked for so that no joint moves further (radians, metres)");
+  command.add_option("--seed", arguments->seed, "The same seed gives the same path");
+  command.add_option("--max-states", arguments->max_states, "States to ask for at most");
+  command.add_option("--time-limit", arguments->time_limit, "Seconds, of the whole plan");
+  command.add_flag("--not-shortened", arguments->not_shortened, "The path as it is found");
+  command.add_flag("--json", arguments->json, "One JSON object, which path reads, instead of text");
+  command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
+  command.add_option("--csv", arguments->csv, "Also write the waypoints as CSV, which path reads");
+  command.callback([arguments, &exit_code] { exit_code = runPlan(*arguments); });
+}
+
+}  // namespace fcl_prob::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cli/planned_path.h"
+
+#include "cli/number_text.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json byJoint(const Eigen::VectorXd& values, const Robot& robot) {
+  ordered_json json;
+  for (std::size_t i = 0; i < robot.joints().size(); ++i) {
+    json[robot.joints()[i].name] = values[static_cast<Eigen::Index>(i)];
+  }
+  return json;
+}
+
+std::string intervalText(const Bounds& bounds) {
+  return "[" + numberText(bounds.lower, 6) + ", " + numberText(bounds.upper, 6) + "]";
+}
+
+}  // namespace
+
+ordered_json planJson(const CertifiedPlan& plan, const Robot& robot) {
+  const bool solved = plan.path.status == PlanningStatus::solved;
+  ordered_json json{{"status", toString(plan.path.status)},
+                    {"states", plan.path.states},
+                    {"state_threshold", plan.state_threshold}};
+  json["waypoints"] = ordered_json::array();
+  if (!solved) return json;
+  json["length"] = plan.path.length;
+  json["planned_length"] = plan.path.planned_length;
+  json["shortened"] = plan.path.shortened;
+  json["largest"] = {
+      {"lower", plan.largest.lower}, {"upper", plan.largest.upper}, {"state", plan.likeliest}};
+  json["motion"] = {{"lower", plan.motion.lower}, {"upper", plan.motion.upper}};
+  for (const Eigen::VectorXd& values : plan.path.waypoints) {
+    json["waypoints"].push_back(byJoint(values, robot));
+  }
+  return json;
+}
+
+std::string planCsv(const CertifiedPlan& plan, const Robot& robot) {
+  std::string text;
+  for (const RobotJoint& joint : robot.joints()) text += (text.empty() ? "" : ",") + joint.name;
+  text += "\n";
+  for (const Eigen::VectorXd& values : plan.path.waypoints) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      text += (i > 0 ? "," : "") + nlohmann::json(values[i]).dump();
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string planText(const CertifiedPlan& plan, const Robot& robot) {
+  std::string text = "status: " + toString(plan.path.status) + "\n" +
+                     std::to_string(plan.path.states) + " states asked for, P of each below " +
+                     numberText(plan.state_threshold, 6) + " or refused\n";
+  if (plan.path.status != PlanningStatus::solved) return text;
+  text += std::to_string(plan.path.waypoints.size()) + " waypoints, length " +
+          numberText(plan.path.length, 6) + " in joint space, " +
+          numberText(plan.path.planned_length, 6) + " before it was shortened\n";
+  text += "largest P of a state: certainly in " + intervalText(plan.largest) + "\n";
+  text += "P of the whole motion, the same errors all along: certainly in " +
+          intervalText(plan.motion) + "\n";
+  return text + planCsv(plan, robot);
+}
+
+}  // namespace fcl_prob::cli

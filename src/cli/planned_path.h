@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A plan as files that `fcl_prob path` reads, and as text for people.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "fcl_prob/certified_planning.h"
+
+namespace fcl_prob::cli {
+
+/// What was planned, with the robot's joints by name.
+nlohmann::ordered_json planJson(const CertifiedPlan& plan, const Robot& robot);
+
+/// The names of the joints, then a line a waypoint; numbers that read back as the same doubles.
+std::string planCsv(const CertifiedPlan& plan, const Robot& robot);
+
+std::string planText(const CertifiedPlan& plan, const Robot& robot);
+
+}  // namespace fcl_prob::cli

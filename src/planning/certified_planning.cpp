@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "fcl_prob/certified_planning.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
+#include "planning/state_screen.h"
+
+namespace fcl_prob {
+namespace {
+
+/// Attempts at a whole motion, each with half the threshold of the one before.
+constexpr int kAttempts = 5;
+
+/// A whole motion may take this many times the cells of a state.
+constexpr std::size_t kCellsOfMotion = 20;
+
+ProbabilityRequest intervalOf(ProbabilityRequest request) {
+  request.threshold.reset();
+  return request;
+}
+
+LargestProbability largestScreened(const RobotQuery& query, const detail::StateScreen& screen,
+                                   const std::vector<Eigen::VectorXd>& states,
+                                   const ProbabilityRequest& request) {
+  LargestProbability largest;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    // What is below the P of another state is not the largest.
+    if (screen.isBelow(states[i], largest.probability.lower)) continue;
+    const Bounds any = query.state(states[i], intervalOf(request)).any;
+    largest.probability.lower = std::max(largest.probability.lower, any.lower);
+    if (any.upper <= largest.probability.upper) continue;
+    largest.probability.upper = any.upper;
+    largest.state = i;
+  }
+  return largest;
+}
+
+class CertifiedPlanner {
+ public:
+  CertifiedPlanner(const RobotQuery& query, const SelfCollision& self,
+                   const CertifiedPlanningRequest& request)
+      : query_(query), self_(self), screen_(query), request_(request) {
+    if (!request.state.threshold) throw InvalidRequest("a certified plan needs a threshold");
+    const auto& most = request.motion_threshold;
+    if (most && !(*most > 0.0 && *most <= 1.0)) {
+      throw InvalidRequest("the threshold of a motion must be in (0, 1], is " +
+                           detail::numberText(*most));
+    }
+    const auto is_same = [](const RobotJoint& x, const RobotJoint& y) { return x.name == y.name; };
+    const auto &x = self.robot().joints(), &y = query.robot().joints();
+    if (!std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same)) {
+      throw InvalidRequest("self-collision is of a robot with other joints than the query's");
+    }
+  }
+
+  CertifiedPlan plan(const Eigen::VectorXd& start, const Eigen::VectorXd& goal) const {
+    CertifiedPlan plan;
+    ProbabilityRequest state = request_.state;
+    std::size_t states = 0;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      plan.state_threshold = *state.threshold;
+      plan.path = planMotion(query_.robot(), testOf(state), start, goal, remaining(states));
+      states = plan.path.states += states;
+      if (plan.path.status != PlanningStatus::solved) return plan;
+      if (certifyMotion(plan)) {
+        certifyStates(plan);
+        return plan;
+      }
+      *state.threshold *= 0.5;
+      if (states >= request_.planning.max_states) break;
+    }
+    CertifiedPlan none;
+    none.path.status = PlanningStatus::threshold;
+    none.path.states = states;
+    none.state_threshold = plan.state_threshold;
+    return none;
+  }
+
+ private:
+  StateTest testOf(const ProbabilityRequest& state) const {
+    return [this, &state](const Eigen::VectorXd& values) {
+      if (self_.collides(values)) return false;
+      if (screen_.isBelow(values, *state.threshold)) return true;
+      const Decision by_pairs = screen_.decide(values, state);
+      if (by_pairs != Decision::undecided) return by_pairs == Decision::below;
+      return query_.state(values, state).decision == Decision::below;
+    };
+  }
+
+  PlanningRequest remaining(std::size_t states) const {
+    PlanningRequest request = request_.planning;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    if (request.time_limit) {
+      // A limit must be > 0; one that has passed ends the plan at its first state.
+      *request.time_limit = std::max(1e-9, *request.time_limit - passed.count());
+    }
+    request.max_states -= std::min(states, request.max_states - 1);
+    return request;
+  }
+
+  /// Whether the whole motion is below its threshold, if there is one.
+  bool certifyMotion(CertifiedPlan& plan) const {
+    const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
+    ProbabilityRequest motion = intervalOf(request_.state);
+    motion.max_cells *= kCellsOfMotion;
+    plan.motion = query_.motion(states, ErrorsOverTime::persistent, motion).any;
+    return !request_.motion_threshold || plan.motion.upper < *request_.motion_threshold;
+  }
+
+  void certifyStates(CertifiedPlan& plan) const {
+    const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
+    const LargestProbability largest = largestScreened(query_, screen_, states, request_.state);
+    plan.largest = largest.probability;
+    plan.likeliest = largest.state;
+    // By the decisions, which may have been closer to the threshold than the tolerance.
+    plan.largest.upper = std::min(plan.largest.upper, plan.state_threshold);
+  }
+
+  const RobotQuery& query_;
+  const SelfCollision& self_;
+  detail::StateScreen screen_;
+  const CertifiedPlanningRequest& request_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+LargestProbability largestProbability(const RobotQuery& query,
+                                      const std::vector<Eigen::VectorXd>& states,
+                                      const ProbabilityRequest& request) {
+  return largestScreened(query, detail::StateScreen(query), states, request);
+}
+
+CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,
+                            const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
+                            const CertifiedPlanningRequest& request) {
+  return CertifiedPlanner(query, self, request).plan(start, goal);
+}
+
+}  // namespace fcl_prob

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "planning/joint_space.h"
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_prob/exceptions.h"
+#include "gaussian/number_text.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+namespace ob = ompl::base;
+
+constexpr double kHalfTurn = 3.14159265358979323846;
+
+/// OMPL seeds the generators of a process one after the other; this one depends on its own seed.
+class SeededSampler : public ob::RealVectorStateSampler {
+ public:
+  SeededSampler(const ob::StateSpace* space, std::uint64_t seed)
+      : ob::RealVectorStateSampler(space) {
+    rng_.setLocalSeed(static_cast<std::uint_fast32_t>(seed));
+  }
+};
+
+class EdgeTest : public ob::MotionValidator {
+ public:
+  EdgeTest(const ob::SpaceInformationPtr& information, const JointSpace& space, PlanningRun& run)
+      : ob::MotionValidator(information), space_(space), run_(run) {}
+
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    return run_.isMotionAllowed(space_.valuesOf(from), space_.valuesOf(to));
+  }
+
+  // How far an edge is allowed is asked by none of the planners used here.
+  bool checkMotion(const ob::State* from, const ob::State* to,
+                   std::pair<ob::State*, double>& last_valid) const override {
+    const bool allowed = checkMotion(from, to);
+    last_valid.second = allowed ? 1.0 : 0.0;
+    if (last_valid.first != nullptr) si_->copyState(last_valid.first, allowed ? to : from);
+    return allowed;
+  }
+
+ private:
+  const JointSpace& space_;
+  PlanningRun& run_;
+};
+
+void requireWithinLimits(const Robot& robot, const Eigen::VectorXd& values,
+                         const std::string& what) {
+  if (robot.isWithinLimits(values)) return;
+  for (std::size_t i = 0; i < robot.joints().size(); ++i) {
+    const RobotJoint& joint = robot.joints()[i];
+    const double value = values[static_cast<Eigen::Index>(i)];
+    if (value >= joint.lower && value <= joint.upper) continue;
+    throw InvalidRequest(what + ": joint " + joint.name + " is " + numberText(value) +
+                         ", beyond its limits " + numberText(joint.lower) + " to " +
+                         numberText(joint.upper));
+  }
+}
+
+}  // namespace
+
+JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
+                       const Eigen::VectorXd& goal, PlanningRun& run)
+    : request_(run.request()), start_(start) {
+  requireWithinLimits(robot, start, "start");
+  requireWithinLimits(robot, goal, "goal");
+  chooseJoints(robot, goal);
+  const ob::StateSpacePtr space = makeSpace(robot, goal);
+  information_ = std::make_shared<ob::SpaceInformation>(space);
+  information_->setStateValidityChecker(
+      [this, &run](const ob::State* state) { return run.isAllowed(valuesOf(state)); });
+  information_->setMotionValidator(std::make_shared<EdgeTest>(information_, *this, run));
+  information_->setup();
+}
+
+void JointSpace::chooseJoints(const Robot& robot, const Eigen::VectorXd& goal) {
+  const auto& joints = robot.joints();
+  for (const std::string& name : request_.joints) {
+    const auto is_it = [&name](const RobotJoint& joint) { return joint.name == name; };
+    if (std::none_of(joints.begin(), joints.end(), is_it)) {
+      throw InvalidRequest(robot.name() + " has no joint " + name + " that moves by itself");
+    }
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    const auto& named = request_.joints;
+    const bool may_move =
+        named.empty() || std::find(named.begin(), named.end(), joints[i].name) != named.end();
+    if (may_move && joints[i].lower < joints[i].upper) {
+      indices_.push_back(index);
+    } else if (start_[index] != goal[index]) {
+      throw InvalidRequest("joint " + joints[i].name + " may not move, but is " +
+                           numberText(start_[index]) + " at the start and " +
+                           numberText(goal[index]) + " at the goal");
+    }
+  }
+}
+
+ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot, const Eigen::VectorXd& goal) const {
+  ob::RealVectorBounds bounds(static_cast<unsigned>(dimension()));
+  for (std::size_t i = 0; i < dimension(); ++i) {
+    const Eigen::Index index = indices_[i];
+    const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(index)];
+    const auto [low, high] = std::minmax(start_[index], goal[index]);
+    const auto at = static_cast<unsigned>(i);
+    bounds.setLow(at, std::isfinite(joint.lower) ? joint.lower : low - kHalfTurn);
+    bounds.setHigh(at, std::isfinite(joint.upper) ? joint.upper : high + kHalfTurn);
+  }
+  auto space = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(dimension()));
+  space->setBounds(bounds);
+  space->setStateSamplerAllocator([seed = request_.seed](const ob::StateSpace* of) {
+    return std::make_shared<SeededSampler>(of, seed);
+  });
+  return space;
+}
+
+Eigen::VectorXd JointSpace::valuesOf(const ob::State* state) const {
+  const double* numbers = state->as<ob::RealVectorStateSpace::StateType>()->values;
+  Eigen::VectorXd values = start_;
+  for (std::size_t i = 0; i < dimension(); ++i) values[indices_[i]] = numbers[i];
+  return values;
+}
+
+void JointSpace::write(const Eigen::VectorXd& values, ob::State* state) const {
+  double* numbers = state->as<ob::RealVectorStateSpace::StateType>()->values;
+  for (std::size_t i = 0; i < dimension(); ++i) numbers[i] = values[indices_[i]];
+}
+
+std::vector<Eigen::VectorXd> JointSpace::waypointsOf(
+    const ompl::geometric::PathGeometric& path) const {
+  std::vector<Eigen::VectorXd> waypoints;
+  for (std::size_t i = 0; i < path.getStateCount(); ++i) {
+    waypoints.push_back(valuesOf(path.getState(static_cast<unsigned>(i))));
+  }
+  return waypoints;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The joints that may move, as a space of OMPL's.
+#pragma once
+
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include <vector>
+
+#include "planning/planning_run.h"
+
+namespace fcl_prob::detail {
+
+class JointSpace {
+ public:
+  /// \param run  must live as long as information() is used
+  /// \throws InvalidRequest as planMotion()
+  JointSpace(const Robot& robot, const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
+             PlanningRun& run);
+
+  /// Of OMPL, with its tests of states and edges; samples depend on the seed only.
+  const ompl::base::SpaceInformationPtr& information() const { return information_; }
+
+  /// Number of joints that move.
+  std::size_t dimension() const { return indices_.size(); }
+
+  Eigen::VectorXd valuesOf(const ompl::base::State* state) const;
+  void write(const Eigen::VectorXd& values, ompl::base::State* state) const;
+
+  std::vector<Eigen::VectorXd> waypointsOf(const ompl::geometric::PathGeometric& path) const;
+
+ private:
+  void chooseJoints(const Robot& robot, const Eigen::VectorXd& goal);
+  ompl::base::StateSpacePtr makeSpace(const Robot& robot, const Eigen::VectorXd& goal) const;
+
+  const PlanningRequest& request_;
+  Eigen::VectorXd start_;
+  std::vector<Eigen::Index> indices_;  ///< of the joints that move
+  ompl::base::SpaceInformationPtr information_;
+};
+
+}  // namespace fcl_prob::detail

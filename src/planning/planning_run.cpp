@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "planning/planning_run.h"
+
+#include "fcl_prob/robot_query.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// States between two looks at the clock and two calls of on_progress.
+constexpr std::size_t kStatesPerLook = 16;
+
+}  // namespace
+
+bool PlanningRun::isAllowed(const Eigen::VectorXd& values) {
+  lookForLimits();
+  if (stopped_) return false;
+  ++states_;
+  return allowed_(values);
+}
+
+void PlanningRun::lookForLimits() {
+  if (stopped_) return;
+  if (states_ >= request_.max_states) {
+    stopped_ = PlanningStatus::state_limit;
+    return;
+  }
+  if (states_ % kStatesPerLook != 0) return;
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+  if (request_.time_limit && passed.count() >= *request_.time_limit) {
+    stopped_ = PlanningStatus::time_limit;
+  } else if (request_.on_progress &&
+             !request_.on_progress({states_, passed.count(), shortening_})) {
+    stopped_ = PlanningStatus::cancelled;
+  }
+}
+
+// The far end and the middle first: where an edge is not allowed, states near its beginning, which
+// is allowed, are the last to tell.
+bool PlanningRun::isMotionAllowed(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  const std::vector<Eigen::VectorXd> states = interpolated({from, to}, request_.largest_step);
+  const std::size_t last = states.size() - 1;
+  if (!isAllowed(states[last])) return false;
+  std::size_t stride = 1;
+  while (2 * stride < last) stride *= 2;
+  for (; stride >= 1; stride /= 2) {
+    for (std::size_t i = stride; i < last; i += 2 * stride) {
+      if (!isAllowed(states[i])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Most states of a plan are told from what little is near: bounds in microseconds, then pairs.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fcl_prob/collision_probability.h"
+#include "fcl_prob/convex_body.h"
+#include "fcl_prob/robot_query.h"
+#include "robot/body_balls.h"
+
+namespace fcl_prob::detail {
+
+/// Half-spaces between the hulls of bodies and obstacles, whose masses are added up; then P of
+/// single pairs, whose trees are kept.
+class StateScreen {
+ public:
+  /// \param query  must outlive this
+  explicit StateScreen(const RobotQuery& query);
+
+  /// Whether P(any body touches any obstacle) is certainly below `threshold`; false: not known.
+  /// \param values  valid ones
+  bool isBelow(const Eigen::VectorXd& values, double threshold) const;
+
+  /// Whether P is certainly below the threshold of the request, or certainly above since that of a
+  /// single pair is; undecided: the sum over the pairs does not tell.
+  /// \param values  valid ones
+  Decision decide(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
+
+ private:
+  /// What is around one body or obstacle.
+  struct Hull {
+    ConvexBody body;
+    Ball ball;  ///< frame of the geometry
+  };
+
+  struct Pair {
+    std::size_t body;
+    std::size_t obstacle;
+    double upper;  ///< certainly not below P that they touch
+  };
+
+  void add(const std::shared_ptr<const fcl::CollisionGeometryd>& geometry, std::vector<Hull>& to);
+
+  /// All of them, by half-spaces; nothing once their sum is not below `enough`.
+  std::optional<std::vector<Pair>> pairsBelow(const std::vector<fcl::Transform3d>& poses,
+                                              double negligible, double enough) const;
+  double upperOfPair(const Hull& hull, const fcl::Transform3d& pose, std::size_t obstacle) const;
+  Bounds ask(const Pair& pair, const fcl::Transform3d& pose,
+             const ProbabilityRequest& request) const;
+
+  const RobotQuery& query_;
+  std::vector<Hull> bodies_;
+  std::vector<Hull> obstacles_;
+  std::vector<GaussianDisplacement> displacements_;  ///< of the bodies relative to each obstacle
+  std::vector<PreparedQuery> queries_;               ///< by body, and for each by obstacle
+
+  /// All have bounded hulls, and all displacements are Gaussian.
+  bool is_usable_ = true;
+};
+
+}  // namespace fcl_prob::detail

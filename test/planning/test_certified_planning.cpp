@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Plans for the shipped arm, counted by displaced fcl::collide.
+#include "fcl_prob/certified_planning.h"
+
+#include <fcl/narrowphase/collision.h>
+
+#include <random>
+
+#include "catch.h"
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/robot_scene.h"
+#include "planning/state_screen.h"
+#include "temporary_folder.h"
+
+using namespace fcl_prob;
+
+namespace {
+
+struct PlanScene {
+  RobotScene scene = loadRobotScene(std::string(FCL_PROB_SOURCE_DIR) + "/data/arm_plan.json");
+  RobotQuery query = loadRobotQuery(scene);
+  SelfCollision self = loadSelfCollision(scene, query.robot());
+  Eigen::VectorXd start = query.robot().values(scene.plan->start);
+  Eigen::VectorXd goal = query.robot().values(scene.plan->goal);
+
+  CertifiedPlanningRequest request(std::uint64_t seed) const {
+    CertifiedPlanningRequest result;
+    result.state = scene.request;
+    result.planning.joints = scene.plan->joints;
+    result.planning.largest_step = 0.1;  // half the scene's work
+    result.planning.max_states = 2'000;
+    result.planning.seed = seed;
+    return result;
+  }
+
+  CertifiedPlan plan(const CertifiedPlanningRequest& asked) const {
+    return planCertified(query, self, start, goal, asked);
+  }
+};
+
+bool touchesDisplaced(const Robot& robot, const std::vector<fcl::Transform3d>& poses,
+                      const Obstacle& obstacle, const Eigen::Vector3d& moved) {
+  fcl::Transform3d pose = obstacle.pose;
+  pose.translation() += moved;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    fcl::CollisionResultd result;
+    if (fcl::collide(robot.bodies()[i].geometry.get(), poses[i], obstacle.geometry.get(), pose,
+                     fcl::CollisionRequestd(), result) > 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// How often each state is hit, and how often any is, in so many draws of all obstacles' errors.
+struct Counted {
+  std::vector<int> by_state;
+  int any = 0;
+};
+
+Counted countHits(const RobotQuery& query, const std::vector<Eigen::VectorXd>& states, int draws) {
+  std::vector<std::vector<fcl::Transform3d>> poses;
+  for (const Eigen::VectorXd& values : states) poses.push_back(query.robot().poses(values));
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal;
+  Counted counted{std::vector<int>(states.size(), 0)};
+  for (int draw = 0; draw < draws; ++draw) {
+    std::vector<bool> hit(states.size(), false);
+    for (const Obstacle& obstacle : query.obstacles()) {
+      const auto& displacement = std::get<GaussianDisplacement>(obstacle.displacement);
+      Eigen::Vector3d y;
+      for (int k = 0; k < 3; ++k) y[k] = normal(random) * displacement.standardDeviations()[k];
+      const Eigen::Vector3d moved = displacement.mean() + displacement.axes() * y;
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        if (!hit[i]) hit[i] = touchesDisplaced(query.robot(), poses[i], obstacle, moved);
+      }
+    }
+    for (std::size_t i = 0; i < states.size(); ++i) counted.by_state[i] += hit[i];
+    counted.any += std::find(hit.begin(), hit.end(), true) != hit.end();
+  }
+  return counted;
+}
+
+}  // namespace
+
+TEST_CASE("a certified plan stays below its threshold, counted at every state") {
+  const PlanScene scene;
+  const CertifiedPlan plan = scene.plan(scene.request(1));
+  REQUIRE(plan.path.status == PlanningStatus::solved);
+  CHECK(plan.state_threshold == 0.05);
+  CHECK(plan.path.length < plan.path.planned_length);
+  CHECK(plan.largest.upper <= 0.05);
+  CHECK(plan.motion.upper >= plan.largest.lower);
+  const auto states = interpolated(plan.path.waypoints, scene.request(1).planning.largest_step);
+  REQUIRE(plan.likeliest < states.size());
+  constexpr int kDraws = 1'000;
+  const Counted counted = countHits(scene.query, states, kDraws);
+  const auto error = [](double p) { return 5.0 * std::sqrt(p / kDraws) + 5.0 / kDraws; };
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    CHECK_FALSE(scene.self.collides(states[i]));
+    const double share = counted.by_state[i] / static_cast<double>(kDraws);
+    CHECK(share <= plan.largest.upper + error(plan.largest.upper));
+  }
+  const double of_likeliest = counted.by_state[plan.likeliest] / static_cast<double>(kDraws);
+  CHECK(of_likeliest >= plan.largest.lower - error(plan.largest.upper));
+  const double any = counted.any / static_cast<double>(kDraws);
+  CHECK(any <= plan.motion.upper + error(plan.motion.upper));
+  CHECK(any >= plan.motion.lower - error(plan.motion.upper));
+  // Straight ahead the can would meet the pillar.
+  CHECK(countHits(scene.query, interpolated({scene.start, scene.goal}, 0.1), 20).any == 20);
+}
+
+TEST_CASE("certified plans repeat for a seed") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(2);
+  request.planning.max_states = 700;  // ends amidst the shortening
+  const CertifiedPlan plan = scene.plan(request), again = scene.plan(request);
+  REQUIRE(plan.path.status == PlanningStatus::solved);
+  CHECK(again.path.waypoints == plan.path.waypoints);
+  CHECK(again.largest.upper == plan.largest.upper);
+  CHECK(again.motion.lower == plan.motion.lower);
+}
+
+TEST_CASE("the screen of states lets none pass that is not below the threshold") {
+  const PlanScene scene;
+  const detail::StateScreen screen(scene.query);
+  const auto& joints = scene.query.robot().joints();
+  std::mt19937_64 random(6);
+  int passed = 0, refused = 0, decided_by_pairs = 0;
+  for (int i = 0; i < 300; ++i) {
+    Eigen::VectorXd values = scene.start;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      values[static_cast<Eigen::Index>(j)] = std::uniform_real_distribution<double>(
+          std::max(joints[j].lower, -1.5), std::min(joints[j].upper, 1.5))(random);
+    }
+    const bool below = screen.isBelow(values, 0.05);
+    passed += below;
+    refused += !below;
+    if (!below && refused > 20) continue;
+    CAPTURE(values.transpose());
+    const Decision decision = scene.query.state(values, scene.request(1).state).decision;
+    if (below) CHECK(decision == Decision::below);
+    const Decision by_pairs = screen.decide(values, scene.request(1).state);
+    if (below) CHECK(by_pairs == Decision::below);
+    if (by_pairs != Decision::undecided) CHECK(by_pairs == decision);
+    decided_by_pairs += !below && by_pairs != Decision::undecided;
+    CHECK_FALSE((below && screen.isBelow(values, 0.0)));
+  }
+  CHECK(passed > 100);
+  CHECK(refused > 10);
+  CHECK(decided_by_pairs > 5);
+}
+
+TEST_CASE("a whole motion stays below a threshold of its own, or there is no plan") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(1);
+  request.planning.shorten = false;
+  request.planning.max_states = 4'000;
+  const double without = scene.plan(request).motion.upper;
+  request.motion_threshold = 0.8 * without;
+  const CertifiedPlan plan = scene.plan(request);
+  REQUIRE(plan.path.status == PlanningStatus::solved);
+  CHECK(plan.motion.upper < 0.8 * without);
+  CHECK(plan.state_threshold < 0.05);
+  CHECK(plan.largest.upper <= plan.state_threshold);
+  request.motion_threshold = 1e-12;
+  request.planning.max_states = 400;
+  const CertifiedPlan none = scene.plan(request);
+  CHECK(none.path.status != PlanningStatus::solved);
+  CHECK(none.path.waypoints.empty());
+}
+
+TEST_CASE("certified plans refuse what makes no sense") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(1);
+  request.state.threshold.reset();
+  CHECK_THROWS_AS(scene.plan(request), InvalidRequest);
+  request = scene.request(1);
+  request.motion_threshold = 0.0;
+  CHECK_THROWS_AS(scene.plan(request), InvalidRequest);
+  request = scene.request(1);
+  const fcl_prob_test::TemporaryFolder folder;
+  const SelfCollision other(
+      Robot(folder.write("ball.urdf",
+                         "<robot name=\"ball\"><link name=\"a\"><collision><geometry><sphere "
+                         "radius=\"1\"/></geometry></collision></link></robot>")));
+  CHECK_THROWS_AS(planCertified(scene.query, other, scene.start, scene.goal, request),
+                  InvalidRequest);
+  // A start that collides with itself: closed fingers may, a hand through the base may not.
+  const Eigen::VectorXd folded =
+      scene.query.robot().values({{"shoulder", 1.2}, {"elbow", 2.4}, {"grip", 0.035}});
+  REQUIRE(scene.self.collides(folded));
+  CHECK(planCertified(scene.query, scene.self, folded, scene.goal, request).path.status ==
+        PlanningStatus::start_refused);
+}
