@@ -2,16 +2,20 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "planning/state_screen.h"
 
+#include <fcl/narrowphase/collision.h>
+
 #include <algorithm>
 #include <functional>
 #include <limits>
 
 #include "cobstacle/convex_body_data.h"
 #include "cobstacle/nearest.h"
+#include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/constants.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
+#include "montecarlo/random_samples.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -21,6 +25,15 @@ constexpr double kMassRounding = 1e-9;
 
 /// Of the threshold: a bound by balls that is smaller is not looked at more closely.
 constexpr double kNegligible = 1e-4;
+
+/// Displacements that are drawn of each obstacle. With P at a threshold of 5 % a state is taken for
+/// hardly below it once in a thousand times.
+constexpr int kDraws = 160;
+
+/// A state is hardly below the threshold where draws hit this many times as often, and so many
+/// more.
+constexpr double kTimesAsOften = 1.6;
+constexpr double kMoreHits = 5.0;
 
 /// Of the threshold: how well P of a pair is to be known, to be added up.
 constexpr double kShareOfPair = 0.05;
@@ -49,6 +62,7 @@ StateScreen::StateScreen(const RobotQuery& query) : query_(query) {
     if (gaussian != nullptr) displacements_.push_back(gaussian->reversed());
   }
   if (!is_usable_) return;
+  for (std::size_t j = 0; j < query.obstacles().size(); ++j) draw(query.obstacles()[j], j);
   for (const RobotBody& body : query.robot().bodies()) {
     for (const Obstacle& obstacle : query.obstacles()) {
       queries_.emplace_back(body.geometry, obstacle.geometry);
@@ -65,6 +79,47 @@ void StateScreen::add(const std::shared_ptr<const fcl::CollisionGeometryd>& geom
   }
   const bool is_mesh = kindOf(*geometry) == GeometryKind::mesh;
   to.push_back({is_mesh ? hullOfMesh(*geometry) : prepared.rootBody(), ballAround(prepared)});
+}
+
+void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
+  const auto& gaussian = std::get<GaussianDisplacement>(obstacle.displacement);
+  const Eigen::Matrix3d factor = gaussian.axes() * gaussian.standardDeviations().asDiagonal();
+  std::vector<Eigen::Vector3d> moved;
+  for (std::uint64_t i = 0; i < kDraws; ++i) {
+    const Eigen::Vector3d normal = standardNormalFrom(randomWords({kDraws, stream}, i));
+    moved.push_back(gaussian.mean() + factor * normal);
+  }
+  moved_.push_back(std::move(moved));
+}
+
+bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold) const {
+  if (!is_usable_) return false;
+  const std::vector<fcl::Transform3d> poses = query_.robot().poses(values);
+  const auto near =
+      pairsBelow(poses, kNegligible * threshold, std::numeric_limits<double>::infinity());
+  const double enough = kTimesAsOften * threshold * kDraws + kMoreHits;
+  const auto isHit = [&](std::size_t draw) {
+    for (const Pair& pair : *near) {
+      if (pair.upper < kShareOfPair * threshold) continue;
+      const Obstacle& obstacle = query_.obstacles()[pair.obstacle];
+      const auto& body = query_.robot().bodies()[pair.body].geometry;
+      if (!fclSupportsPair(*body, *obstacle.geometry)) continue;
+      fcl::Transform3d moved = obstacle.pose;
+      moved.translation() += moved_[pair.obstacle][draw];
+      fcl::CollisionResultd result;
+      if (fcl::collide(body.get(), poses[pair.body], obstacle.geometry.get(), moved,
+                       fcl::CollisionRequestd(), result) > 0) {
+        return true;
+      }
+    }
+    return false;
+  };
+  int hits = 0;
+  for (int i = 0; i < kDraws && hits + (kDraws - i) >= enough; ++i) {
+    hits += isHit(static_cast<std::size_t>(i));
+    if (hits >= enough) return true;
+  }
+  return false;
 }
 
 double StateScreen::upperOfPair(const Hull& hull, const fcl::Transform3d& pose,

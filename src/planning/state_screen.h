@@ -24,6 +24,11 @@ class StateScreen {
   /// \param values  valid ones
   bool isBelow(const Eigen::VectorXd& values, double threshold) const;
 
+  /// Whether so many of a few displaced obstacles are touched that P is hardly below `threshold`:
+  /// no proof, but where only what is below is wanted a proof of the opposite is not needed. The
+  /// same displacements every time. \param values  valid ones
+  bool isHardlyBelow(const Eigen::VectorXd& values, double threshold) const;
+
   /// Whether P is certainly below the threshold of the request, or certainly above since that of a
   /// single pair is; undecided: the sum over the pairs does not tell.
   /// \param values  valid ones
@@ -47,6 +52,7 @@ class StateScreen {
   /// All of them, by half-spaces; nothing once their sum is not below `enough`.
   std::optional<std::vector<Pair>> pairsBelow(const std::vector<fcl::Transform3d>& poses,
                                               double negligible, double enough) const;
+  void draw(const Obstacle& obstacle, std::uint64_t stream);
   double upperOfPair(const Hull& hull, const fcl::Transform3d& pose, std::size_t obstacle) const;
   Bounds ask(const Pair& pair, const fcl::Transform3d& pose,
              const ProbabilityRequest& request) const;
@@ -56,6 +62,8 @@ class StateScreen {
   std::vector<Hull> obstacles_;
   std::vector<GaussianDisplacement> displacements_;  ///< of the bodies relative to each obstacle
   std::vector<PreparedQuery> queries_;               ///< by body, and for each by obstacle
+
+  std::vector<std::vector<Eigen::Vector3d>> moved_;  ///< draws of every obstacle's displacement
 
   /// All have bounded hulls, and all displacements are Gaussian.
   bool is_usable_ = true;

@@ -127,7 +127,7 @@ TEST_CASE("the screen of states lets none pass that is not below the threshold")
   const detail::StateScreen screen(scene.query);
   const auto& joints = scene.query.robot().joints();
   std::mt19937_64 random(6);
-  int passed = 0, refused = 0, decided_by_pairs = 0;
+  int passed = 0, refused = 0, decided_by_pairs = 0, hardly_below = 0;
   for (int i = 0; i < 300; ++i) {
     Eigen::VectorXd values = scene.start;
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -144,12 +144,15 @@ TEST_CASE("the screen of states lets none pass that is not below the threshold")
     const Decision by_pairs = screen.decide(values, scene.request(1).state);
     if (below) CHECK(by_pairs == Decision::below);
     if (by_pairs != Decision::undecided) CHECK(by_pairs == decision);
+    if (decision == Decision::below) CHECK_FALSE(screen.isHardlyBelow(values, 0.05));
+    hardly_below += screen.isHardlyBelow(values, 0.05);
     decided_by_pairs += !below && by_pairs != Decision::undecided;
     CHECK_FALSE((below && screen.isBelow(values, 0.0)));
   }
   CHECK(passed > 100);
   CHECK(refused > 10);
   CHECK(decided_by_pairs > 5);
+  CHECK(hardly_below > 5);
 }
 
 TEST_CASE("a whole motion stays below a threshold of its own, or there is no plan") {
