@@ -18,7 +18,7 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
   std::size_t cases = 50;    ///< stability: scenes of each family
-  bool quick = false;        ///< parts: a few scenes only
+  bool quick = false;        ///< parts, table2: a few scenes or seeds only
 };
 
 /// A table for people and the same numbers, unrounded, for programs.
@@ -52,5 +52,8 @@ BenchReport benchPose(const BenchOptions& options, const BenchProgress& progress
 BenchReport benchRobot(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
+#ifdef FCL_PROB_HAS_PLANNING
+BenchReport benchTable2(const BenchOptions& options, const BenchProgress& progress);
+#endif
 
 }  // namespace fcl_prob::cli
