@@ -56,8 +56,8 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
 }
 
 // What a state does not say is as it is for the whole motion.
-std::vector<ObstacleState> readStates(StrictObject& object,
-                                      const RobotScene::PlacedObstacle& obstacle) {
+std::vector<ObstacleState> readStatesOverTime(StrictObject& object,
+                                              const RobotScene::PlacedObstacle& obstacle) {
   std::vector<ObstacleState> states;
   for (StrictObject& entry : object.objects("over_time")) {
     ObstacleState state{obstacle.object.pose, obstacle.displacement};
@@ -83,7 +83,7 @@ RobotScene::PlacedObstacle readObstacle(StrictObject object, const std::filesyst
   obstacle.name = object.text("name");
   obstacle.object = detail::readShapeAndPose(object, folder);
   obstacle.displacement = detail::readDisplacement(object.object("displacement"));
-  if (object.has("over_time")) obstacle.over_time = readStates(object, obstacle);
+  if (object.has("over_time")) obstacle.over_time = readStatesOverTime(object, obstacle);
   object.finish();
   return obstacle;
 }
