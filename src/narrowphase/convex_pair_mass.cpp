@@ -11,6 +11,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "narrowphase/ball_pair.h"
 #include "narrowphase/pair_bounds.h"
+#include "narrowphase/rounded_pair.h"
 
 namespace fcl_prob {
 namespace {
@@ -54,6 +55,11 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   Bounds known{0.0, 1.0};
   if (const auto ball = ballOfPair(a, pose_a, b, pose_b, displacement)) {
     known = ballMass(*ball, displacement);
+    if (known.width() <= kSandwichWidth * known.upper) return known;
+  }
+  if (frame.rank == 3 && isRoundedPair(a, b)) {
+    const RoundedEffort effort{false, interruption};
+    known = intersection(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
     if (known.width() <= kSandwichWidth * known.upper) return known;
   }
   using Faces = ConvexSetObstacle::Faces;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "gaussian/part_rules.h"
+
+#include <utility>
+
+namespace fcl_prob::detail {
+namespace {
+
+template <unsigned kPoints>
+PartRule makePartRule() {
+  PartRule rule;
+  forEachGaussNode<kPoints>(0.0, 1.0, [&](double x, double weight) {
+    rule.nodes.push_back(x);
+    rule.weights.push_back(weight);
+  });
+  return rule;
+}
+
+template <unsigned... kPoints>
+std::array<PartRule, kMostPartPoints + 1> makePartRules(
+    std::integer_sequence<unsigned, kPoints...>) {
+  return {PartRule{}, PartRule{{0.0}, {2.0}}, makePartRule<kPoints + 2>()...};
+}
+
+}  // namespace
+
+const PartRule& partRule(double points) {
+  static const auto rules =
+      makePartRules(std::make_integer_sequence<unsigned, kMostPartPoints - 1>());
+  return rules[static_cast<std::size_t>(points)];
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Products of Gauss-Legendre rules over boxes of a solid part, and how many points they need.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "gaussian/constants.h"
+#include "gaussian/density_kernels.h"
+#include "gaussian/gauss_legendre.h"
+#include "gaussian/normal_density.h"
+#include "gaussian/solid_part.h"
+
+namespace fcl_prob::detail {
+
+inline constexpr unsigned kMostPartPoints = 20;
+inline constexpr double kDensityScale = kInverseSqrtTwoPi * kInverseSqrtTwoPi * kInverseSqrtTwoPi;
+
+/// Of bounds, for the rounding of what they are made of.
+inline constexpr double kBoundSlack = 1.0 + 1e-9;
+
+/// A rule on [-1, 1].
+struct PartRule {
+  std::vector<double> nodes, weights;
+};
+
+/// The rule of n points, n up to kMostPartPoints.
+const PartRule& partRule(double points);
+
+inline double supremumOf(const PartBound& bound) {
+  const double distance = std::max(bound.distance, 0.0);
+  return bound.weight * std::exp(0.5 * (bound.growth - distance * distance));
+}
+
+inline double volumeOf(const ParameterBox& box) {
+  return 8.0 * box.half[0] * box.half[1] * box.half[2];
+}
+
+inline double scaleOf(const SolidPart& part) {
+  return kDensityScale * (std::abs(part.factor) + part.factor_error);
+}
+
+/// The nearest to the origin of a few points of a part, and how far others are from their middle.
+struct NearPoint {
+  Eigen::Vector3d point;
+  double spread;
+};
+
+template <class Part>
+NearPoint nearPoint(const Part& part, const ParameterBox& box) {
+  const double from = box.centre[2] - box.half[2], to = box.centre[2] + box.half[2];
+  const auto nearest = [&](double first, double second) -> Eigen::Vector3d {
+    const PartLine line =
+        part.lineAt(box.centre[0] + first * box.half[0], box.centre[1] + second * box.half[1]);
+    const double rho =
+        std::clamp(-line.point.dot(line.direction) / line.direction.squaredNorm(), from, to);
+    return line.point + rho * line.direction;
+  };
+  const Eigen::Vector3d middle = nearest(0.0, 0.0);
+  NearPoint near{middle, 0.0};
+  for (const double first : {-1.0, 1.0}) {
+    for (const double second : {-1.0, 1.0}) {
+      const Eigen::Vector3d y = nearest(first, second);
+      near.spread = std::max(near.spread, (y - middle).squaredNorm());
+      if (y.squaredNorm() < near.point.squaredNorm()) near.point = y;
+    }
+  }
+  near.spread = std::sqrt(near.spread);
+  return near;
+}
+
+inline Eigen::Vector3d directionOf(const Eigen::Vector3d& y) {
+  const double length = y.norm();
+  return length > 0.0 ? Eigen::Vector3d(y / length) : Eigen::Vector3d::Zero();
+}
+
+/// ρ of the Bernstein ellipses that are tried.
+inline constexpr std::array<double, 11> kEllipses{1.6, 2.1,  2.7,  3.4,  4.3, 5.5,
+                                                  7.5, 11.0, 17.0, 30.0, 70.0};
+
+/// A rule for one parameter: how many points, and the error that its bound leaves.
+struct ParameterRule {
+  double points = kInfinity, error = kInfinity, moment_error = kInfinity;
+};
+
+/// Which rules a box takes; errors are those of the integral without its factor.
+struct PartPlan {
+  std::array<double, 3> points{};
+  double error = 0.0, moment_error = 0.0;
+
+  std::size_t worst() const {
+    return static_cast<std::size_t>(std::max_element(points.begin(), points.end()) -
+                                    points.begin());
+  }
+  bool exists() const { return points[worst()] <= kMostPartPoints; }
+};
+
+/// The fewest points with which the bound is `target`.
+template <class Cell>
+ParameterRule fewestPoints(const Cell& cell, const ParameterBox& box, std::size_t k,
+                           double target) {
+  ParameterRule best;
+  for (const double rho : kEllipses) {
+    const BernsteinEllipse ellipse(box.half[k], rho);
+    const PartBound bound =
+        cell.bound(ComplexBox(box, static_cast<int>(k), ellipse.real_axis, ellipse.imaginary_axis));
+    const double largest =
+        gaussErrorBound(0, 0.5 * volumeOf(box), rho, supremumOf(bound)) * kBoundSlack;
+    // Wider ellipses only get worse.
+    if (!(largest < kInfinity)) break;
+    const double points =
+        std::max(1.0, std::ceil(std::log(largest / target) / (2.0 * std::log(rho))));
+    if (points < best.points) {
+      best.points = points;
+      best.error = largest * std::pow(rho, -2.0 * points);
+      best.moment_error = best.error * bound.reach;
+    }
+    if (points > 4.0 * best.points) break;
+  }
+  return best;
+}
+
+template <class Cell>
+PartPlan planBox(const Cell& cell, const ParameterBox& box, double target) {
+  PartPlan plan;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ParameterRule rule = fewestPoints(cell, box, k, target);
+    plan.points[k] = rule.points;
+    plan.error += rule.error;
+    plan.moment_error += rule.moment_error;
+  }
+  return plan;
+}
+
+/// A box cut in two across what asks for the most points or, where nothing is known of several,
+/// across the longest of those.
+inline std::array<ParameterBox, 2> halves(const ParameterBox& box, const PartPlan& plan) {
+  std::size_t worst = plan.worst();
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (plan.points[k] == kInfinity && box.half[k] > box.half[worst]) worst = k;
+  }
+  ParameterBox half = box;
+  half.half[worst] *= 0.5;
+  std::array<ParameterBox, 2> both{half, half};
+  both[0].centre[worst] = box.centre[worst] - half.half[worst];
+  both[1].centre[worst] = box.centre[worst] + half.half[worst];
+  return both;
+}
+
+/// What the rules make of a box, without the factor.
+struct PartTerms {
+  double sum = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double farthest_square = 0.0;  ///< of the nodes
+};
+
+template <class Part>
+PartTerms evaluateBox(const Part& part, const ParameterBox& box, const PartPlan& plan) {
+  const PartRule& first = partRule(plan.points[0]);
+  const PartRule& second = partRule(plan.points[1]);
+  const PartRule& third = partRule(plan.points[2]);
+  // What is beyond the rule's points, to a multiple of four, has no weight.
+  std::array<double, kMostPartPoints> rho{}, weight{};
+  rho.fill(box.centre[2]);
+  for (std::size_t k = 0; k < third.nodes.size(); ++k) {
+    rho[k] = box.centre[2] + box.half[2] * third.nodes[k];
+    weight[k] = box.half[2] * third.weights[k];
+    for (int power = 0; power < Part::kPowerOfDistance; ++power) weight[k] *= rho[k];
+  }
+  const DensityKernel kernel = densityKernel();
+  const int count = static_cast<int>((third.nodes.size() + 3) / 4 * 4);
+  PartTerms terms;
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+    for (std::size_t j = 0; j < second.nodes.size(); ++j) {
+      const PartLine line = part.lineAt(box.centre[0] + box.half[0] * first.nodes[i],
+                                        box.centre[1] + box.half[1] * second.nodes[j]);
+      const DensitySums sums =
+          kernel(line.point.data(), line.direction.data(), rho.data(), weight.data(), count);
+      const double outer =
+          box.half[0] * first.weights[i] * box.half[1] * second.weights[j] * line.weight;
+      terms.sum += outer * sums.sum;
+      terms.moment += outer * (sums.sum * line.point + sums.sum_of_rho * line.direction);
+      terms.farthest_square = std::max(terms.farthest_square, sums.farthest_square);
+    }
+  }
+  return terms;
+}
+
+}  // namespace fcl_prob::detail

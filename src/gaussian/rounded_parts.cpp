@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "gaussian/rounded_parts.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gaussian/constants.h"
+#include "gaussian/directed_edges.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// A wedge or a sector does not reach over more than about 106 degrees: this is the cosine.
+constexpr double kWidestArc = -0.28;
+constexpr double kWidestFan = -0.05;
+
+/// Cosine between the middle of a sector's corners and each of them, at least: its inverse is how
+/// much more than the corners' a defect can be in between.
+constexpr double kNarrowestMiddle = 1.0 / 3.0;
+
+/// The same of sectors that few points integrate; others are divided.
+constexpr double kNarrowSector = 0.8;
+
+/// Parallelograms are told from other faces by what rounding leaves of four corners.
+constexpr double kFourRoundings = 8.0 * kEpsilon;
+
+/// More than this of the core's size is no rounding: another normal may be better.
+constexpr double kGoodDefect = 64.0 * kEpsilon;
+
+/// From n₁ to n₂ across an edge; n₁ is that of the face that walks it from `from` to `to`.
+struct NormalArc {
+  int from, to;
+  Vector first, second;
+};
+
+class RoundedPartsBuilder {
+ public:
+  RoundedPartsBuilder(const ConvexPolytope& core, const LongVector3& origin,
+                      const LongMatrix3& whitening)
+      : core_(core),
+        origin_(origin),
+        whitening_(whitening),
+        stretch_(static_cast<double>(whitening.norm()) * (1.0 + kEpsilon)),
+        volume_(static_cast<double>(std::abs(whitening.determinant()))) {
+    for (const Vector& v : core.vertices) size_ = std::max(size_, (v - core.vertices[0]).norm());
+  }
+
+  std::optional<RoundedParts> build() {
+    const std::size_t count = core_.vertices.size();
+    if (count == 1) {
+      addPoint();
+    } else if (core_.faces.empty()) {
+      if (count != 2) return std::nullopt;
+      addSegment();
+    } else {
+      if (!findArcs()) return std::nullopt;
+      for (std::size_t f = 0; f < core_.faces.size(); ++f) {
+        // The two sides of a polygon must not leave a gap between them.
+        if (f == 1 && core_.faces.size() == 2)
+          addOtherSide();
+        else
+          addFace(f);
+      }
+      for (const NormalArc& arc : arcs_) addWedge(arc);
+      if (!addCorners()) return std::nullopt;
+    }
+    parts_.defect = worst_ / kNarrowestMiddle + kFourRoundings * size_;
+    parts_.stretch = stretch_;
+    if (!std::isfinite(parts_.defect) || !is_fit_) return std::nullopt;
+    return std::move(parts_);
+  }
+
+ private:
+  const Vector& at(int vertex) const { return core_.vertices[static_cast<std::size_t>(vertex)]; }
+
+  /// How far the core reaches beyond the plane through a point.
+  double defectOf(const Vector& normal, const Vector& point) const {
+    double most = 0.0;
+    for (const Vector& v : core_.vertices) most = std::max(most, normal.dot(v - point));
+    return most;
+  }
+  double defectOf(const Vector& normal, const ConvexPolytope::Face& face) const {
+    double lowest = 0.0;
+    const Vector& origin = at(face.vertices[0]);
+    for (const int corner : face.vertices) {
+      lowest = std::min(lowest, normal.dot(at(corner) - origin));
+    }
+    return defectOf(normal, origin) - lowest;
+  }
+
+  void addPoint() {
+    for (int signs = 0; signs < 8; ++signs) {
+      std::array<Vector, 3> n;
+      for (int k = 0; k < 3; ++k) {
+        n[static_cast<std::size_t>(k)] = ((signs >> k) & 1 ? 1.0 : -1.0) * Vector::Unit(k);
+      }
+      const bool even = n[0].cross(n[1]).dot(n[2]) > 0.0;
+      addSector(0, n[0], even ? n[1] : n[2], even ? n[2] : n[1]);
+    }
+  }
+
+  void addSegment() {
+    const Vector along = (at(1) - at(0)).stableNormalized();
+    const Vector u = along.unitOrthogonal(), v = along.cross(u);
+    const std::array<Vector, 4> around{u, v, Vector(-u), Vector(-v)};
+    for (const Vector& n : around) {
+      worst_ = std::max(worst_, std::abs(n.dot(at(1) - at(0))));
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector &first = around[k], &second = around[(k + 1) % 4];
+      addWedge({0, 1, first, second});
+      addSector(1, along, first, second);
+      addSector(0, -along, second, first);
+    }
+  }
+
+  /// Normals of the faces, where theirs are rounding those of neighbours, and the arcs between
+  /// them.
+  bool findArcs() {
+    std::vector<DirectedEdge> walked;
+    for (std::size_t f = 0; f < core_.faces.size(); ++f) {
+      const std::vector<int>& corners = core_.faces[f].vertices;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        walked.push_back({corners[k], corners[(k + 1) % corners.size()], static_cast<int>(f)});
+      }
+    }
+    const EdgePairing pairing = pairEdges(std::move(walked));
+    if (pairing.fault) return false;
+    findNormals(pairing.matches);
+    for (const EdgeMatch& match : pairing.matches) {
+      const auto left = static_cast<std::size_t>(match.forward.polygon);
+      const auto right = static_cast<std::size_t>(match.backward.polygon);
+      addArc({match.forward.from, match.forward.to, parts_.normals[left], parts_.normals[right]});
+    }
+    return true;
+  }
+
+  void findNormals(const std::vector<EdgeMatch>& matches) {
+    std::vector<double> defects;
+    for (const ConvexPolytope::Face& face : core_.faces) {
+      parts_.normals.push_back(face.normal);
+      defects.push_back(defectOf(face.normal, face));
+    }
+    const auto improve = [&](int face, int neighbour) {
+      const auto f = static_cast<std::size_t>(face), g = static_cast<std::size_t>(neighbour);
+      if (defects[f] <= kGoodDefect * size_) return;
+      const double other = defectOf(parts_.normals[g], core_.faces[f]);
+      if (!(other < defects[f])) return;
+      defects[f] = other;
+      parts_.normals[f] = parts_.normals[g];
+    };
+    for (const EdgeMatch& match : matches) {
+      improve(match.forward.polygon, match.backward.polygon);
+      improve(match.backward.polygon, match.forward.polygon);
+    }
+    for (const double defect : defects) worst_ = std::max(worst_, defect);
+  }
+
+  void addArc(const NormalArc& arc) {
+    if (arc.first.dot(arc.second) >= kWidestArc) {
+      arcs_.push_back(arc);
+      return;
+    }
+    const Vector along = at(arc.to) - at(arc.from);
+    const Vector middle =
+        (along.cross(arc.first).stableNormalized() + arc.second.cross(along).stableNormalized())
+            .stableNormalized();
+    worst_ = std::max({worst_, defectOf(middle, at(arc.from)), defectOf(middle, at(arc.to))});
+    is_fit_ =
+        is_fit_ && middle.dot(arc.first) >= kWidestArc && middle.dot(arc.second) >= kWidestArc;
+    arcs_.push_back({arc.from, arc.to, arc.first, middle});
+    arcs_.push_back({arc.from, arc.to, middle, arc.second});
+  }
+
+  void addFace(std::size_t f) {
+    const std::vector<int>& corners = core_.faces[f].vertices;
+    const Vector& v = at(corners[0]);
+    const auto edge = [&](std::size_t k) -> Vector { return at(corners[k]) - v; };
+    if (corners.size() == 4 &&
+        (edge(1) - edge(2) + edge(3)).cwiseAbs().maxCoeff() <= kFourRoundings * size_) {
+      addPrism(f, edge(1), edge(3), false);
+      return;
+    }
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+      addPrism(f, edge(k), at(corners[k + 1]) - at(corners[k]), true);
+    }
+  }
+
+  Vector image(const Vector& vector) const { return whitened(whitening_, vector); }
+
+  void setMap(SolidPart& part, int vertex, double determinant, double error) {
+    part.corner = whitened(whitening_, at(vertex), origin_);
+    part.factor = volume_ * determinant;
+    part.factor_error = volume_ * (error + 16.0 * kEpsilon * std::abs(determinant));
+  }
+
+  void addPrism(std::size_t f, const Vector& first, const Vector& second, bool triangle) {
+    Prism part;
+    setMap(part, core_.faces[f].vertices[0], first.cross(second).dot(parts_.normals[f]),
+           8.0 * kEpsilon * first.norm() * second.norm());
+    part.first = image(first);
+    part.second = image(second);
+    part.along = image(parts_.normals[f]);
+    part.triangle = triangle;
+    part.position_error =
+        8.0 * kEpsilon * (part.corner.norm() + part.first.norm() + part.second.norm());
+    parts_.parts.emplace_back(part);
+  }
+
+  void addOtherSide() {
+    const std::size_t count = parts_.parts.size();
+    const Vector along = image(parts_.normals[1]);
+    for (std::size_t k = 0; k < count; ++k) {
+      Prism part = std::get<Prism>(parts_.parts[k]);
+      part.factor *= -parts_.normals[0].dot(parts_.normals[1]);
+      part.along = along;
+      parts_.parts.emplace_back(part);
+    }
+  }
+
+  void addWedge(const NormalArc& arc) {
+    const Vector step = arc.second - arc.first;
+    const double chord = step.norm();
+    if (!(chord > 0.0)) return;
+    const Vector& p = arc.first;
+    // For close normals the difference is exact.
+    const Vector q = (step - p * p.dot(step)).normalized();
+    const Vector edge = at(arc.to) - at(arc.from);
+    Wedge part;
+    setMap(part, arc.from, edge.dot(p.cross(q)), edge.norm() * kEpsilon * (16.0 + 8.0 / chord));
+    part.edge = image(edge);
+    part.p = image(p);
+    part.q = image(q);
+    part.angle = chord < 1.0 ? 2.0 * std::asin(0.5 * chord)
+                             : std::atan2(q.dot(arc.second), p.dot(arc.second));
+    part.position_error = 8.0 * kEpsilon * (part.corner.norm() + part.edge.norm());
+    parts_.parts.emplace_back(part);
+  }
+
+  /// At every corner a fan of sectors over its arcs, from one of its normals or from their middle.
+  bool addCorners() {
+    std::vector<std::vector<const NormalArc*>> around(core_.vertices.size());
+    for (const NormalArc& arc : arcs_) {
+      around[static_cast<std::size_t>(arc.from)].push_back(&arc);
+      around[static_cast<std::size_t>(arc.to)].push_back(&arc);
+    }
+    for (std::size_t v = 0; v < around.size(); ++v) {
+      const int vertex = static_cast<int>(v);
+      if (around[v].empty()) continue;
+      const std::optional<Vector> apex = apexOf(vertex, around[v]);
+      if (!apex) return false;
+      for (const NormalArc* arc : around[v]) {
+        if (arc->to == vertex) addSector(vertex, *apex, arc->first, arc->second);
+        if (arc->from == vertex) addSector(vertex, *apex, arc->second, arc->first);
+      }
+    }
+    return true;
+  }
+
+  std::optional<Vector> apexOf(int vertex, const std::vector<const NormalArc*>& around) {
+    Vector sum = Vector::Zero(), best = Vector::Zero();
+    double best_worst = -2.0;
+    for (const NormalArc* candidate : around) {
+      sum += candidate->first + candidate->second;
+      for (const Vector& normal : {candidate->first, candidate->second}) {
+        double worst = 1.0;
+        for (const NormalArc* arc : around) {
+          worst = std::min({worst, normal.dot(arc->first), normal.dot(arc->second)});
+        }
+        if (worst > best_worst) {
+          best_worst = worst;
+          best = normal;
+        }
+      }
+    }
+    if (best_worst >= kWidestFan) return best;
+    if (!(sum.norm() > 0.0)) return std::nullopt;
+    const Vector middle = sum.normalized();
+    worst_ = std::max(worst_, defectOf(middle, at(vertex)));
+    return middle;
+  }
+
+  void addSector(int vertex, const Vector& n0, const Vector& n1, const Vector& n2) {
+    if (n0 == n1 || n1 == n2 || n2 == n0) return;
+    const Vector middle = (n0 + n1 + n2).normalized();
+    const double cosine = std::min({middle.dot(n0), middle.dot(n1), middle.dot(n2)});
+    is_fit_ = is_fit_ && cosine >= kNarrowestMiddle;
+    if (cosine < kNarrowSector && is_fit_) {
+      const Vector m01 = (n0 + n1).normalized(), m12 = (n1 + n2).normalized(),
+                   m20 = (n2 + n0).normalized();
+      addSector(vertex, n0, m01, m20);
+      addSector(vertex, n1, m12, m01);
+      addSector(vertex, n2, m20, m12);
+      addSector(vertex, m01, m12, m20);
+      return;
+    }
+    Sector part;
+    part.normals = {n0, n1 - n0, n2 - n1};
+    const Vector to_second = n2 - n0;
+    setMap(part, vertex, n0.dot(part.normals[1].cross(to_second)),
+           8.0 * kEpsilon * part.normals[1].norm() * to_second.norm());
+    for (std::size_t k = 0; k < 3; ++k) part.whitened[k] = image(part.normals[k]);
+    part.stretch = stretch_;
+    part.position_error = 8.0 * kEpsilon * part.corner.norm();
+    parts_.parts.emplace_back(part);
+  }
+
+  const ConvexPolytope& core_;
+  const LongVector3& origin_;
+  const LongMatrix3& whitening_;
+  double stretch_, volume_, size_ = 0.0;
+  std::vector<NormalArc> arcs_;
+  double worst_ = 0.0;
+  bool is_fit_ = true;
+  RoundedParts parts_;
+};
+
+}  // namespace
+
+void RoundedParts::setRadius(double radius) {
+  for (AnyPart& any : parts) {
+    std::visit(
+        [&](SolidPart& part) {
+          // The error of before was for another radius.
+          part.position_error += 8.0 * kEpsilon * stretch * (radius - part.radius);
+          part.radius = radius;
+        },
+        any);
+  }
+}
+
+std::optional<RoundedParts> roundedParts(const ConvexPolytope& core, const LongVector3& origin,
+                                         const LongMatrix3& whitening) {
+  return RoundedPartsBuilder(core, origin, whitening).build();
+}
+
+}  // namespace fcl_prob::detail
