@@ -55,7 +55,7 @@ void PartCubature::addBox(const Part& part, const ParameterBox& box, int depth) 
     part_sum_.moment_error += kFarthest * all + kTermUnderflow * volumeOf(box) * real.weight;
     return;
   }
-  const PartPlan plan = planBox(cell, box, target);
+  const PartPlan plan = planBox(cell, box, target, guess_);
   if (!plan.exists()) {
     for (const ParameterBox& half : halves(box, plan)) addBox(part, half, depth + 1);
     return;

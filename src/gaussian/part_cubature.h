@@ -4,10 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
-#include "gaussian/interruption.h"
+#include "gaussian/constants.h"
 #include "gaussian/solid_part.h"
 
 namespace fcl_prob::detail {
@@ -37,6 +38,9 @@ class PartCubature {
 
   void add(const AnyPart& part);
 
+  /// Leaves off: nothing is known of the other parts.
+  void leave() { sum_.error = sum_.moment_error = kInfinity; }
+
   const SolidSum& sum() const { return sum_; }
 
   /// Whether boxes were left because there were too many.
@@ -50,6 +54,7 @@ class PartCubature {
 
   CubatureLimits limits_;
   std::size_t cells_ = 0;
+  std::array<std::size_t, 3> guess_{5, 5, 5};  ///< of ellipses
   SolidSum part_sum_, sum_;
 };
 

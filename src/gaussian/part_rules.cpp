@@ -31,4 +31,13 @@ const PartRule& partRule(double points) {
   return rules[static_cast<std::size_t>(points)];
 }
 
+double logOfEllipse(std::size_t ellipse) {
+  static const auto logs = [] {
+    std::array<double, kEllipses.size()> result{};
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::log(kEllipses[k]);
+    return result;
+  }();
+  return logs[ellipse];
+}
+
 }  // namespace fcl_prob::detail

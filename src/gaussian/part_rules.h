@@ -27,6 +27,8 @@ struct PartRule {
   std::vector<double> nodes, weights;
 };
 
+double logOfEllipse(std::size_t ellipse);
+
 /// The rule of n points, n up to kMostPartPoints.
 const PartRule& partRule(double points);
 
@@ -81,6 +83,36 @@ inline Eigen::Vector3d directionOf(const Eigen::Vector3d& y) {
 inline constexpr std::array<double, 11> kEllipses{1.6, 2.1,  2.7,  3.4,  4.3, 5.5,
                                                   7.5, 11.0, 17.0, 30.0, 70.0};
 
+/// Which of them was best for each parameter the last time: where the next search begins.
+using EllipseGuess = std::array<std::size_t, 3>;
+
+/// Number of points with which gaussErrorBound() is `target`, and the error with them rounded up.
+struct EllipseChoice {
+  double points = kInfinity, error = kInfinity, reach = kInfinity;
+};
+
+/// \param log_target  of the error over half of the box's volume
+template <class Cell>
+EllipseChoice choiceWith(const Cell& cell, const ParameterBox& box, std::size_t k,
+                         std::size_t ellipse, double log_target) {
+  const double rho = kEllipses[ellipse];
+  const BernsteinEllipse axes(box.half[k], rho);
+  const PartBound bound =
+      cell.bound(ComplexBox(box, static_cast<int>(k), axes.real_axis, axes.imaginary_axis));
+  const double distance = std::max(bound.distance, 0.0);
+  // gaussErrorBound() but for ρ^(-2n), by logarithms, as the density may be no number.
+  const double constant = 64.0 / 15.0 / (1.0 - 1.0 / (rho * rho)) * kBoundSlack;
+  const double excess =
+      std::log(constant * bound.weight) + 0.5 * (bound.growth - distance * distance) - log_target;
+  EllipseChoice choice;
+  if (!(excess < kInfinity)) return choice;
+  const double decay = 2.0 * logOfEllipse(ellipse);
+  choice.points = std::max(1.0, std::ceil(excess / decay));
+  choice.error = std::exp(excess - decay * choice.points);  // next to the target
+  choice.reach = bound.reach;
+  return choice;
+}
+
 /// A rule for one parameter: how many points, and the error that its bound leaves.
 struct ParameterRule {
   double points = kInfinity, error = kInfinity, moment_error = kInfinity;
@@ -98,36 +130,37 @@ struct PartPlan {
   bool exists() const { return points[worst()] <= kMostPartPoints; }
 };
 
-/// The fewest points with which the bound is `target`.
+/// The fewest points with which the bound is `target`: their number falls and then grows with the
+/// ellipse; what is found on the way holds in any case.
 template <class Cell>
-ParameterRule fewestPoints(const Cell& cell, const ParameterBox& box, std::size_t k,
-                           double target) {
-  ParameterRule best;
-  for (const double rho : kEllipses) {
-    const BernsteinEllipse ellipse(box.half[k], rho);
-    const PartBound bound =
-        cell.bound(ComplexBox(box, static_cast<int>(k), ellipse.real_axis, ellipse.imaginary_axis));
-    const double largest =
-        gaussErrorBound(0, 0.5 * volumeOf(box), rho, supremumOf(bound)) * kBoundSlack;
-    // Wider ellipses only get worse.
-    if (!(largest < kInfinity)) break;
-    const double points =
-        std::max(1.0, std::ceil(std::log(largest / target) / (2.0 * std::log(rho))));
-    if (points < best.points) {
-      best.points = points;
-      best.error = largest * std::pow(rho, -2.0 * points);
-      best.moment_error = best.error * bound.reach;
-    }
-    if (points > 4.0 * best.points) break;
+ParameterRule fewestPoints(const Cell& cell, const ParameterBox& box, std::size_t k, double target,
+                           std::size_t& guess) {
+  const double log_target = std::log(target / (0.5 * volumeOf(box)));
+  std::size_t at = guess;
+  EllipseChoice best = choiceWith(cell, box, k, at, log_target);
+  const auto improve = [&](std::size_t ellipse) {
+    const EllipseChoice choice = choiceWith(cell, box, k, ellipse, log_target);
+    if (!(choice.points < best.points)) return false;
+    best = choice;
+    at = ellipse;
+    return true;
+  };
+  while (at > 0 && !(best.points < kInfinity)) {
+    if (!improve(at - 1)) --at;
   }
-  return best;
+  bool up = false;
+  while (at + 1 < kEllipses.size() && improve(at + 1)) up = true;
+  while (!up && at > 0 && improve(at - 1)) {
+  }
+  guess = at;
+  return {best.points, best.error * target, best.error * target * best.reach};
 }
 
 template <class Cell>
-PartPlan planBox(const Cell& cell, const ParameterBox& box, double target) {
+PartPlan planBox(const Cell& cell, const ParameterBox& box, double target, EllipseGuess& guess) {
   PartPlan plan;
   for (std::size_t k = 0; k < 3; ++k) {
-    const ParameterRule rule = fewestPoints(cell, box, k, target);
+    const ParameterRule rule = fewestPoints(cell, box, k, target, guess[k]);
     plan.points[k] = rule.points;
     plan.error += rule.error;
     plan.moment_error += rule.moment_error;

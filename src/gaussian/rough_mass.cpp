@@ -14,6 +14,9 @@ constexpr double kRoughPoints = 7.0;
 constexpr int kMostRoughBoxes = 3000;
 constexpr double kRoughShare = 0.1;
 
+/// Next to the density at the nearest point that was seen, if no box was small enough.
+constexpr double kRoughLeast = 1e-6;
+
 /// The boxes of parts, the heaviest first as far as a few points of each tell; in logarithms, as
 /// these may be where the density is no number.
 class RoughSum {
@@ -31,7 +34,7 @@ class RoughSum {
       queue_.pop();
       std::visit([&](const auto& part) { look(top, part); }, *top.part);
     }
-    return sum_;
+    return sum_ > 0.0 ? sum_ : kRoughLeast * std::exp(-0.5 * nearest_ * nearest_);
   }
 
  private:
@@ -48,9 +51,12 @@ class RoughSum {
     const double volume =
         scaleOf(part) * volumeOf(box) * std::pow(box.centre[2], Part::kPowerOfDistance);
     if (!(volume > 0.0)) return;
-    // No point is much farther from all of them.
+    // No point is much farther from all of them, and none is before the plane.
     const NearPoint near = nearPoint(part, box);
-    const double distance = std::max(0.0, near.point.norm() - 0.75 * near.spread);
+    const typename Part::Cell cell(part, box, directionOf(near.point));
+    const double distance = std::max(
+        {0.0, near.point.norm() - 0.75 * near.spread, cell.bound(ComplexBox(box)).distance});
+    nearest_ = std::min(nearest_, near.point.norm());
     queue_.push({std::log(volume) - 0.5 * distance * distance, &any, box});
   }
 
@@ -59,7 +65,8 @@ class RoughSum {
     const typename Part::Cell cell(part, top.box, directionOf(nearPoint(part, top.box).point));
     const double largest = supremumOf(cell.bound(ComplexBox(top.box)));
     if (!(largest > 0.0)) return;
-    const PartPlan plan = planBox(cell, top.box, kRoughTolerance * largest * volumeOf(top.box));
+    const PartPlan plan =
+        planBox(cell, top.box, kRoughTolerance * largest * volumeOf(top.box), guess_);
     if (plan.points[plan.worst()] <= kRoughPoints) {
       const double sum = evaluateBox(part, top.box, plan).sum;
       if (sum > 3.0 * plan.error) {
@@ -71,7 +78,8 @@ class RoughSum {
   }
 
   std::priority_queue<Entry> queue_;
-  double sum_ = 0.0;
+  double sum_ = 0.0, nearest_ = kInfinity;
+  EllipseGuess guess_{5, 5, 5};
 };
 
 }  // namespace

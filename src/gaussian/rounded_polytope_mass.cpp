@@ -17,14 +17,17 @@ namespace fcl_prob::detail {
 namespace {
 
 /// Of the error of all rules, next to the mass.
-constexpr double kRoundedTarget = 5e-11;
-constexpr double kRoundedEnough = 2e-10;
+constexpr double kRoundedTarget = 1e-10;
+constexpr double kRoundedEnough = 4e-10;
 constexpr int kRoundedAttempts = 3;
 constexpr std::size_t kMostRoundedFaces = 4000;
 constexpr std::size_t kMostBoxes = 8000;
 
 /// Of the mass: by how much a body may be known to grow at the most, to be computed once only.
 constexpr double kSmallGrowth = 1e-11;
+
+/// A core that weighs so much tells well enough what the whole weighs.
+constexpr double kKnownMass = 0.02;
 
 /// Where the density is less than the smallest double.
 constexpr double kOutermost = 39.0;
@@ -131,15 +134,19 @@ class RoundedMassQuery {
     // What is between the inner body and the true one weighs no more than the mass's bounds tell.
     const double between = std::max(0.0, mass.upper - of_moment.lower);
     const double error = sum.moment_error + kOutermost * between + kUnderflow;
-    result.moment.lower = (core_.moment.lower + sum.moment).array() - error;
-    result.moment.upper = (core_.moment.upper + sum.moment).array() + error;
+    if (!std::isfinite(error)) return result;
+    result.moment.emplace();
+    result.moment->lower = (core_.moment.lower + sum.moment).array() - error;
+    result.moment->upper = (core_.moment.upper + sum.moment).array() + error;
     return result;
   }
 
   /// The parts up to a radius. What the tolerance is a share of is only guessed at first.
   SolidSum sumUpTo(double radius) {
     parts_.setRadius(radius);
-    double about = std::max({core_.mass.lower, roughMass(parts_.parts), kUnderflow});
+    const bool known = core_.mass.lower >= kKnownMass;
+    double about = std::max(core_.mass.lower, known ? 0.0 : roughMass(parts_.parts));
+    about = std::max(about, kUnderflow);
     SolidSum best;
     best.error = best.moment_error = kInfinity;
     for (int attempt = 0; attempt < kRoundedAttempts; ++attempt) {
@@ -148,9 +155,9 @@ class RoundedMassQuery {
       const double mass = core_.mass.lower + best.mass;
       if (best.error <= kRoundedEnough * mass || cubature.exhausted()) break;
       // As far as it is known.
-      const double known = mass > 2.0 * best.error ? mass : 1e-6 * about;
-      if (!(known < 0.5 * about) || isDue(effort_.interruption)) break;
-      about = known;
+      const double next = mass > 2.0 * best.error ? mass : 1e-6 * about;
+      if (!(next < 0.5 * about) || isDue(effort_.interruption)) break;
+      about = next;
     }
     return best;
   }
@@ -158,7 +165,13 @@ class RoundedMassQuery {
   PartCubature cubatureWithin(double tolerance) const {
     const double count = static_cast<double>(parts_.parts.size());
     PartCubature cubature({tolerance / (count + 30.0), kMostBoxes});
-    for (const AnyPart& part : parts_.parts) cubature.add(part);
+    for (const AnyPart& part : parts_.parts) {
+      if (isDue(effort_.interruption)) {
+        cubature.leave();
+        break;
+      }
+      cubature.add(part);
+    }
     return cubature;
   }
 

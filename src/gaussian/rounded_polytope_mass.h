@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "fcl_prob/polytope_mass.h"
 #include "gaussian/interruption.h"
@@ -27,7 +28,7 @@ struct RoundedEffort {
 
 struct RoundedMass {
   Bounds mass{0.0, 1.0};
-  VectorBounds moment;  ///< ∫ y φ dy, whitened, if asked for
+  std::optional<VectorBounds> moment;  ///< ∫ y φ dy, whitened, if asked for
 };
 
 /// Certified mass under N(0, I) of the body mapped by `whitening`, a diagonal matrix times a
