@@ -8,6 +8,7 @@
 
 #include "cobstacle/minkowski_sum.h"
 #include "gaussian/constants.h"
+#include "gaussian/power_of_two.h"
 #include "geometry/exact_sum.h"
 
 namespace fcl_prob::detail {
@@ -110,6 +111,16 @@ LongMatrix3 longWhitening(const GaussianDisplacement& displacement) {
   return deviations.cwiseInverse().asDiagonal() * inverse;
 }
 
+/// A mean that moves by d moves the whitened body by -W d, and the mass changes by moment·W d.
+VectorBounds gradientOf(const VectorBounds& moment, const Eigen::Matrix3d& whitening) {
+  const Eigen::Vector3d middle = moment.middle();
+  const Eigen::Vector3d half =
+      0.5 * (moment.upper - moment.lower) + 4.0 * kEpsilon * middle.cwiseAbs();
+  const Eigen::Vector3d gradient = whitening.transpose() * middle;
+  const Eigen::Vector3d error = whitening.transpose().cwiseAbs() * (1.001 * half);
+  return {gradient - error, gradient + error};
+}
+
 Eigen::Vector3d centreOf(const ConvexBody& body, bool by_centre) {
   return by_centre ? body.data().rounded->core.centre() : Eigen::Vector3d::Zero();
 }
@@ -120,28 +131,36 @@ bool isRoundedPair(const ConvexBody& a, const ConvexBody& b) {
   return ballRadius(a) + ballRadius(b) > 0.0 && isCoreWithBall(a) && isCoreWithBall(b);
 }
 
-RoundedMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                            const ConvexBody& b, const fcl::Transform3d& pose_b,
-                            const GaussianDisplacement& displacement, const RoundedEffort& effort) {
+RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                                const ConvexBody& b, const fcl::Transform3d& pose_b,
+                                const GaussianDisplacement& displacement,
+                                const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   if (!frame.fits || frame.rank < 3) return {};
   const bool by_centre = a.data().rounded && b.data().rounded;
   const double size = a.data().size() + b.data().size();
-  const auto core = by_centre
-                        ? sumOfSegments(frame, a.data().rounded->core, b.data().rounded->core, size)
+  auto core = by_centre ? sumOfSegments(frame, a.data().rounded->core, b.data().rounded->core, size)
                         : sumOfMeshes(frame, a, b, size, effort.interruption);
   if (!core) return {};
   ExactPosition origin;
   origin.add(pose_b, centreOf(b, by_centre));
   origin.add(pose_a, centreOf(a, by_centre), -1.0);
   origin.add(displacement.mean(), -1.0);
+  // In a unit next to the sizes: powers of two lose nothing, and no product is out of range.
+  const double unit = powerOfTwoAt(size);
+  core->faces.transform(Eigen::Matrix3d::Identity() / unit, Eigen::Vector3d::Zero());
   RoundedPolytope body;
   body.core = toClosedPolytope(core->faces);
-  body.origin = origin.value();
-  body.radius = ballRadius(a) + ballRadius(b);
-  body.error = core->error + body.radius * (frame.ball_stretch + kShapeRoundings * kEpsilon) +
+  body.origin = origin.value() / unit;
+  body.radius = (ballRadius(a) + ballRadius(b)) / unit;
+  body.error = core->error / unit +
+               body.radius * (frame.ball_stretch + kShapeRoundings * kEpsilon) +
                kFarRounding * static_cast<double>(body.origin.norm());
-  return roundedPolytopeMass(body, longWhitening(displacement), effort);
+  const LongMatrix3 whitening = unit * longWhitening(displacement);
+  const RoundedMass mass = roundedPolytopeMass(body, whitening, effort);
+  RoundedPairMass result{mass.mass, std::nullopt};
+  if (mass.moment) result.gradient = gradientOf(*mass.moment, whitening.cast<double>() / unit);
+  return result;
 }
 
 }  // namespace fcl_prob::detail

@@ -3,8 +3,10 @@
 #include "query/exact_mass.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "narrowphase/convex_pair_mass.h"
+#include "narrowphase/rounded_pair.h"
 #include "query/request_limits.h"
 #include "query/single_collide.h"
 
@@ -29,7 +31,10 @@ class ExactMass {
         flat_(pair.a.rootBody().isPolytope() && pair.b.rootBody().isPolytope()) {}
 
   ProbabilityResult answer() {
-    narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
+    if (request_.gradient) findGradient();
+    if (!gradient_ || status() == ProbabilityStatus::resolution_limit) {
+      narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
+    }
     if (status() == ProbabilityStatus::resolution_limit) {
       narrow({0.0, boundOf(pair_.a.rootBody(), pair_.b.rootBody())});
     }
@@ -44,6 +49,13 @@ class ExactMass {
     result.upper = mass_.upper;
     result.decision = decisionOf(mass_, request_);
     result.statistics.leaf_pairs = 1;
+    if (gradient_) {
+      result.gradient = gradient_->middle();
+      result.gradient_lower = gradient_->lower;
+      result.gradient_upper = gradient_->upper;
+    } else if (request_.gradient) {
+      result.plan.push_back("no gradient: the interval method has one");
+    }
     if (!flat_ && result.status != ProbabilityStatus::exact) {
       result.plan.push_back("curved sides enclosed between polytopes");
     }
@@ -54,6 +66,16 @@ class ExactMass {
   Bounds massOf(const ConvexBody& a, const ConvexBody& b) {
     return detail::convexPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
                                   limits_.interruption());
+  }
+
+  /// Of spheres, capsules and what is flat beside them.
+  void findGradient() {
+    const ConvexBody &a = pair_.a.rootBody(), &b = pair_.b.rootBody();
+    if (displacement_.rank() < 3 || !isRoundedPair(a, b)) return;
+    const RoundedPairMass both = roundedPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
+                                                 {true, limits_.interruption()});
+    gradient_ = both.gradient;
+    if (gradient_) narrow(both.mass);
   }
 
   /// By support values, where the polytope around a curved body sticks out of it.
@@ -86,6 +108,7 @@ class ExactMass {
   RequestLimits limits_;
   bool flat_;
   Bounds mass_{0.0, 1.0};
+  std::optional<VectorBounds> gradient_;
 };
 
 }  // namespace

@@ -70,7 +70,7 @@ ProbabilityResult PairQuery::follow(const QueryPlan& plan, const PlacedPair& pai
     case Route::unbounded_pair:
       return unboundedPairProbability(pair, displacement, request);
     case Route::exact_mass:
-      return exactMass(pair, displacement, request);
+      return exact(plan, pair, displacement, request);
     case Route::convex_bound:
       return convexBound(pair, displacement, request);
     case Route::general_pcd:
@@ -83,6 +83,24 @@ ProbabilityResult PairQuery::follow(const QueryPlan& plan, const PlacedPair& pai
                                   displacement, request);
   }
   throw InvalidRequest("no such route");
+}
+
+ProbabilityResult PairQuery::exact(const QueryPlan& plan, const PlacedPair& pair,
+                                   const GaussianDisplacement& displacement,
+                                   const ProbabilityRequest& request) const {
+  const CallBudget budget(request);
+  ProbabilityResult result = exactMass(pair, displacement, request);
+  const bool ended = result.status == ProbabilityStatus::exact ||
+                     result.status == ProbabilityStatus::converged ||
+                     result.status == ProbabilityStatus::decided;
+  const bool unresolved = result.status == ProbabilityStatus::resolution_limit ||
+                          (ended && request.gradient && !result.gradient);
+  if (!unresolved || !plan.partition_if_unresolved) return result;
+  ProbabilityResult other = partition(plan, pair, displacement,
+                                      request.time_limit ? withTimeLeft(request, budget) : request);
+  other.plan.insert(other.plan.begin(),
+                    "rounding leaves too much of the exact mass open: partition");
+  return other;
 }
 
 ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& pair,

@@ -40,6 +40,9 @@ class PairQuery {
   ProbabilityResult follow(const QueryPlan& plan, const PlacedPair& pair,
                            const GaussianDisplacement& displacement,
                            const ProbabilityRequest& request) const;
+  ProbabilityResult exact(const QueryPlan& plan, const PlacedPair& pair,
+                          const GaussianDisplacement& displacement,
+                          const ProbabilityRequest& request) const;
   ProbabilityResult partition(const QueryPlan& plan, const PlacedPair& pair,
                               const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request) const;

@@ -21,26 +21,30 @@ struct QueryPair {
   /// A Halfspace or Plane is one of them.
   bool anyUnbounded() const { return !a.hasPieces() || !b.hasPieces(); }
 
-  /// Convex shapes whose C-obstacle has an exact mass.
-  bool haveExactMass() const {
+  /// Convex shapes whose C-obstacle has an exact mass under a displacement.
+  bool haveExactMass(const GaussianDisplacement& displacement) const {
     if (!areConvex()) return false;
-    const auto type_a = a.geometry().getNodeType();
-    const auto type_b = b.geometry().getNodeType();
-    if (isPolytope(type_a) && isPolytope(type_b)) return true;
-    return areSpheres();
+    if (isPolytope(typeOf(a)) && isPolytope(typeOf(b))) return true;
+    return areSpheres() || (areRounded() && displacement.rank() == 3);
   }
 
-  bool areSpheres() const {
-    return a.geometry().getNodeType() == fcl::GEOM_SPHERE &&
-           b.geometry().getNodeType() == fcl::GEOM_SPHERE;
+  /// Their C-obstacle is a polytope swept by a ball.
+  bool areRounded() const {
+    if (isPolytope(typeOf(a)) && isPolytope(typeOf(b))) return false;
+    return isRoundedOrFlat(typeOf(a)) && isRoundedOrFlat(typeOf(b));
   }
 
-  std::string name() const {
-    return nodeTypeName(a.geometry().getNodeType()) + " and " +
-           nodeTypeName(b.geometry().getNodeType());
-  }
+  bool areSpheres() const { return typeOf(a) == fcl::GEOM_SPHERE && typeOf(b) == fcl::GEOM_SPHERE; }
+
+  std::string name() const { return nodeTypeName(typeOf(a)) + " and " + nodeTypeName(typeOf(b)); }
 
  private:
+  static fcl::NODE_TYPE typeOf(const PreparedGeometry& geometry) {
+    return geometry.geometry().getNodeType();
+  }
+  static bool isRoundedOrFlat(fcl::NODE_TYPE type) {
+    return isPolytope(type) || type == fcl::GEOM_SPHERE || type == fcl::GEOM_CAPSULE;
+  }
   static bool isPolytope(fcl::NODE_TYPE type) {
     return type == fcl::GEOM_BOX || type == fcl::GEOM_CONVEX || type == fcl::GEOM_TRIANGLE;
   }
@@ -103,25 +107,36 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   return plan;
 }
 
+std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& displacement) {
+  if (pair.areSpheres()) return "two spheres: their C-obstacle is a ball, mass by quadrature";
+  if (pair.areRounded() && displacement.rank() == 3) {
+    return "round and flat shapes: their C-obstacle is a polytope swept by a ball, mass by "
+           "quadrature";
+  }
+  return "both shapes are convex: exact mass of their C-obstacle, no tree";
+}
+
 QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacement,
                     const ProbabilityRequest& request) {
   if (pair.anyUnbounded()) return planUnbounded();
   if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
   QueryPlan plan{Route::exact_mass, false, {}};
-  plan.notes.push_back(pair.areSpheres()
-                           ? "two spheres: their C-obstacle is a ball, mass by quadrature"
-                           : "both shapes are convex: exact mass of their C-obstacle, no tree");
+  plan.notes.push_back(noteOnExactMass(pair, displacement));
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
-  if (request.gradient) plan.notes.push_back("no gradient: the interval method has one");
   return plan;
 }
 
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
-  const bool exact = pair.haveExactMass();
-  if (exact && !request.gradient) return planExact(pair, displacement, request);
+  const bool exact = pair.haveExactMass(displacement);
+  const bool has_gradient = displacement.rank() == 3 && pair.areRounded();
+  if (exact && (has_gradient || !request.gradient)) {
+    QueryPlan plan = planExact(pair, displacement, request);
+    plan.partition_if_unresolved = pair.areRounded() && (request.gradient || !pair.areSpheres());
+    return plan;
+  }
   QueryPlan plan = planPartition(pair, displacement, request);
   if (exact) {
     plan.notes.push_back(

@@ -33,6 +33,10 @@ struct QueryPlan {
   bool try_root_bound = false;
 
   std::vector<std::string> notes;
+
+  /// Whether the partition is asked where the exact mass leaves more open than the tolerance, or
+  /// has no gradient.
+  bool partition_if_unresolved = false;
 };
 
 /// \throws UnsupportedGeometry if the method asked for cannot handle the pair.

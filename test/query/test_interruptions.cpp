@@ -240,10 +240,10 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
     Ask ask;
     bool two_sided;
   };
-  const Geometry sphere = std::make_shared<fcl::Sphered>(0.4);
+  const Geometry cylinder = std::make_shared<fcl::Cylinderd>(0.4, 0.6);
   const Geometry box = std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5);
   std::vector<Case> cases;
-  cases.push_back({ofPair(sphere, box, at(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
+  cases.push_back({ofPair(cylinder, box, at(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
   for (const auto method : {ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min}) {
     cases.push_back({ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), method), false});
   }
