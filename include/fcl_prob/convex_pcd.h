@@ -62,10 +62,11 @@ ConvexPcdBaselines convexPcdBaselines(const ConvexBody& a, const fcl::Transform3
                                       const ConvexBody& b, const fcl::Transform3d& pose_b,
                                       const GaussianDisplacement& displacement);
 
-/// The probability itself, certified. For two bodies with flat sides the bounds differ by a
-/// rounding margin only; for curved ones they are the masses of polytopes inside and around the
-/// C-obstacle, which get closer as the resolution of the bodies grows (two spheres and an isotropic
-/// displacement: exact). \throws InvalidPose if a pose is not finite or not rigid
+/// The probability itself, certified. The bounds differ by a rounding margin only for two bodies
+/// with flat sides, for two balls, and, where the displacement has rank 3, for bodies rounded by a
+/// ball (spheres, capsules, RSS) beside each other or beside bodies with flat sides; for other
+/// curved ones they are the masses of polytopes inside and around the C-obstacle, which get closer
+/// as the resolution of the bodies grows. \throws InvalidPose if a pose is not finite or not rigid
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 

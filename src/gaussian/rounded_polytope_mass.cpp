@@ -21,7 +21,10 @@ constexpr double kRoundedTarget = 1e-10;
 constexpr double kRoundedEnough = 4e-10;
 constexpr int kRoundedAttempts = 3;
 constexpr std::size_t kMostRoundedFaces = 4000;
-constexpr std::size_t kMostBoxes = 8000;
+constexpr std::size_t kMostBoxes = 10000;
+
+/// In deviations: a larger body would only exhaust the boxes.
+constexpr double kLargestBody = 3e4;
 
 /// Of the mass: by how much a body may be known to grow at the most, to be computed once only.
 constexpr double kSmallGrowth = 1e-11;
@@ -91,6 +94,15 @@ double nearSquare(const RoundedPolytope& body, const LongMatrix3& whitening) {
   return least;
 }
 
+/// No less than about half of the body's length in deviations, along whichever axis.
+double extentOf(const RoundedPolytope& body, const LongMatrix3& whitening) {
+  double longest = body.radius;
+  for (const Eigen::Vector3d& v : body.core.vertices) {
+    longest = std::max(longest, (v - body.core.vertices[0]).norm() + body.radius);
+  }
+  return longest * static_cast<double>(whitening.norm());
+}
+
 class RoundedMassQuery {
  public:
   RoundedMassQuery(const RoundedPolytope& body, const LongMatrix3& whitening,
@@ -99,12 +111,14 @@ class RoundedMassQuery {
 
   RoundedMass answer() {
     if (body_.core.faces.size() > kMostRoundedFaces) return {};
+    if (!(extentOf(body_, whitening_) <= kLargestBody)) return {};
     std::optional<RoundedParts> parts = roundedParts(body_.core, body_.origin, whitening_);
     if (!parts) return {};
     parts_ = std::move(*parts);
     core_ = coreMass(body_, parts_.normals, whitening_, effort_);
-    const double inner = (body_.radius - body_.error) * (1.0 - kEpsilon);
-    const double outer = (body_.radius + body_.error + parts_.defect) * (1.0 + kEpsilon);
+    // Normals are unit vectors up to a few roundings.
+    const double inner = (body_.radius - body_.error) * (1.0 - 8.0 * kEpsilon);
+    const double outer = (body_.radius + body_.error + parts_.defect) * (1.0 + 8.0 * kEpsilon);
     if (!(inner > 0.0)) return {};
     const SolidSum least = sumUpTo(inner);
     const Bounds below = massOf(least);

@@ -19,6 +19,9 @@ namespace {
 /// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
 constexpr double kSandwichWidth = 1e-4;
 
+/// What is below cannot be told from nothing.
+constexpr double kNothing = 1e-300;
+
 /// Mass of a ball, of which the closed form for equal deviations is the fastest.
 Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& displacement) {
   if (!displacement.isotropic()) return detail::principalBallMass(ball, displacement);
@@ -60,7 +63,7 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   if (frame.rank == 3 && isRoundedPair(a, b)) {
     const RoundedEffort effort{false, interruption};
     known = intersection(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
-    if (known.width() <= kSandwichWidth * known.upper) return known;
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;
   const ConvexSetObstacle outer(frame, a.data().set(), b.data().set(), Faces::outer);
