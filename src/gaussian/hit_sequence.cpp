@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "gaussian/hit_sequence.h"
 
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 
@@ -11,7 +12,10 @@ namespace {
 // Of a bisection; the end that is taken is outside of the interval.
 constexpr int kHalvings = 60;
 
-double logBeta(double a, double b) { return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b); }
+// Not std::lgamma, which writes a global.
+double logBeta(double a, double b) {
+  return boost::math::lgamma(a) + boost::math::lgamma(b) - boost::math::lgamma(a + b);
+}
 
 }  // namespace
 

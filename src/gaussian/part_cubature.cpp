@@ -16,7 +16,7 @@ constexpr int kMostPartDepth = 60;
 constexpr double kFarthest = 39.0;
 
 /// Roundings of a term besides those of y: of weights, of the volume element and of the sums.
-constexpr double kTermRounding = 128.0 * kEpsilon;
+constexpr double kTermRounding = 512.0 * kEpsilon;
 
 /// Below the smallest normal double, for every term of a rule.
 constexpr double kTermUnderflow = 1e-306;
@@ -29,7 +29,11 @@ template <class Part>
 void PartCubature::addPart(const Part& part) {
   part_sum_ = {};
   const double most = std::abs(part.factor) + part.factor_error;
-  if (!(most > 0.0)) return;
+  if (most == 0.0) return;
+  if (!std::isfinite(most)) {
+    sum_.error = sum_.moment_error = kInfinity;
+    return;
+  }
   addBox(part, part.parameters(), 0);
   const double scale = kDensityScale * std::abs(part.factor);
   const double uncertain =

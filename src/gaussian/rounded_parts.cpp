@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
 
@@ -33,11 +34,25 @@ constexpr double kFourRoundings = 8.0 * kEpsilon;
 /// More than this of the core's size is no rounding: another normal may be better.
 constexpr double kGoodDefect = 64.0 * kEpsilon;
 
+/// Of a face's longest edge squared: with less area its own normal is no more than rounding.
+constexpr double kLeastArea = 1e-9;
+
+/// Of the core's size: what the normal of a neighbour may be wrong by for a face that has none.
+constexpr double kMostBorrowed = 1e-8;
+
+/// By how much the solid angles of all sectors may differ from a whole sphere, as a share of it.
+constexpr double kLeastTurn = 0.1;
+
 /// From n₁ to n₂ across an edge; n₁ is that of the face that walks it from `from` to `to`.
 struct NormalArc {
   int from, to;
   Vector first, second;
 };
+
+/// Signed, of the triangle between three unit vectors (Van Oosterom and Strackee 1983).
+double solidAngle(const Vector& a, const Vector& b, const Vector& c) {
+  return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+}
 
 class RoundedPartsBuilder {
  public:
@@ -70,13 +85,19 @@ class RoundedPartsBuilder {
       for (const NormalArc& arc : arcs_) addWedge(arc);
       if (!addCorners()) return std::nullopt;
     }
-    parts_.defect = worst_ / kNarrowestMiddle + kFourRoundings * size_;
+    parts_.defect = worst_ / kNarrowestMiddle + 3.0 * kFourRoundings * size_;
     parts_.stretch = stretch_;
-    if (!std::isfinite(parts_.defect) || !is_fit_) return std::nullopt;
+    if (!std::isfinite(parts_.defect) || !is_fit_ || !windsOnce()) return std::nullopt;
     return std::move(parts_);
   }
 
  private:
+  /// The normals of the outer surface go around the sphere once.
+  bool windsOnce() const {
+    constexpr double kSphere = 4.0 * boost::math::constants::pi<double>();
+    return std::abs(turned_ / kSphere - 1.0) <= kLeastTurn;
+  }
+
   const Vector& at(int vertex) const { return core_.vertices[static_cast<std::size_t>(vertex)]; }
 
   /// How far the core reaches beyond the plane through a point.
@@ -132,7 +153,7 @@ class RoundedPartsBuilder {
     }
     const EdgePairing pairing = pairEdges(std::move(walked));
     if (pairing.fault) return false;
-    findNormals(pairing.matches);
+    if (!findNormals(pairing.matches)) return false;
     for (const EdgeMatch& match : pairing.matches) {
       const auto left = static_cast<std::size_t>(match.forward.polygon);
       const auto right = static_cast<std::size_t>(match.backward.polygon);
@@ -141,25 +162,43 @@ class RoundedPartsBuilder {
     return true;
   }
 
-  void findNormals(const std::vector<EdgeMatch>& matches) {
+  bool hasNormal(const ConvexPolytope::Face& face) const {
+    const Vector& origin = at(face.vertices[0]);
+    Vector twice = Vector::Zero();
+    double longest = 0.0;
+    for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+      const Vector& from = at(face.vertices[k]);
+      const Vector& to = at(face.vertices[(k + 1) % face.vertices.size()]);
+      twice += (from - origin).cross(to - origin);
+      longest = std::max(longest, (to - from).squaredNorm());
+    }
+    return twice.norm() > 2.0 * kLeastArea * longest;
+  }
+
+  /// False if a face that has none is nowhere next to one that has.
+  bool findNormals(const std::vector<EdgeMatch>& matches) {
     std::vector<double> defects;
+    std::vector<bool> known;
     for (const ConvexPolytope::Face& face : core_.faces) {
       parts_.normals.push_back(face.normal);
       defects.push_back(defectOf(face.normal, face));
+      known.push_back(hasNormal(face));
     }
     const auto improve = [&](int face, int neighbour) {
       const auto f = static_cast<std::size_t>(face), g = static_cast<std::size_t>(neighbour);
-      if (defects[f] <= kGoodDefect * size_) return;
+      if (!known[g] || (known[f] && defects[f] <= kGoodDefect * size_)) return;
       const double other = defectOf(parts_.normals[g], core_.faces[f]);
-      if (!(other < defects[f])) return;
+      if (known[f] ? !(other < defects[f]) : other > kMostBorrowed * size_) return;
       defects[f] = other;
       parts_.normals[f] = parts_.normals[g];
+      known[f] = true;
     };
     for (const EdgeMatch& match : matches) {
       improve(match.forward.polygon, match.backward.polygon);
       improve(match.backward.polygon, match.forward.polygon);
     }
     for (const double defect : defects) worst_ = std::max(worst_, defect);
+    return std::all_of(known.begin(), known.end(), [](bool is_known) { return is_known; });
   }
 
   void addArc(const NormalArc& arc) {
@@ -300,6 +339,7 @@ class RoundedPartsBuilder {
       addSector(vertex, m01, m12, m20);
       return;
     }
+    turned_ += solidAngle(n0, n1, n2);
     Sector part;
     part.normals = {n0, n1 - n0, n2 - n1};
     const Vector to_second = n2 - n0;
@@ -317,6 +357,7 @@ class RoundedPartsBuilder {
   double stretch_, volume_, size_ = 0.0;
   std::vector<NormalArc> arcs_;
   double worst_ = 0.0;
+  double turned_ = 0.0;  // solid angle of all sectors
   bool is_fit_ = true;
   RoundedParts parts_;
 };

@@ -23,6 +23,9 @@ constexpr int kRoundedAttempts = 3;
 constexpr std::size_t kMostRoundedFaces = 4000;
 constexpr std::size_t kMostBoxes = 10000;
 
+/// Of sums over all boxes and faces.
+constexpr double kSumRounding = 2e4 * kEpsilon;
+
 /// In deviations: a larger body would only exhaust the boxes.
 constexpr double kLargestBody = 3e4;
 
@@ -135,7 +138,7 @@ class RoundedMassQuery {
 
  private:
   Bounds massOf(const SolidSum& sum) const {
-    const double rounding = 4.0 * kEpsilon * (sum.mass + core_.mass.upper);
+    const double rounding = kSumRounding * (sum.mass + core_.mass.upper);
     return {core_.mass.lower + sum.mass - sum.error - rounding,
             core_.mass.upper + sum.mass + sum.error + rounding + kUnderflow};
   }
@@ -147,7 +150,8 @@ class RoundedMassQuery {
     if (!effort_.moment) return result;
     // What is between the inner body and the true one weighs no more than the mass's bounds tell.
     const double between = std::max(0.0, mass.upper - of_moment.lower);
-    const double error = sum.moment_error + kOutermost * between + kUnderflow;
+    const double error =
+        sum.moment_error + kOutermost * (between + kSumRounding * mass.upper) + kUnderflow;
     if (!std::isfinite(error)) return result;
     result.moment.emplace();
     result.moment->lower = (core_.moment.lower + sum.moment).array() - error;

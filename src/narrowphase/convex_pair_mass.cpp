@@ -41,8 +41,11 @@ Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& d
           normalBallMass(std::max(near, 0.0) / most, large / least).upper};
 }
 
+/// Where two contradict each other both are kept: one of them is wrong.
 Bounds intersection(const Bounds& one, const Bounds& other) {
-  return {std::max(one.lower, other.lower), std::min(one.upper, other.upper)};
+  const Bounds both{std::max(one.lower, other.lower), std::min(one.upper, other.upper)};
+  if (both.lower <= both.upper) return both;
+  return {std::min(one.lower, other.lower), std::max(one.upper, other.upper)};
 }
 
 }  // namespace

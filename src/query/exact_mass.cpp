@@ -86,7 +86,11 @@ class ExactMass {
   }
 
   void narrow(const Bounds& mass) {
-    mass_ = {std::max(mass_.lower, mass.lower), std::min(mass_.upper, mass.upper)};
+    const Bounds both{std::max(mass_.lower, mass.lower), std::min(mass_.upper, mass.upper)};
+    // Where two contradict each other both are kept: one of them is wrong.
+    mass_ = both.lower <= both.upper
+                ? both
+                : Bounds{std::min(mass_.lower, mass.lower), std::max(mass_.upper, mass.upper)};
     limits_.setProgress(mass_, 0.5);
   }
 

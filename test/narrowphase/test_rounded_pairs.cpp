@@ -156,6 +156,59 @@ TEST_CASE("rounded pairs given in other ways have the same probability") {
   }
 }
 
+TEST_CASE("rounded pairs whose cores are as thin as rounding are no worse than certified") {
+  const auto error = GaussianDisplacement::fromStandardDeviations({0.5, 0.4, 0.3});
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity(), at = turned, still = turned;
+  turned.linear() = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  at.translation() = Vector3d(0.6, 0.3, 0.2);
+  const auto near = [](const Bounds& mass, const Bounds& truth) {
+    INFO(mass.lower << " to " << mass.upper << ", near " << truth.lower);
+    CHECK(mass.lower <= mass.upper);
+    CHECK(mass.lower <= truth.upper * (1.0 + 1e-9));
+    CHECK(mass.upper >= truth.lower * (1.0 - 1e-9));
+  };
+  const ConvexBody rod(fcl::Capsuled(0.2, 1.0)), long_rod(fcl::Capsuled(0.3, 1.0));
+  const ConvexBody ball(fcl::Sphered(0.3));
+  const Bounds of_ball = convexPairMass(ball, turned, rod, at, error);
+  CHECK(of_ball.lower == Approx(0.21304).epsilon(1e-4));
+  for (const double length : {1e-16, 1e-15, 3e-14, 9e-14, 2e-13, 1e-12, 1e-11}) {
+    near(convexPairMass(ConvexBody(fcl::Capsuled(0.3, length)), turned, rod, at, error), of_ball);
+  }
+  const Bounds parallel = convexPairMass(long_rod, still, rod, at, error);
+  for (const double angle : {1e-16, 2e-14, 1e-13, 3e-13, 1e-11}) {
+    Eigen::Isometry3d hardly = still;
+    hardly.linear() = Eigen::AngleAxisd(angle, Vector3d(1, 2, 0).normalized()).toRotationMatrix();
+    near(convexPairMass(long_rod, hardly, rod, at, error), parallel);
+  }
+  const Bounds needle =
+      convexPairMass(ball, still, ConvexBody(fcl::Boxd(1, 1e-9, 1e-9)), at, error);
+  for (const double thick : {5e-15, 5e-14, 1e-13, 1e-12, 1e-11}) {
+    for (const double flat : {0.6, 1.0}) {
+      near(convexPairMass(ball, still, ConvexBody(fcl::Boxd(1, thick, flat * thick)), at, error),
+           {needle.lower * (1 - 1e-7), needle.upper});
+    }
+  }
+}
+
+TEST_CASE("thin boxes beside spheres have the probability of a segment") {
+  RandomBodies random(175);
+  for (int k = 0; k < 300; ++k) {
+    const double radius = random.logUniform(0.03, 1.0), thick = random.logUniform(1e-15, 1e-11);
+    const GaussianDisplacement error = randomDisplacement(random, 0.03, 1.0);
+    Placed at;
+    at.a = random.pose(1.0);
+    at.b = random.pose(1.0);
+    const ConvexBody ball{fcl::Sphered(radius)}, needle(fcl::Boxd(thick, 0.6 * thick, 1.0));
+    const Bounds mass = convexPairMass(ball, at.a, needle, at.b, error);
+    const ConvexBody segment(std::vector<Vector3d>{{0, 0, -0.5}, {0, 0, 0.5}});
+    const Bounds truth = convexPairMass(ball, at.a, segment, at.b, error);
+    INFO(k << ": " << mass.lower << " to " << mass.upper << ", segment " << truth.lower << " to "
+           << truth.upper);
+    CHECK(mass.lower <= truth.upper * (1.0 + 1e-8) + 1e-300);
+    CHECK(mass.upper >= truth.lower * (1.0 - 1e-8));
+  }
+}
+
 TEST_CASE("rounded pairs under low ranks are enclosed as before") {
   RandomBodies random(174);
   for (const GeometryPair& pair : roundedPairs(1.0, 9)) {
