@@ -30,8 +30,9 @@ void BandMargin::widen(double* data, int count, NodePair leaves) const {
     double& hi = data[4 * count + i];
     const Eigen::Vector3d n(data[i], data[count + i], data[2 * count + i]);
     if (hi >= kUnbounded || n.isZero(0.0)) continue;
-    const double rounding = 4 * kEpsilon * (std::fabs(lo) + std::fabs(hi));
-    const double out = outwardAlong(n, leaves) + rounding;
+    const double outward = outwardAlong(n, leaves);
+    const double rounding = 4 * kEpsilon * (std::fabs(lo) + std::fabs(hi) + outward);
+    const double out = outward + rounding;
     lo -= out;
     hi += out;
     data[5 * count + i] += out + inwardAlong(n) + rounding;

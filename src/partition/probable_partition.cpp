@@ -24,7 +24,7 @@ constexpr double kShareOfFirstLook = 0.60792710185402663;
 
 // Of the masses of what planes cover, and of the sums of all that is certain.
 constexpr double kCoveredAccuracy = 1e-5;
-constexpr double kRoundedMasses = 1e-12;
+constexpr double kRoundedMasses = 1e-9;
 
 /// All that is random about one sample.
 struct RandomSample {

@@ -8,6 +8,7 @@
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
 #include "planning/state_screen.h"
+#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {
@@ -50,6 +51,13 @@ class CertifiedPlanner {
       throw InvalidRequest("the threshold of a motion must be in (0, 1], is " +
                            detail::numberText(*most));
     }
+    validateRequest(request.state);
+    detail::refuseBand(request.state, "robots");
+    for (const Obstacle& obstacle : query.obstacles()) {
+      if (obstacle.over_time.empty()) continue;
+      throw InvalidRequest("obstacle " + obstacle.name +
+                           " moves: plans are for obstacles that stay where they are");
+    }
     const auto is_same = [](const RobotJoint& x, const RobotJoint& y) { return x.name == y.name; };
     const auto &x = self.robot().joints(), &y = query.robot().joints();
     if (!std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same)) {
@@ -62,6 +70,7 @@ class CertifiedPlanner {
     ProbabilityRequest state = request_.state;
     std::size_t states = 0;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      plan = {};
       plan.state_threshold = *state.threshold;
       plan.path = planMotion(query_.robot(), testOf(state), start, goal, remaining(states));
       states = plan.path.states += states;

@@ -57,6 +57,7 @@ StateScreen::StateScreen(const RobotQuery& query) : query_(query) {
   for (const RobotBody& body : query.robot().bodies()) add(body.geometry, bodies_);
   for (const Obstacle& obstacle : query.obstacles()) {
     add(obstacle.geometry, obstacles_);
+    is_usable_ = is_usable_ && obstacle.over_time.empty();
     const auto* gaussian = std::get_if<GaussianDisplacement>(&obstacle.displacement);
     is_usable_ = is_usable_ && gaussian != nullptr;
     if (gaussian != nullptr) displacements_.push_back(gaussian->reversed());

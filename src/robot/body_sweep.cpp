@@ -10,9 +10,10 @@
 namespace fcl_prob::detail {
 namespace {
 
-// More than what poses, axes and the sums below are rounded by, relative to the lengths that they
+// More than what poses, axes and the sums below are rounded by, and than what a base may be off a
+// rotation (1e-9), relative to the lengths that they
 // are made of.
-constexpr double kRoundedKinematics = 1e-12;
+constexpr double kRoundedKinematics = 1e-8;
 
 /// What one joint does in a step.
 struct JointShare {

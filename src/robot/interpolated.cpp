@@ -11,6 +11,12 @@
 namespace fcl_prob {
 
 namespace detail {
+namespace {
+
+/// States of a motion at most: beyond, the step is a mistake.
+constexpr double kMostSteps = 1e6;
+
+}  // namespace
 
 std::vector<WaypointStep> stepsBetween(const std::vector<Eigen::VectorXd>& waypoints,
                                        double largest_step) {
@@ -27,6 +33,11 @@ std::vector<WaypointStep> stepsBetween(const std::vector<Eigen::VectorXd>& waypo
     if (i > 0 && waypoints[i].size() > 0) {
       const Eigen::VectorXd change = waypoints[i] - waypoints[i - 1];
       const double steps = std::ceil(change.cwiseAbs().maxCoeff() / largest_step);
+      if (!(steps + static_cast<double>(result.size()) <= kMostSteps)) {
+        throw InvalidRequest("steps of " + numberText(largest_step) + " from waypoint " +
+                             std::to_string(i - 1) + " to " + std::to_string(i) +
+                             " make more than " + numberText(kMostSteps) + " states");
+      }
       for (double k = 1.0; k < steps; k += 1.0) result.push_back({i - 1, k / steps});
     }
     result.push_back({i, 0.0});

@@ -44,8 +44,10 @@ class Kinematics {
     double factor = 1.0;
     double offset = 0.0;
 
+    /// Of a copy: KDL's joints keep the last pose asked for, which threads would overwrite
+    /// (orocos_kinematics_dynamics issue 373).
     KDL::Frame poseInParent(const Eigen::VectorXd& values) const {
-      return segment.pose(joint < 0 ? 0.0 : factor * values[joint] + offset);
+      return KDL::Segment(segment).pose(joint < 0 ? 0.0 : factor * values[joint] + offset);
     }
   };
 

@@ -20,20 +20,34 @@ std::string nameOf(const Obstacle& obstacle, std::size_t waypoint) {
   return "obstacle " + obstacle.name + " at waypoint " + std::to_string(waypoint);
 }
 
+/// What does not change stays the same to the last bit, whatever is between.
+Eigen::Matrix3d turnedBetween(const Eigen::Matrix3d& first, const Eigen::Matrix3d& next,
+                              double fraction) {
+  if (first == next) return first;
+  return Eigen::Quaterniond(first)
+      .slerp(fraction, Eigen::Quaterniond(next))
+      .normalized()
+      .toRotationMatrix();
+}
+
+Eigen::Matrix3d covarianceBetween(const Eigen::Matrix3d& first, const Eigen::Matrix3d& next,
+                                  double fraction) {
+  if (first == next) return first;
+  return (1.0 - fraction) * first + fraction * next;
+}
+
 ObstacleState between(const ObstacleState& first, const ObstacleState& next, double fraction) {
   if (fraction == 0.0) return first;
   const std::string what = "an obstacle between waypoints";
   const GaussianDisplacement& a = gaussianOf(first.displacement, what);
   const GaussianDisplacement& b = gaussianOf(next.displacement, what);
   ObstacleState state = first;
-  const Eigen::Quaterniond turned = Eigen::Quaterniond(first.pose.linear())
-                                        .slerp(fraction, Eigen::Quaterniond(next.pose.linear()));
-  state.pose.linear() = turned.normalized().toRotationMatrix();
+  state.pose.linear() = turnedBetween(first.pose.linear(), next.pose.linear(), fraction);
   state.pose.translation() =
       (1.0 - fraction) * first.pose.translation() + fraction * next.pose.translation();
   state.displacement =
       GaussianDisplacement((1.0 - fraction) * a.mean() + fraction * b.mean(),
-                           (1.0 - fraction) * a.covariance() + fraction * b.covariance());
+                           covarianceBetween(a.covariance(), b.covariance(), fraction));
   return state;
 }
 

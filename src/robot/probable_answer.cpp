@@ -116,9 +116,8 @@ class AnyProbably {
     for (const ProbableScene& scene : scenes) {
       obstacles_.push_back(std::make_unique<ObstacleSampling>(scene, geometries, balls, far));
     }
-    // Of several obstacles none decides by itself.
+    // No obstacle decides by itself: beside it there are others, or bodies left out as far away.
     request_.threshold.reset();
-    if (scenes.size() == 1) request_.threshold = threshold;
   }
 
   ProbableResult run() {

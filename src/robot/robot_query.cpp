@@ -110,6 +110,9 @@ struct RobotQuery::Implementation {
                 const ProbabilityRequest& request) const {
     validateRequest(request);
     detail::refuseBand(request, "robots");
+    if (request.gradient) {
+      throw InvalidRequest("a gradient was asked for: robots have none");
+    }
     if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
     for (const Eigen::VectorXd& values : waypoints) robot.validate(values);
     for (const Obstacle& obstacle : obstacles) detail::requireStates(obstacle, waypoints.size());

@@ -197,6 +197,11 @@ RobotQuery loadRobotQuery(const RobotScene& scene) {
   std::vector<Obstacle> obstacles;
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     std::vector<ObstacleState> states = obstacle.over_time;
+    if (!states.empty() && states.size() != scene.waypoints.size()) {
+      throw InvalidRequest("obstacle " + obstacle.name + " has states at " +
+                           std::to_string(states.size()) + " waypoints, the motion has " +
+                           std::to_string(scene.waypoints.size()));
+    }
     if (!states.empty() && scene.largest_step) {
       states = detail::statesAt(states,
                                 detail::stepsBetween(valuesOf(scene, robot), *scene.largest_step));

@@ -26,6 +26,9 @@ constexpr double kShareOfNext = 0.3;
 /// Of the tolerance: what the cells may leave open, the rest being that of the steps.
 constexpr double kShareOfCells = 0.6;
 
+/// Steps are halved in microseconds; the clock is looked at once in so many.
+constexpr std::size_t kStepsBetweenLooks = 1024;
+
 /// Of the memory limit: what the trees of all steps may take.
 constexpr double kShareOfTrees = 0.5;
 
@@ -65,7 +68,9 @@ class SweptMotion {
   SweptAnswer run() {
     double distance = firstDistance();
     for (int round = 0; round < kMostRounds; ++round) {
-      if (!halveTo(distance)) return finished(ProbabilityStatus::memory_limit);
+      if (!halveTo(distance)) {
+        return finished(budget_.exhausted().value_or(ProbabilityStatus::memory_limit));
+      }
       const ProbabilityResult answer = ask();
       keep(answer);
       if (const auto status = isEnough()) return finished(*status);
@@ -94,14 +99,15 @@ class SweptMotion {
     return kLeastShrunk * longest;
   }
 
-  /// False if there are more steps than memory allows.
+  /// False if there are more steps than memory or time allows.
   bool halveTo(double distance) {
     std::vector<SweptBody> left = std::move(near_);
     near_.clear();
     answer_.reach = 0.0;
     const double most = kShareOfTrees * static_cast<double>(request_.max_memory);
     double bytes = 0.0;
-    while (!left.empty()) {
+    for (std::size_t i = 0; !left.empty(); ++i) {
+      if (i % kStepsBetweenLooks == 0 && budget_.exhausted()) return false;
       SweptBody step = std::move(left.back());
       left.pop_back();
       if (isFar(step)) {

@@ -41,48 +41,76 @@ class UrdfMessages : public console_bridge::OutputHandler {
   std::string first_;
 };
 
-// Behind the end of a tag that starts at `from`; quoted values may contain a '>'.
-std::size_t endOfTag(const std::string& text, std::size_t from) {
-  char quote = 0;
-  for (std::size_t i = from; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quote != 0) {
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '>') {
-      return i + 1;
+/// The elements of a text, as far as they can be told apart without doubt: parsers recurse into
+/// them.
+class XmlElements {
+ public:
+  XmlElements(const std::string& text, const std::string& path) : text_(text), path_(path) {}
+
+  void check() {
+    for (std::size_t i = text_.find('<'); i < text_.size(); i = text_.find('<', i)) {
+      if (startsWith("<!--", i)) {
+        i = behind("-->", i + 4);
+      } else if (startsWith("<?", i)) {
+        i = behind("?>", i + 2);
+      } else if (startsWith("<!", i)) {
+        throw FileError(path_ + ": a document type or CDATA, which no URDF or SRDF needs");
+      } else {
+        i = startsWith("</", i) ? behindClosing(i) : behindOpening(i);
+      }
     }
   }
-  return text.size();
-}
 
-std::size_t behind(const std::string& text, const char* end, std::size_t from) {
-  const std::size_t found = text.find(end, from);
-  return found == std::string::npos ? text.size() : found + std::char_traits<char>::length(end);
-}
+ private:
+  bool startsWith(const char* what, std::size_t at) const {
+    return text_.compare(at, std::char_traits<char>::length(what), what) == 0;
+  }
+
+  [[noreturn]] void fail(const std::string& what, std::size_t at) const {
+    throw FileError(path_ + ": " + what + ", character " + std::to_string(at));
+  }
+
+  std::size_t behind(const char* end, std::size_t from) const {
+    const std::size_t found = text_.find(end, from);
+    if (found == std::string::npos) fail(std::string("no '") + end + "' ends what begins", from);
+    return found + std::char_traits<char>::length(end);
+  }
+
+  std::size_t behindClosing(std::size_t from) {
+    const std::size_t end = text_.find_first_of("\"'<>", from + 2);
+    if (end == std::string::npos || text_[end] != '>') fail("a closing tag without an end", from);
+    if (--depth_ < 0) fail("a closing tag without an element", from);
+    return end + 1;
+  }
+
+  /// Values may contain a '>'; quotes are theirs only.
+  std::size_t behindOpening(std::size_t from) {
+    for (std::size_t i = from + 1; i < text_.size(); ++i) {
+      const char c = text_[i];
+      if (c == '>') {
+        if (text_[i - 1] != '/' && ++depth_ > kDeepest) {
+          fail("elements nested deeper than " + std::to_string(kDeepest), from);
+        }
+        return i + 1;
+      }
+      if (c == '<') break;
+      if (c != '"' && c != '\'') continue;
+      const std::size_t before = text_.find_last_not_of(" \t\r\n", i - 1);
+      if (text_[before] != '=') fail("a quote that begins no value", i);
+      i = behind(c == '"' ? "\"" : "'", i + 1) - 1;
+    }
+    fail("a tag without an end", from);
+  }
+
+  const std::string& text_;
+  const std::string& path_;
+  int depth_ = 0;
+};
 
 }  // namespace
 
 void checkXmlText(const std::string& text, const std::string& path) {
-  int depth = 0;
-  for (std::size_t i = text.find('<'); i < text.size(); i = text.find('<', i)) {
-    if (text.compare(i, 4, "<!--") == 0) {
-      i = behind(text, "-->", i);
-    } else if (text.compare(i, 2, "<?") == 0) {
-      i = behind(text, "?>", i);
-    } else if (text.compare(i, 2, "<!") == 0) {
-      throw FileError(path + ": a document type or CDATA, which no URDF or SRDF needs");
-    } else {
-      const std::size_t end = endOfTag(text, i);
-      if (text.compare(i, 2, "</") == 0) {
-        --depth;
-      } else if (text[end - 2] != '/' && ++depth > kDeepest) {
-        throw FileError(path + ": elements nested deeper than " + std::to_string(kDeepest));
-      }
-      i = end;
-    }
-  }
+  XmlElements(text, path).check();
 }
 
 urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path) {

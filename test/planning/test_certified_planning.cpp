@@ -190,6 +190,11 @@ TEST_CASE("certified plans refuse what makes no sense") {
                          "radius=\"1\"/></geometry></collision></link></robot>")));
   CHECK_THROWS_AS(planCertified(scene.query, other, scene.start, scene.goal, request),
                   InvalidRequest);
+  Obstacle moving = scene.query.obstacles()[0];
+  moving.over_time.push_back({moving.pose, moving.displacement});
+  CHECK_THROWS_AS(planCertified(RobotQuery(scene.query.robot(), {moving}), scene.self, scene.start,
+                                scene.goal, request),
+                  InvalidRequest);
   // A start that collides with itself: closed fingers may, a hand through the base may not.
   const Eigen::VectorXd folded =
       scene.query.robot().values({{"shoulder", 1.2}, {"elbow", 2.4}, {"grip", 0.035}});

@@ -197,6 +197,11 @@ TEST_CASE("scenes have obstacles over time, and states between their waypoints")
   const auto& error = std::get<GaussianDisplacement>(states[2].displacement);
   CHECK(error.covariance()(0, 0) == Approx(0.01 + 2.0 / 3.0 * 0.08));
   CHECK(error.covariance()(1, 1) == Approx(0.01));
+  RobotScene other = scene;  // as with another motion in place of its own
+  other.waypoints.resize(7, scene.waypoints[0]);
+  CHECK_THROWS_AS(loadRobotQuery(other), InvalidRequest);
+  other.waypoints.resize(1);
+  CHECK_THROWS_AS(loadRobotQuery(other), InvalidRequest);
   const auto refused = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
@@ -207,4 +212,19 @@ TEST_CASE("scenes have obstacles over time, and states between their waypoints")
   refused("{}, {\"pose\": [0.5, 0.5, 0.3]", "{}, {\"pose\": [0.5, 0.5]");
   refused("{}, {\"pose\"", "{}, {\"place\"");
   refused("any-dependence", "any");
+}
+
+TEST_CASE("an error stays the same between waypoints, and is persistent there, too") {
+  const TemporaryFolder folder;
+  const std::string text =
+      R"({"robot": {"urdf": ")" + shippedFile("arm.urdf") +
+      R"("}, "waypoints": [{"turn": 0}, {"turn": 0.5}], "largest_step": 0.17,)"
+      R"( "obstacles": [{"name": "o", "sphere": 0.1, "pose": [0.5, 0.2, 0.3, 0.8, 0.1, 0.2, 0.5],)"
+      R"( "displacement": {"sigma": [0.02, 0.03, 0.07]},)"
+      R"( "over_time": [{}, {"pose": [0.5, 0.5, 0.3, 0.8, 0.1, 0.2, 0.5]}]}]})";
+  const RobotScene scene = loadRobotScene(folder.write("scene.json", text));
+  const RobotQuery query = loadRobotQuery(scene);
+  const auto waypoints = waypointsOf(scene, query.robot());
+  CHECK(waypoints.size() == 4);
+  CHECK_NOTHROW(ask(query, waypoints, ErrorsOverTime::persistent));
 }

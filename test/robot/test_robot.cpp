@@ -6,6 +6,8 @@
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <urdf_parser/urdf_parser.h>
+#include <atomic>
+#include <thread>
 
 #include <limits>
 #include <map>
@@ -118,6 +120,29 @@ TEST_CASE("links of other people's robots are where a product of transforms puts
   checkKinematics(Robot(*kuka), *kuka, 50);
 }
 
+TEST_CASE("poses asked for by several threads at once are those of one") {
+  const Robot arm = shippedArm();
+  std::mt19937_64 random(5);
+  std::vector<Eigen::VectorXd> values;
+  for (int i = 0; i < 50; ++i) values.push_back(randomValues(arm, random));
+  std::vector<std::vector<fcl::Transform3d>> alone;
+  for (const Eigen::VectorXd& state : values) alone.push_back(arm.poses(state));
+  std::atomic<int> wrong{0};
+  const auto ask = [&](std::size_t first) {
+    for (std::size_t i = 0; i < 20'000; ++i) {
+      const std::size_t k = (first + 7 * i) % values.size();
+      const auto poses = arm.poses(values[k]);
+      for (std::size_t b = 0; b < poses.size(); ++b) {
+        if (poses[b].matrix() != alone[k][b].matrix()) ++wrong;
+      }
+    }
+  };
+  std::thread other(ask, std::size_t{0});
+  ask(3);
+  other.join();
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("bodies are the collision elements, with limits and mimic joints as the URDF has them") {
   const Robot arm = shippedArm();
   CHECK(arm.name() == "arm");
@@ -228,6 +253,12 @@ TEST_CASE("what is no URDF is refused with file and element") {
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
   refused(deep, "nested deeper");
+  // What a parser and the look at the text might not read alike.
+  refused("<a\">" + deep, "quote");
+  refused("<!-->" + deep + "-->" + deep, "nested deeper");
+  refused("<a></a></a>", "closing tag");
+  refused("<a><b", "without an end");
+  refused("<", "without an end");
   std::string loop = urdfWith(
       "<link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"b\"/>"
       "<child link=\"b\"/></joint>");

@@ -167,6 +167,7 @@ TEST_CASE("motions are interpolated in steps that are short enough") {
   CHECK(path.front() == a);
   CHECK(path.back() == b);
   CHECK_THROWS_AS(interpolated({a, b}, 0.0), InvalidRequest);
+  CHECK_THROWS_AS(interpolated({a, b}, 1e-9), InvalidRequest);
   CHECK_THROWS_AS(interpolated({a, Eigen::Vector3d::Zero()}, 0.1), InvalidRequest);
 }
 
@@ -178,6 +179,9 @@ TEST_CASE("a robot query refuses what makes no sense") {
   CHECK_THROWS_AS(query.state(Eigen::VectorXd::Zero(3), {}), InvalidRequest);
   ProbabilityRequest request;
   request.relative_tolerance = -1.0;
+  CHECK_THROWS_AS(query.state(arm.values({}), request), InvalidRequest);
+  request = {};
+  request.gradient = true;
   CHECK_THROWS_AS(query.state(arm.values({}), request), InvalidRequest);
 }
 
