@@ -189,10 +189,13 @@ TEST_CASE("rounded pairs are exact, with their gradient") {
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.3, 0.1, 0.2}, axes);
   const fcl::Transform3d pose_b =
       at({0.6, 0.4, 0.3}) * Eigen::Quaterniond(1, 0.2, 0.7, 0.1).normalized();
-  for (const auto& [a, b] : pairs) {
+  for (const auto& pair : pairs) {
+    // Named one by one: a lambda of C++17 cannot capture what a structured binding names.
+    const fcl::CollisionGeometryd& a = *pair.first;
+    const fcl::CollisionGeometryd& b = *pair.second;
     ProbabilityRequest request;
     request.gradient = true;
-    const auto result = answer(*a, kIdentity, *b, pose_b, displacement, request);
+    const auto result = answer(a, kIdentity, b, pose_b, displacement, request);
     CHECK(result.method == ProbabilityMethod::exact);
     CHECK(result.status == ProbabilityStatus::exact);
     CHECK(*result.upper - *result.lower <= 1e-9 * *result.upper);
@@ -201,7 +204,7 @@ TEST_CASE("rounded pairs are exact, with their gradient") {
     for (int k = 0; k < 3; ++k) {
       constexpr double kStep = 1e-3;
       const auto moved = [&](double step) {
-        return answer(*a, kIdentity, *b, pose_b,
+        return answer(a, kIdentity, b, pose_b,
                       displacement.withMean(step * Eigen::Vector3d::Unit(k)))
             .probability();
       };
@@ -211,7 +214,7 @@ TEST_CASE("rounded pairs are exact, with their gradient") {
       CHECK((*result.gradient)[k] == Approx(slope).epsilon(1e-6).margin(1e-7));
     }
     request.method = ProbabilityMethod::interval;
-    const auto interval = answer(*a, kIdentity, *b, pose_b, displacement, request);
+    const auto interval = answer(a, kIdentity, b, pose_b, displacement, request);
     CHECK(*result.lower <= *interval.upper);
     CHECK(*result.upper >= *interval.lower);
     REQUIRE(interval.gradient_lower);
