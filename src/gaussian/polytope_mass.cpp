@@ -11,6 +11,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/agreed_bounds.h"
 #include "gaussian/boundary_mass.h"
 #include "gaussian/constants.h"
 #include "gaussian/number_text.h"
@@ -77,13 +78,6 @@ bool isWorthCubature(const ConvexPolytope& polytope, const PolytopeBoundary& bou
   return expectedPieces(polytope, boundary) <= limit;
 }
 
-// Both are right, so their intersection is; were they to disagree, both would be kept.
-Bounds combined(const Bounds& a, const Bounds& b) {
-  const Bounds both{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
-  if (both.lower <= both.upper) return both;
-  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
-}
-
 // The mass between two parallel planes that hold the body, the least over the faces: what is left
 // to say of a sliver that rounding has made of nothing.
 double massBetweenPlanes(const ConvexPolytope& polytope, double vertex_error) {
@@ -143,7 +137,7 @@ Bounds detail::polytopeMass(const ConvexPolytope& polytope, double vertex_error,
     if (solid) {
       const SlabMass slabs =
           surfaceSlabMass(boundary, &FaceFrame::unevenness, vertex_error + solid->cut_error);
-      bounds = combined(bounds, widened(solid->mass, slabs));
+      bounds = agreed(bounds, widened(solid->mass, slabs));
     }
   }
   if (bounds.width() > kSliverRelativeWidth * bounds.upper) {

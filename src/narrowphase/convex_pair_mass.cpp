@@ -9,6 +9,7 @@
 
 #include "cobstacle/convex_body_data.h"
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/agreed_bounds.h"
 #include "narrowphase/ball_pair.h"
 #include "narrowphase/pair_bounds.h"
 #include "narrowphase/rounded_pair.h"
@@ -41,13 +42,6 @@ Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& d
           normalBallMass(std::max(near, 0.0) / most, large / least).upper};
 }
 
-/// Where two contradict each other both are kept: one of them is wrong.
-Bounds intersection(const Bounds& one, const Bounds& other) {
-  const Bounds both{std::max(one.lower, other.lower), std::min(one.upper, other.upper)};
-  if (both.lower <= both.upper) return both;
-  return {std::min(one.lower, other.lower), std::max(one.upper, other.upper)};
-}
-
 }  // namespace
 
 Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
@@ -65,14 +59,14 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   }
   if (frame.rank == 3 && isRoundedPair(a, b)) {
     const RoundedEffort effort{false, interruption};
-    known = intersection(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
+    known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;
   const ConvexSetObstacle outer(frame, a.data().set(), b.data().set(), Faces::outer);
   const ConvexSetObstacle inner(frame, a.data().set(), b.data().set(), Faces::inner);
   const MassEffort effort{kSandwichWidth, interruption};
-  return intersection(known, {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper});
+  return agreed(known, {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper});
 }
 
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,

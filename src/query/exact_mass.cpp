@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/rounded_pair.h"
 #include "query/request_limits.h"
@@ -86,11 +87,7 @@ class ExactMass {
   }
 
   void narrow(const Bounds& mass) {
-    const Bounds both{std::max(mass_.lower, mass.lower), std::min(mass_.upper, mass.upper)};
-    // Where two contradict each other both are kept: one of them is wrong.
-    mass_ = both.lower <= both.upper
-                ? both
-                : Bounds{std::min(mass_.lower, mass.lower), std::max(mass_.upper, mass.upper)};
+    mass_ = detail::agreed(mass_, mass);
     limits_.setProgress(mass_, 0.5);
   }
 
