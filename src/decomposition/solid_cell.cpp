@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "decomposition/solid_cell.h"
 
-#include <Eigen/Geometry>
+#include "decomposition/mesh_box.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -14,11 +14,7 @@ constexpr double kStepInside = 1e-6;
 
 SolidCell::SolidCell(const TriangleMesh& mesh, const ClosedMesh* solid) : solid_(solid) {
   if (!solid) return;
-  Eigen::AlignedBox3d box;
-  for (const fcl::Vector3d& v : mesh.vertices) box.extend(v);
-  FaceSet faces;
-  setToBox(box.min(), box.max(), faces);
-  cell_.start(faces);
+  cell_.start(boxAround(mesh));
   findCorners();
 }
 

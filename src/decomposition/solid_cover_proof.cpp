@@ -7,6 +7,7 @@
 
 #include "cobstacle/cut_polytope.h"
 #include "decomposition/lowered_polytope.h"
+#include "decomposition/mesh_box.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -49,10 +50,7 @@ class BoxCover {
     for (const ConvexPolytope& polytope : polytopes) {
       solids_.emplace_back(polytope, 0.5 * margins.depth + rounding);
     }
-    Eigen::AlignedBox3d box;
-    for (const fcl::Vector3d& v : mesh.vertices) box.extend(v);
-    rests_.emplace_back();
-    setToBox(box.min(), box.max(), rests_.back().surface);
+    rests_.push_back({boxAround(mesh)});
   }
 
   /// False if there are too many.
