@@ -63,7 +63,7 @@ class ConvexParts {
   /// Volume of a part, cubic metres.
   double volume(std::size_t part) const;
 
-  /// The same for FCL, whose collide() and managers take it: one object a part.
+  /// The same for FCL: one object a part.
   std::shared_ptr<const fcl::Convexd> geometry(std::size_t part) const;
 
   /// Which two parts make the smallest hull together, then which two of what is left, and so on:
@@ -77,5 +77,8 @@ class ConvexParts {
   struct Data;
   std::shared_ptr<const Data> data_;
 };
+
+/// A polytope with faces for FCL, whose collide() and managers take it.
+std::shared_ptr<fcl::Convexd> convexGeometry(const ConvexPolytope& polytope);
 
 }  // namespace fcl_prob

@@ -80,15 +80,17 @@ struct Cover {
 
 /// Moved outwards, the further the more faces one of them has.
 Cover paddedParts(const std::vector<detail::PointSet>& parts) {
+  std::vector<ConvexPolytope> hulls;
   std::size_t faces = kFacesOfPadding;
   for (const detail::PointSet& points : parts) {
-    faces = std::max(faces, convexHull(points).faces.size());
+    hulls.push_back(convexHull(points));
+    faces = std::max(faces, hulls.back().faces.size());
   }
   const double padding =
       kPadding * static_cast<double>(faces) / static_cast<double>(kFacesOfPadding);
   Cover cover{{}, marginsOf(padding)};
-  for (const detail::PointSet& points : parts) {
-    cover.polytopes.push_back(detail::paddedHull(points, padding));
+  for (ConvexPolytope& hull : hulls) {
+    cover.polytopes.push_back(detail::paddedHull(std::move(hull), padding));
   }
   return cover;
 }
@@ -111,7 +113,9 @@ bool coversSolidOf(const TriangleMesh& mesh, const Cover& cover) {
                                 cover.polytopes, cover.margins);
 }
 
-std::shared_ptr<const fcl::Convexd> convexOf(const ConvexPolytope& polytope) {
+}  // namespace
+
+std::shared_ptr<fcl::Convexd> convexGeometry(const ConvexPolytope& polytope) {
   auto faces = std::make_shared<std::vector<int>>();
   for (const ConvexPolytope::Face& face : polytope.faces) {
     faces->push_back(static_cast<int>(face.vertices.size()));
@@ -124,8 +128,6 @@ std::shared_ptr<const fcl::Convexd> convexOf(const ConvexPolytope& polytope) {
   convex->computeLocalAABB();
   return convex;
 }
-
-}  // namespace
 
 struct ConvexParts::Data {
   std::vector<ConvexPolytope> polytopes;
@@ -151,7 +153,7 @@ ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& r
     data->volumes.push_back(std::ldexp(detail::hullVolume(corners.back()), 3 * exponent));
     scale(polytope, exponent);
     data->bodies.emplace_back(polytope.vertices);
-    data->geometries.push_back(convexOf(polytope));
+    data->geometries.push_back(convexGeometry(polytope));
   }
   data->unions = detail::unionOrder(std::move(corners));
   data_ = std::move(data);

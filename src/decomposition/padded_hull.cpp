@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "fcl_prob/exceptions.h"
 
@@ -55,8 +56,7 @@ ConvexPolytope hullOfOctahedra(const std::vector<Eigen::Vector3d>& points, doubl
 
 }  // namespace
 
-ConvexPolytope paddedHull(const std::vector<Eigen::Vector3d>& points, double padding) {
-  ConvexPolytope hull = convexHull(points);
+ConvexPolytope paddedHull(ConvexPolytope hull, double padding) {
   const Eigen::Vector3d middle = middleOf(hull);
   const double inradius = inradiusAbout(middle, hull);
   if (inradius * kMostScaling > kReserve * padding) {

@@ -3,16 +3,13 @@
 // Convex hulls that are larger than rounding can make them smaller.
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include "fcl_prob/convex_polytope.h"
 
 namespace fcl_prob::detail {
 
-/// A polytope with faces that contains every point within `padding` (metres) of the hull of some
-/// points, and hardly more: the hull scaled about its middle, or, where it is too thin for that,
-/// the hull of an octahedron around each of its corners.
-ConvexPolytope paddedHull(const std::vector<Eigen::Vector3d>& points, double padding);
+/// A polytope with faces that contains every point within `padding` (metres) of a hull, and hardly
+/// more: the hull scaled about its middle, or, where it is too thin for that, the hull of an
+/// octahedron around each of its corners.
+ConvexPolytope paddedHull(ConvexPolytope hull, double padding);
 
 }  // namespace fcl_prob::detail

@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fcl_prob/convex_parts.h"
 #include "fcl_prob/convex_polytope.h"
 #include "mesh_shapes.h"
 
@@ -40,15 +41,7 @@ std::vector<NamedGeometry> meshes() {
 
 std::shared_ptr<fcl::CollisionGeometryd> randomConvex(int points, double radius, unsigned seed) {
   RandomBodies random(seed);
-  const fcl_prob::ConvexPolytope hull = fcl_prob::convexHull(random.onSphere(points, radius));
-  std::vector<int> faces;
-  for (const fcl_prob::ConvexPolytope::Face& face : hull.faces) {
-    faces.push_back(static_cast<int>(face.vertices.size()));
-    faces.insert(faces.end(), face.vertices.begin(), face.vertices.end());
-  }
-  return std::make_shared<fcl::Convexd>(
-      std::make_shared<const std::vector<Eigen::Vector3d>>(hull.vertices),
-      static_cast<int>(hull.faces.size()), std::make_shared<const std::vector<int>>(faces));
+  return fcl_prob::convexGeometry(fcl_prob::convexHull(random.onSphere(points, radius)));
 }
 
 std::shared_ptr<fcl::CollisionGeometryd> randomOcTree(int cells, double resolution, double radius,
