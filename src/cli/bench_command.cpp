@@ -87,11 +87,14 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
                   "10000, hours)")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  command.add_option("--cases", arguments->options.cases, "stability: scenes of each family")
+  command
+      .add_option("--cases", arguments->options.cases,
+                  "pose_pairs, stability: scenes of each family; pose: seeds of the calibration")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  command.add_flag("--quick", arguments->options.quick,
-                   "parts: two scenes of each part; table2: three seeds, 10 s each");
+  command.add_flag(
+      "--quick", arguments->options.quick,
+      "parts: two scenes of each part; pose_pairs: 2,000 samples; table2: three seeds, 10 s each");
   auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of Markdown");
   command.add_flag("--json", arguments->json, "JSON instead of Markdown")->excludes(csv);
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");

@@ -18,7 +18,7 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
   std::size_t cases = 50;    ///< stability: scenes of each family
-  bool quick = false;        ///< parts, table2: a few scenes or seeds only
+  bool quick = false;        ///< a few scenes, seeds or samples only
 };
 
 /// A table for people and the same numbers, unrounded, for programs.
@@ -49,6 +49,7 @@ BenchReport benchCertified(const BenchOptions& options, const BenchProgress& pro
 BenchReport benchConjunction(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchParts(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchPose(const BenchOptions& options, const BenchProgress& progress);
+BenchReport benchPosePairs(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchRobot(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
