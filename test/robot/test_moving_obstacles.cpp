@@ -81,7 +81,7 @@ TEST_CASE("an obstacle that shifts with a persistent error holds what counting f
   CHECK(overlap(any, ask(other, waypoints, ErrorsOverTime::persistent).any));
 }
 
-TEST_CASE("an obstacle and a robot both move in continuous time") {
+TEST_CASE("an obstacle and a robot both move in continuous time", "[slow]") {
   const RobotQuery query(shippedArm(), {passingBall(1.0)});
   const auto waypoints = sweep(query.robot(), kWaypoints);
   const Bounds all = ask(query, waypoints, ErrorsOverTime::persistent, BetweenWaypoints::swept).any;
