@@ -66,6 +66,8 @@ struct AttachedObject {
 struct CarryingJoint {
   std::size_t joint = 0;
   double factor = 1.0;  ///< of a mimic joint; else 1
+  double offset = 0.0;  ///< of a mimic joint, radians or metres: its value is factor times that of
+                        ///< `joint`, and this
   bool turns = true;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit, world frame
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< on the axis, metres, world frame
@@ -118,16 +120,16 @@ class Robot {
   bool isWithinLimits(const Eigen::VectorXd& values) const;
 
   /// Poses of the bodies, metres, world frame. Limits are not looked at.
-  /// \throws InvalidRequest as validate()
+  /// \throws InvalidRequest as validate(); InvalidPose if one is not finite
   std::vector<fcl::Transform3d> poses(const Eigen::VectorXd& values) const;
 
   /// The joints between the root link and a body that are not fixed, from the root outwards: what
   /// the body's Jacobian is made of. \throws InvalidRequest as validate(), or for a body that is
-  /// not there
+  /// not there; InvalidPose
   std::vector<CarryingJoint> carryingJoints(std::size_t body, const Eigen::VectorXd& values) const;
 
   /// Pose of a link, with or without collision elements. \throws InvalidRequest as validate(), or
-  /// for a link that is not there
+  /// for a link that is not there; InvalidPose
   fcl::Transform3d linkPose(const std::string& link, const Eigen::VectorXd& values) const;
 
  private:

@@ -21,52 +21,52 @@
 namespace fcl_prob::cli {
 namespace {
 
-constexpr double kThreshold = 0.05;
-constexpr std::size_t kSamples = 30'000;
-constexpr std::size_t kQuickSamples = 2'000;
+constexpr double kAcceptedAt = 0.05;
+constexpr std::size_t kCountedSamples = 30'000;
+constexpr std::size_t kQuickCountedSamples = 2'000;
 
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+using PairGeometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
 /// What one method says of a scene.
-struct Answer {
+struct PairAnswer {
   double value = 1.0;
   double time_ms = 0.0;
   bool bound = true;  ///< stated to be at least P
 };
 
-enum class Family { ellipsoids, superquadrics };
+enum class PairShapes { ellipsoids, superquadrics };
 
 /// How much is uncertain: the scale of the covariance of positions, and one of rotations.
-struct Noise {
+struct PairNoise {
   double scale;           ///< square metres, times diag(1.2, 1.2, 1.5) in the body's frame
   double rotation_sigma;  ///< radians, about every axis
 };
 
-Eigen::Vector3d vectorBetween(Uniforms& random, double least, double most) {
+Eigen::Vector3d randomVector(Uniforms& random, double least, double most) {
   const double x = random.between(least, most), y = random.between(least, most);
   return {x, y, random.between(least, most)};
 }
 
-Geometry randomBody(Family family, Uniforms& random) {
-  const Eigen::Vector3d semi_axes = vectorBetween(random, 0.2, 1.2);
-  if (family == Family::ellipsoids) return std::make_shared<fcl::Ellipsoidd>(semi_axes);
+PairGeometry randomConvexBody(PairShapes family, Uniforms& random) {
+  const Eigen::Vector3d semi_axes = randomVector(random, 0.2, 1.2);
+  if (family == PairShapes::ellipsoids) return std::make_shared<fcl::Ellipsoidd>(semi_axes);
   const double north = random.between(0.02, 2.0), east = random.between(0.02, 2.0);
   return superquadricHull(semi_axes, north, east);
 }
 
 /// The certain body about the origin, the uncertain one in the octant beside it.
 struct PairScene {
-  Geometry uncertain, certain;
+  PairGeometry uncertain, certain;
   fcl::Transform3d pose_uncertain = fcl::Transform3d::Identity();
   fcl::Transform3d pose_certain = fcl::Transform3d::Identity();
   PoseError error;
 
-  PairScene(Family family, const Noise& noise, Uniforms& random)
-      : uncertain(randomBody(family, random)), certain(randomBody(family, random)) {
+  PairScene(PairShapes family, const PairNoise& noise, Uniforms& random)
+      : uncertain(randomConvexBody(family, random)), certain(randomConvexBody(family, random)) {
     pose_certain.linear() = random.rotation();
-    pose_certain.translation() = vectorBetween(random, 0.0, 0.1);
+    pose_certain.translation() = randomVector(random, 0.0, 0.1);
     pose_uncertain.linear() = random.rotation();
-    pose_uncertain.translation() = vectorBetween(random, 0.3, 1.3);
+    pose_uncertain.translation() = randomVector(random, 0.3, 1.3);
     const Eigen::Vector3d position = (noise.scale * Eigen::Vector3d(1.2, 1.2, 1.5)).cwiseSqrt();
     error =
         PoseError::fromStandardDeviations(position, Eigen::Vector3d::Constant(noise.rotation_sigma),
@@ -79,7 +79,7 @@ struct PairScene {
   }
 };
 
-ProbabilityRequest requestOf(ProbabilityMethod method, std::uint64_t seed) {
+ProbabilityRequest pairRequest(ProbabilityMethod method, std::uint64_t seed) {
   ProbabilityRequest request;
   request.method = method;
   request.absolute_tolerance = 1e-3;
@@ -99,25 +99,25 @@ class PairMethods {
     return result;
   }
 
-  Answer estimate(std::uint64_t seed) const {
-    ProbabilityRequest request = requestOf(ProbabilityMethod::estimate, seed);
+  PairAnswer estimate(std::uint64_t seed) const {
+    ProbabilityRequest request = pairRequest(ProbabilityMethod::estimate, seed);
     request.relative_tolerance = 0.01;
     return timed(false, [&] { return result(request).probability(); });
   }
 
-  Answer interval(std::uint64_t seed) const {
-    ProbabilityRequest request = requestOf(ProbabilityMethod::interval, seed);
+  PairAnswer interval(std::uint64_t seed) const {
+    ProbabilityRequest request = pairRequest(ProbabilityMethod::interval, seed);
     request.relative_tolerance = 0.1;
     return timed(true, [&] { return *result(request).upper; });
   }
 
-  Answer counted(std::uint64_t seed) const {
+  PairAnswer counted(std::uint64_t seed) const {
     return timed(false, [&] { return count(10'000, seed).probability(); });
   }
 
   /// By fcl::collide, without stopping early.
   ProbabilityResult count(std::size_t samples, std::uint64_t seed) const {
-    ProbabilityRequest request = requestOf(ProbabilityMethod::monte_carlo, seed);
+    ProbabilityRequest request = pairRequest(ProbabilityMethod::monte_carlo, seed);
     request.samples = samples;
     request.relative_tolerance = 0.0;
     request.absolute_tolerance = 1e-12;
@@ -126,7 +126,7 @@ class PairMethods {
     return result(request);
   }
 
-  Answer halfSpace() const {
+  PairAnswer halfSpace() const {
     return timed(true, [&] {
       const ConvexBody a(*scene_.uncertain), b(*scene_.certain);
       const auto bounds =
@@ -135,7 +135,7 @@ class PairMethods {
     });
   }
 
-  Answer enlarged(double confidence) const {
+  PairAnswer enlarged(double confidence) const {
     return timed(true, [&] {
       return enlargedCollision(*scene_.uncertain, scene_.pose_uncertain, *scene_.certain,
                                scene_.pose_certain, scene_.displacement(), confidence)
@@ -145,8 +145,8 @@ class PairMethods {
 
  private:
   template <typename Method>
-  static Answer timed(bool bound, const Method& method) {
-    Answer answer;
+  static PairAnswer timed(bool bound, const Method& method) {
+    PairAnswer answer;
     const Stopwatch watch;
     answer.value = method();
     answer.time_ms = watch.milliseconds();
@@ -159,7 +159,7 @@ class PairMethods {
 };
 
 /// One row: a method over all scenes of a family.
-struct Row {
+struct PairRow {
   std::vector<double> differences, times;
   std::size_t accepted = 0, violations = 0;
 };
@@ -172,7 +172,7 @@ class PairFamily {
   void add(const PairScene& scene) {
     const PairMethods methods(scene);
     const ProbabilityResult truth = methods.count(samples_, ~seed_ - scenes_);
-    if (*truth.estimate <= kThreshold) ++acceptable_;
+    if (*truth.estimate <= kAcceptedAt) ++acceptable_;
     const std::uint64_t seed = seed_ + scenes_++;
     note("interval 10 %, upper", methods.interval(seed), truth);
     note("estimate 1 %", methods.estimate(seed), truth);
@@ -183,16 +183,16 @@ class PairFamily {
   }
 
   const std::vector<std::string>& methods() const { return order_; }
-  const Row& row(const std::string& method) const { return rows_.at(method); }
+  const PairRow& row(const std::string& method) const { return rows_.at(method); }
   std::size_t acceptable() const { return acceptable_; }
 
  private:
-  void note(const std::string& method, const Answer& answer, const ProbabilityResult& truth) {
+  void note(const std::string& method, const PairAnswer& answer, const ProbabilityResult& truth) {
     if (rows_.find(method) == rows_.end()) order_.push_back(method);
-    Row& row = rows_[method];
+    PairRow& row = rows_[method];
     row.differences.push_back(answer.value - *truth.estimate);
     row.times.push_back(answer.time_ms);
-    if (answer.value <= kThreshold) ++row.accepted;
+    if (answer.value <= kAcceptedAt) ++row.accepted;
     if (answer.bound && answer.value < truth.confidence_interval->lower) ++row.violations;
   }
 
@@ -200,18 +200,18 @@ class PairFamily {
   std::uint64_t seed_;
   std::size_t scenes_ = 0, acceptable_ = 0;
   std::vector<std::string> order_;
-  std::map<std::string, Row> rows_;
+  std::map<std::string, PairRow> rows_;
 };
 
-double meanOf(const std::vector<double>& values) {
+double meanDifference(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-void addRows(const std::string& family, const Noise& noise, const PairFamily& pairs,
-             BenchReport& report) {
+void addPairRows(const std::string& family, const PairNoise& noise, const PairFamily& pairs,
+                 BenchReport& report) {
   for (const std::string& method : pairs.methods()) {
-    const Row& row = pairs.row(method);
-    const double mean = meanOf(row.differences), median = quantile(row.differences, 0.5);
+    const PairRow& row = pairs.row(method);
+    const double mean = meanDifference(row.differences), median = quantile(row.differences, 0.5);
     const double time = quantile(row.times, 0.5), slow = quantile(row.times, 0.9);
     const double accepted = static_cast<double>(row.accepted) /
                             static_cast<double>(std::max<std::size_t>(pairs.acceptable(), 1));
@@ -232,7 +232,7 @@ void addRows(const std::string& family, const Noise& noise, const PairFamily& pa
   }
 }
 
-BenchReport emptyReport(std::size_t samples) {
+BenchReport pairReport(std::size_t samples) {
   BenchReport report;
   report.title = "Random convex pairs with errors of the pose";
   report.table = TextTable({"shapes", "covariance", "σ of rotation", "method", "mean of error",
@@ -260,15 +260,15 @@ BenchReport emptyReport(std::size_t samples) {
 }  // namespace
 
 BenchReport benchPosePairs(const BenchOptions& options, const BenchProgress& progress) {
-  const std::size_t samples = options.quick ? kQuickSamples : kSamples;
-  BenchReport result = emptyReport(samples);
-  const std::map<std::string, Family> families{{"ellipsoids", Family::ellipsoids},
-                                               {"superquadrics", Family::superquadrics}};
+  const std::size_t samples = options.quick ? kQuickCountedSamples : kCountedSamples;
+  BenchReport result = pairReport(samples);
+  const std::map<std::string, PairShapes> families{{"ellipsoids", PairShapes::ellipsoids},
+                                                   {"superquadrics", PairShapes::superquadrics}};
   double done = 0.0;
   for (const auto& [name, family] : families) {
     if (name.find(options.only) == std::string::npos) continue;
-    for (const Noise noise :
-         {Noise{4e-4, 0.0}, Noise{8e-4, 0.0}, Noise{4e-4, 0.1}, Noise{8e-4, 0.1}}) {
+    for (const PairNoise noise :
+         {PairNoise{4e-4, 0.0}, PairNoise{8e-4, 0.0}, PairNoise{4e-4, 0.1}, PairNoise{8e-4, 0.1}}) {
       // The same pairs for every noise.
       Uniforms random(options.seed);
       PairFamily pairs(samples, options.seed);
@@ -278,7 +278,7 @@ BenchReport benchPosePairs(const BenchOptions& options, const BenchProgress& pro
         if (!progress(fraction, name)) return result;
         pairs.add(PairScene(family, noise, random));
       }
-      addRows(name, noise, pairs, result);
+      addPairRows(name, noise, pairs, result);
       ++done;
     }
   }

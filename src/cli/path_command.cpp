@@ -299,7 +299,8 @@ void addPathCommand(CLI::App& app, int& exit_code) {
                      "Add waypoints such that no joint moves further at once (radians, metres)");
   command.add_flag("--between", arguments->between,
                    "Certified for all of the way between the waypoints, too");
-  command.add_flag("--by-body", arguments->by_body, "Also each collision body by itself");
+  command.add_flag("--by-body", arguments->by_body, "Also each collision body by itself")
+      ->excludes("--probable");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runPath(*arguments); });

@@ -32,6 +32,15 @@ struct PlanArguments {
 RobotScene planSceneOf(const PlanArguments& arguments) {
   RobotScene scene = loadRobotScene(arguments.scene);
   if (!scene.plan) throw FileError(arguments.scene + ": plan: is missing");
+  // A plan knows its states, and the whole of them under the same error.
+  if (scene.between != BetweenWaypoints::ignored) {
+    throw FileError(arguments.scene +
+                    ": between: a plan looks at its states only; ask path for its result");
+  }
+  if (scene.errors != ErrorsOverTime::persistent) {
+    throw FileError(arguments.scene +
+                    ": errors: a plan knows persistent ones only; ask path for its result");
+  }
   if (arguments.threshold) scene.request.threshold = arguments.threshold;
   if (!scene.request.threshold) {
     throw FileError(arguments.scene + ": request: threshold: is missing, nor is it an option");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
@@ -26,12 +27,12 @@ ProbabilityRequest intervalOf(ProbabilityRequest request) {
 
 LargestProbability largestScreened(const RobotQuery& query, const detail::StateScreen& screen,
                                    const std::vector<Eigen::VectorXd>& states,
-                                   const ProbabilityRequest& request) {
+                                   const std::function<ProbabilityRequest()>& request) {
   LargestProbability largest;
   for (std::size_t i = 0; i < states.size(); ++i) {
     // What is below the P of another state is not the largest.
     if (screen.isBelow(states[i], largest.probability.lower)) continue;
-    const Bounds any = query.state(states[i], intervalOf(request)).any;
+    const Bounds any = query.state(states[i], intervalOf(request())).any;
     largest.probability.lower = std::max(largest.probability.lower, any.lower);
     if (any.upper <= largest.probability.upper) continue;
     largest.probability.upper = any.upper;
@@ -101,13 +102,33 @@ class CertifiedPlanner {
     };
   }
 
+  double secondsPassed() const {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    return passed.count();
+  }
+
+  /// A limit must be > 0; one that has passed ends a plan at its first state.
+  double secondsLeft() const {
+    return std::max(1e-9, request_.planning.time_limit.value_or(0.0) - secondsPassed());
+  }
+
+  /// Of a query, which gives what it has where the plan's time ends or its caller cancels it.
+  ProbabilityRequest withinLimits(ProbabilityRequest request, std::size_t states) const {
+    if (request_.planning.time_limit) {
+      request.time_limit = std::min(request.time_limit.value_or(secondsLeft()), secondsLeft());
+    }
+    if (request_.planning.on_progress) {
+      request.on_progress = [this, states, inner = request.on_progress](const auto& progress) {
+        return (!inner || inner(progress)) &&
+               request_.planning.on_progress({states, secondsPassed(), true});
+      };
+    }
+    return request;
+  }
+
   PlanningRequest remaining(std::size_t states) const {
     PlanningRequest request = request_.planning;
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    if (request.time_limit) {
-      // A limit must be > 0; one that has passed ends the plan at its first state.
-      *request.time_limit = std::max(1e-9, *request.time_limit - passed.count());
-    }
+    if (request.time_limit) request.time_limit = secondsLeft();
     request.max_states -= std::min(states, request.max_states - 1);
     return request;
   }
@@ -115,7 +136,7 @@ class CertifiedPlanner {
   /// Whether the whole motion is below its threshold, if there is one.
   bool certifyMotion(CertifiedPlan& plan) const {
     const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
-    ProbabilityRequest motion = intervalOf(request_.state);
+    ProbabilityRequest motion = intervalOf(withinLimits(request_.state, plan.path.states));
     motion.max_cells *= kCellsOfMotion;
     plan.motion = query_.motion(states, ErrorsOverTime::persistent, motion).any;
     return !request_.motion_threshold || plan.motion.upper < *request_.motion_threshold;
@@ -123,7 +144,8 @@ class CertifiedPlanner {
 
   void certifyStates(CertifiedPlan& plan) const {
     const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
-    const LargestProbability largest = largestScreened(query_, screen_, states, request_.state);
+    const LargestProbability largest = largestScreened(
+        query_, screen_, states, [&] { return withinLimits(request_.state, plan.path.states); });
     plan.largest = largest.probability;
     plan.likeliest = largest.state;
     // By the decisions, which may have been closer to the threshold than the tolerance.
@@ -142,7 +164,7 @@ class CertifiedPlanner {
 LargestProbability largestProbability(const RobotQuery& query,
                                       const std::vector<Eigen::VectorXd>& states,
                                       const ProbabilityRequest& request) {
-  return largestScreened(query, detail::StateScreen(query), states, request);
+  return largestScreened(query, detail::StateScreen(query), states, [&] { return request; });
 }
 
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,

@@ -18,6 +18,9 @@ namespace ob = ompl::base;
 
 constexpr double kHalfTurn = 3.14159265358979323846;
 
+/// From 0 to a limit of a joint.
+constexpr double kMostSteps = 1e12;
+
 /// OMPL seeds the generators of a process one after the other; this one depends on its own seed.
 class SeededSampler : public ob::RealVectorStateSampler {
  public:
@@ -61,6 +64,14 @@ void requireWithinLimits(const Robot& robot, const Eigen::VectorXd& values,
                          ", beyond its limits " + numberText(joint.lower) + " to " +
                          numberText(joint.upper));
   }
+}
+
+/// Doubles have to tell the states of an edge apart, and the square of its length has to be one.
+void requireSteps(const RobotJoint& joint, double low, double high, double step) {
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (largest < kMostSteps * step) return;
+  throw InvalidRequest("joint " + joint.name + ": values between " + numberText(low) + " and " +
+                       numberText(high) + " are too far from 0 for steps of " + numberText(step));
 }
 
 }  // namespace
@@ -111,6 +122,7 @@ ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot, const Eigen::VectorX
     const auto at = static_cast<unsigned>(i);
     bounds.setLow(at, std::isfinite(joint.lower) ? joint.lower : low - kHalfTurn);
     bounds.setHigh(at, std::isfinite(joint.upper) ? joint.upper : high + kHalfTurn);
+    requireSteps(joint, bounds.low[i], bounds.high[i], request_.largest_step);
   }
   auto space = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(dimension()));
   space->setBounds(bounds);

@@ -39,8 +39,7 @@ void validateRequest(const PlanningRequest& request) {
 
 /// By RRT-Connect; nothing if a limit ended it.
 std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
-                                           const detail::PlanningRun& run,
-                                           const Eigen::VectorXd& start,
+                                           detail::PlanningRun& run, const Eigen::VectorXd& start,
                                            const Eigen::VectorXd& goal) {
   const auto problem = std::make_shared<ob::ProblemDefinition>(space.information());
   ob::ScopedState<> from(space.information()), to(space.information());
@@ -51,7 +50,8 @@ std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
   planner.setRange(kRange);
   planner.setProblemDefinition(problem);
   planner.setup();
-  const ob::PlannerTerminationCondition stop([&run] { return run.isStopped(); });
+  // OMPL may go on for long without a state, where no nearer one is left.
+  const ob::PlannerTerminationCondition stop([&run] { return run.isStoppedNow(); });
   if (planner.solve(stop) != ob::PlannerStatus::EXACT_SOLUTION) return nullptr;
   return std::static_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
 }

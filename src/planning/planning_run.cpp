@@ -25,7 +25,15 @@ void PlanningRun::lookForLimits() {
     stopped_ = PlanningStatus::state_limit;
     return;
   }
-  if (states_ % kStatesPerLook != 0) return;
+  if (states_ % kStatesPerLook == 0) lookAtClock();
+}
+
+bool PlanningRun::isStoppedNow() {
+  if (!stopped_) lookAtClock();
+  return isStopped();
+}
+
+void PlanningRun::lookAtClock() {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
   if (request_.time_limit && passed.count() >= *request_.time_limit) {
     stopped_ = PlanningStatus::time_limit;

@@ -21,6 +21,9 @@ class PlanningRun {
   /// Whether all states of an edge are allowed, of which the first is known to be.
   bool isMotionAllowed(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
 
+  /// Looks at the clock and asks the caller. For what asks for no states for long.
+  bool isStoppedNow();
+
   bool isStopped() const { return stopped_.has_value(); }
   std::optional<PlanningStatus> stopped() const { return stopped_; }
 
@@ -30,6 +33,7 @@ class PlanningRun {
 
  private:
   void lookForLimits();
+  void lookAtClock();
 
   const StateTest& allowed_;
   const PlanningRequest& request_;

@@ -37,7 +37,8 @@ std::vector<JointShare> sharesOf(const std::vector<CarryingJoint>& joints, const
     const CarryingJoint& joint = joints[j];
     const auto k = static_cast<Eigen::Index>(joint.joint);
     const double change = std::fabs(joint.factor * step.half[k]);
-    const double value = std::fabs(joint.factor * step.middle[k]) + change;
+    const double value = std::fabs(joint.factor) * (step.sizes[k] + std::fabs(step.half[k])) +
+                         std::fabs(joint.offset);
     const double lever =
         joint.turns ? distanceFromAxis(body.centre, joint) + body.radius + moved : 1.0;
     shares[j] = {change, (1.0 + kRoundedKinematics) * lever, 8 * kEpsilon * value, joint.turns};

@@ -13,6 +13,7 @@ namespace fcl_prob::detail {
 struct JointStep {
   Eigen::VectorXd middle;
   Eigen::VectorXd half;
+  Eigen::VectorXd sizes;  ///< of the numbers that the middle was made of: what it is rounded by
 };
 
 /// All that a body does in a step. At every s a point of it is within `reach` of where it is in the

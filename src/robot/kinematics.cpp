@@ -65,7 +65,10 @@ KDL::Segment segmentOf(const urdf::Joint& joint, const std::string& where) {
     return KDL::Segment(joint.child_link_name, KDL::Joint(joint.name), origin);
   }
   const Eigen::Vector3d axis = vectorOf(joint.axis, where + ": axis");
-  if (!(axis.norm() > 1e-6)) throw FileError(where + ": its axis is zero");
+  const double length = axis.norm();
+  if (!(length > 1e-6 && std::isfinite(length))) {
+    throw FileError(where + ": its axis has length " + numberText(length));
+  }
   const auto type =
       joint.type == urdf::Joint::PRISMATIC ? KDL::Joint::TransAxis : KDL::Joint::RotAxis;
   const KDL::Joint kdl_joint(joint.name, origin.p, origin.M * kdlOf(axis.normalized()), type);
@@ -131,6 +134,10 @@ void Kinematics::follow(const urdf::Joint& joint, const urdf::ModelInterface& mo
     carried.factor *= mimic.multiplier;
     followed = next->second.get();
   }
+  if (!std::isfinite(carried.factor) || !std::isfinite(carried.offset)) {
+    throw FileError(placeOf(path, joint) + ": what it mimics multiplies to " +
+                    numberText(carried.factor) + " and " + numberText(carried.offset));
+  }
   carried.joint = joint_index_.at(followed->name);
 }
 
@@ -161,7 +168,7 @@ std::vector<CarryingJoint> Kinematics::carryingJoints(int link,
   for (const CarriedLink* carried : outwards) {
     if (carried->joint >= 0) {
       const KDL::Joint& joint = carried->segment.getJoint();
-      joints.push_back({static_cast<std::size_t>(carried->joint), carried->factor,
+      joints.push_back({static_cast<std::size_t>(carried->joint), carried->factor, carried->offset,
                         joint.getType() == KDL::Joint::RotAxis,
                         eigenOf(parent.M * joint.JointAxis()),
                         eigenOf(parent * joint.JointOrigin())});

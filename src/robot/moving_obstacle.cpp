@@ -3,6 +3,7 @@
 #include "robot/moving_obstacle.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <string>
 
 #include "fcl_prob/exceptions.h"
@@ -85,6 +86,16 @@ std::vector<Eigen::Vector3d> offsetsSinceFirst(const Obstacle& obstacle, std::si
     offsets[i] = state.pose.translation() - first.pose.translation() + (then.mean() - error.mean());
   }
   return offsets;
+}
+
+double largestPosition(const Obstacle& obstacle) {
+  double largest = 0.0;
+  for (const ObstacleState& state : obstacle.over_time) {
+    const double size = state.pose.translation().norm() +
+                        gaussianOf(state.displacement, nameOf(obstacle, 0)).mean().norm();
+    largest = std::max(largest, size);
+  }
+  return largest;
 }
 
 std::vector<ObstacleState> statesAt(const std::vector<ObstacleState>& given,

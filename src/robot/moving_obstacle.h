@@ -22,6 +22,9 @@ void requireStates(const Obstacle& obstacle, std::size_t waypoints);
 ///         error
 std::vector<Eigen::Vector3d> offsetsSinceFirst(const Obstacle& obstacle, std::size_t waypoints);
 
+/// How far from the origin it is at most, its mean displacement included; 0 if it does not move.
+double largestPosition(const Obstacle& obstacle);
+
 /// States at steps between the given ones: positions, means and covariances linear in between,
 /// orientations along the shortest turn. Empty for an obstacle that stays.
 /// \throws InvalidRequest for displacements that are not Gaussian

@@ -203,10 +203,7 @@ class AnyProbably {
 
 bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state) {
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
-  const bool left_out =
-      obstacle.geometry().getNodeType() != fcl::GEOM_OCTREE && !obstacle.geometry().isOccupied();
-  return gaussian && gaussian->rank() > 0 && obstacle.hasPieces() && !left_out &&
-         !obstacle.pieces().isEmpty();
+  return gaussian && gaussian->rank() > 0 && obstacle.hasPieces() && !obstacle.pieces().isEmpty();
 }
 
 ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,

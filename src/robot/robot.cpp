@@ -37,6 +37,12 @@ struct Robot::Implementation {
     }
   }
 
+  /// Sums of lengths near the largest double, however they come about.
+  void requireFinite(const fcl::Transform3d& pose, const std::string& what) const {
+    if (pose.matrix().allFinite()) return;
+    throw InvalidPose(name + ": the joints place " + what + " at a pose that is not finite");
+  }
+
   void attach(AttachedObject object) {
     const std::string what = "attached object " + object.name;
     const int link = kinematics.linkIndex(object.link);
@@ -135,6 +141,7 @@ std::vector<fcl::Transform3d> Robot::poses(const Eigen::VectorXd& values) const 
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     const auto link = static_cast<std::size_t>(implementation_->links[i]);
     result.push_back(implementation_->base * links[link] * bodies()[i].in_link);
+    implementation_->requireFinite(result.back(), bodies()[i].name());
   }
   return result;
 }
@@ -150,6 +157,9 @@ std::vector<CarryingJoint> Robot::carryingJoints(std::size_t body,
   for (CarryingJoint& joint : joints) {
     joint.axis = implementation_->base.linear() * joint.axis;
     joint.point = implementation_->base * joint.point;
+    if (joint.axis.allFinite() && joint.point.allFinite()) continue;
+    throw InvalidPose(name() + ": joint " + this->joints()[joint.joint].name +
+                      " is not at a finite place");
   }
   return joints;
 }
@@ -158,8 +168,11 @@ fcl::Transform3d Robot::linkPose(const std::string& link, const Eigen::VectorXd&
   implementation_->validate(values);
   const int index = implementation_->kinematics.linkIndex(link);
   if (index < 0) throw InvalidRequest(implementation_->name + " has no link " + link);
-  return implementation_->base *
-         implementation_->kinematics.linkPoses(values)[static_cast<std::size_t>(index)];
+  const fcl::Transform3d pose =
+      implementation_->base *
+      implementation_->kinematics.linkPoses(values)[static_cast<std::size_t>(index)];
+  implementation_->requireFinite(pose, link);
+  return pose;
 }
 
 }  // namespace fcl_prob

@@ -8,6 +8,7 @@
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
+#include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
@@ -118,6 +119,12 @@ struct RobotQuery::Implementation {
     for (const Obstacle& obstacle : obstacles) detail::requireStates(obstacle, waypoints.size());
   }
 
+  /// Not what fcl::collide leaves out.
+  bool meets(std::size_t body, std::size_t obstacle) const {
+    return !detail::whyNeverInContact(geometries[body].geometry(),
+                                      obstacle_geometries[obstacle].geometry());
+  }
+
   std::vector<PlacedBody> placed(const Eigen::VectorXd& values) const {
     std::vector<PlacedBody> result;
     for (const fcl::Transform3d& pose : robot.poses(values))
@@ -183,8 +190,18 @@ struct RobotQuery::Implementation {
       if (!detail::canBeSampled(obstacle_geometries[i], state)) {
         return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
       }
-      scenes.push_back({&obstacle_geometries[i], &obstacle_balls[i], state, relative[i]});
+      std::vector<PlacedBody> bodies;
+      for (const PlacedBody& one : relative[i]) {
+        if (!meets(one.body, i)) continue;
+        if (!geometries[one.body].hasPieces()) {
+          return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
+        }
+        bodies.push_back(one);
+      }
+      if (bodies.empty()) continue;
+      scenes.push_back({&obstacle_geometries[i], &obstacle_balls[i], state, std::move(bodies)});
     }
+    if (scenes.empty()) return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
     return detail::probablyAny(scenes, geometries, balls, threshold, chance, request);
   }
 
@@ -214,9 +231,12 @@ struct RobotQuery::Implementation {
   RobotResult ofAllTimes(const std::vector<Eigen::VectorXd>& waypoints,
                          const ProbabilityRequest& request) const {
     std::vector<detail::SweptPath> paths;
-    for (const Obstacle& obstacle : obstacles) {
-      paths.emplace_back(robot, balls, waypoints,
-                         detail::offsetsSinceFirst(obstacle, waypoints.size()));
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      std::vector<std::size_t> bodies;
+      for (std::size_t body = 0; body < geometries.size(); ++body) {
+        if (meets(body, i)) bodies.push_back(body);
+      }
+      paths.emplace_back(robot, balls, waypoints, std::move(bodies), obstacles[i]);
     }
     std::vector<detail::SweptAnswer> answers(obstacles.size());
     RobotResult result = detail::anyOfAsked(

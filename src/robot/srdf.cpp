@@ -2,9 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include <algorithm>
 #include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
 #include <set>
-#include <sstream>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/self_collision.h"
@@ -17,26 +15,14 @@ namespace {
 using boost::property_tree::ptree;
 using NamePair = std::pair<std::string, std::string>;
 
-ptree parseSrdf(const std::string& path) {
-  const std::string text = detail::fileContent(path, detail::kMostXmlBytes);
-  detail::checkXmlText(text, path);
-  std::istringstream stream(text);
-  ptree document;
-  try {
-    read_xml(stream, document, boost::property_tree::xml_parser::no_comments);
-  } catch (const boost::property_tree::xml_parser_error& error) {
-    throw FileError(path + ": no SRDF: " + error.message() + " in line " +
-                    std::to_string(error.line()));
-  }
-  return document;
-}
-
 class SrdfPairs {
  public:
   SrdfPairs(const std::string& path, const Robot& robot) : path_(path), robot_(robot) {}
 
   std::vector<LinkPair> read() {
-    const ptree document = parseSrdf(path_);
+    const std::string text = detail::fileContent(path_, detail::kMostXmlBytes);
+    const ptree document = detail::parseXml(text, path_, "SRDF");
+    if (document.count("robot") > 1) throw FileError(path_ + ": more than one element robot");
     const auto root = document.get_child_optional("robot");
     if (!root) throw FileError(path_ + ": no SRDF: has no element robot");
     const std::string name = root->get("<xmlattr>.name", "");

@@ -18,6 +18,9 @@ constexpr int kMostRounds = 20;
 constexpr double kMostShrunk = 0.125;
 constexpr double kLeastShrunk = 0.5;
 
+/// A half that reaches this part of its step, or more, does so by rounding.
+constexpr double kMostOfHalf = 0.8;
+
 /// How narrow an interval is asked for while the steps are still long: of P, and of what the last
 /// interval says of the next one.
 constexpr double kCoarse = 0.1;
@@ -68,7 +71,9 @@ class SweptMotion {
   SweptAnswer run() {
     double distance = firstDistance();
     for (int round = 0; round < kMostRounds; ++round) {
+      const SweptAnswer before = answer_;
       if (!halveTo(distance)) {
+        answer_ = before;
         return finished(budget_.exhausted().value_or(ProbabilityStatus::memory_limit));
       }
       const ProbabilityResult answer = ask();
@@ -77,7 +82,8 @@ class SweptMotion {
       if (stops(answer.status)) return finished(answer.status);
       if (const auto status = budget_.exhausted()) return finished(*status);
       if (!(answer_.reach > 0.0)) return finished(answer.status);
-      distance = std::min(distance, answer_.reach) * shrunk();
+      if (answer_.reach > distance) break;
+      distance = answer_.reach * shrunk();
     }
     return finished(ProbabilityStatus::resolution_limit);
   }
@@ -99,6 +105,13 @@ class SweptMotion {
     return kLeastShrunk * longest;
   }
 
+  /// Half the way is half the reach, but for what rounding adds to it.
+  static bool isWorthHalving(const SweptBody& step, const std::vector<SweptBody>& halves) {
+    return std::all_of(halves.begin(), halves.end(), [&](const SweptBody& half) {
+      return half.sweep.reach < kMostOfHalf * step.sweep.reach;
+    });
+  }
+
   /// False if there are more steps than memory or time allows.
   bool halveTo(double distance) {
     std::vector<SweptBody> left = std::move(near_);
@@ -113,17 +126,22 @@ class SweptMotion {
       if (isFar(step)) {
         ++answer_.far;
         answer_.far_upper = (answer_.far_upper + step.far_upper) * (1.0 + 1e-15);
-      } else if (step.sweep.reach > distance) {
-        for (SweptBody& half : path_.halvesOf(step)) {
-          half.far_upper = farUpper(half);
-          left.push_back(std::move(half));
-        }
-      } else {
-        bytes += static_cast<double>(memoryOf({step}, geometries_) + sizeof(SweptBody));
-        if (bytes > most) return false;
-        answer_.reach = std::max(answer_.reach, step.sweep.reach);
-        near_.push_back(std::move(step));
+        continue;
       }
+      if (step.sweep.reach > distance) {
+        std::vector<SweptBody> halves = path_.halvesOf(step);
+        if (isWorthHalving(step, halves)) {
+          for (SweptBody& half : halves) {
+            half.far_upper = farUpper(half);
+            left.push_back(std::move(half));
+          }
+          continue;
+        }
+      }
+      bytes += static_cast<double>(memoryOf({step}, geometries_) + sizeof(SweptBody));
+      if (bytes > most) return false;
+      answer_.reach = std::max(answer_.reach, step.sweep.reach);
+      near_.push_back(std::move(step));
     }
     answer_.steps = near_.size();
     return true;

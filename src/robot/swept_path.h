@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "robot/body_sweep.h"
+#include "robot/moving_obstacle.h"
 
 namespace fcl_prob::detail {
 
@@ -24,12 +25,18 @@ struct SweptBody {
 class SweptPath {
  public:
   /// Keeps references to the first three.
-  /// \param balls    around the bodies, in their frames
-  /// \param offsets  how far the obstacle, relative to which the bodies move, has shifted at each
-  ///                 waypoint
+  /// \param balls     around the bodies, in their frames
+  /// \param bodies    those of the robot that count
+  /// \param obstacle  relative to which the bodies move
   SweptPath(const Robot& robot, const std::vector<Ball>& balls,
-            const std::vector<Eigen::VectorXd>& waypoints, std::vector<Eigen::Vector3d> offsets)
-      : robot_(robot), balls_(balls), waypoints_(waypoints), offsets_(std::move(offsets)) {}
+            const std::vector<Eigen::VectorXd>& waypoints, std::vector<std::size_t> bodies,
+            const Obstacle& obstacle)
+      : robot_(robot),
+        balls_(balls),
+        waypoints_(waypoints),
+        bodies_(std::move(bodies)),
+        offsets_(offsetsSinceFirst(obstacle, waypoints.size())),
+        obstacle_size_(largestPosition(obstacle)) {}
 
   /// All that all bodies do: one step from each waypoint to the next, where a body moves at all.
   std::vector<SweptBody> wholeSteps() const;
@@ -44,7 +51,9 @@ class SweptPath {
   const Robot& robot_;
   const std::vector<Ball>& balls_;
   const std::vector<Eigen::VectorXd>& waypoints_;
-  std::vector<Eigen::Vector3d> offsets_;
+  std::vector<std::size_t> bodies_;
+  std::vector<Eigen::Vector3d> offsets_;  ///< of the obstacle since the first waypoint
+  double obstacle_size_;                  ///< of the positions that they are differences of
 };
 
 }  // namespace fcl_prob::detail

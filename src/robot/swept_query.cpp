@@ -6,9 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "geometry/occupancy.h"
 #include "partition/partition.h"
-#include "partition/without_contact.h"
 #include "query/bounded_part.h"
 #include "query/mixture_query.h"
 #include "query/single_collide.h"
@@ -110,19 +108,12 @@ ProbabilityResult askSwept(const SweptBodies& bodies, const TruncatedGaussian& o
   return result;
 }
 
-bool isLeftOut(const fcl::CollisionGeometryd& geometry) {
-  return geometry.getNodeType() != fcl::GEOM_OCTREE && !geometry.isOccupied();
-}
-
 }  // namespace
 
 ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
                                    const std::deque<PreparedGeometry>& geometries,
                                    const PlacedObstacle& obstacle,
                                    const ProbabilityRequest& request) {
-  if (isLeftOut(obstacle.geometry.geometry())) {
-    return withoutContact(request, "fcl::collide leaves out what is not occupied");
-  }
   const SweptBodies swept(bodies, geometries, obstacle, request.contact);
   ProbabilityResult result = std::visit(
       [&](const auto& displacement) { return askSwept(swept, reversed(displacement), request); },

@@ -5,13 +5,19 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
 #include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "fcl_prob/exceptions.h"
 #include "io/file_content.h"
 
 namespace fcl_prob::detail {
 namespace {
+
+using boost::property_tree::ptree;
 
 constexpr int kDeepest = 64;
 constexpr std::size_t kMostLinks = 1000;
@@ -107,15 +113,77 @@ class XmlElements {
   int depth_ = 0;
 };
 
+std::size_t elementsOf(const ptree& parent) {
+  std::size_t count = 0;
+  for (const auto& child : parent) count += child.first != "<xmlattr>";
+  return count;
+}
+
+/// urdfdom reads the first geometry of a collision element and the first shape of a geometry, and
+/// drops a link's other elements where one of them is wrong: what it leaves out could collide.
+void requireAllRead(const ptree& document, const urdf::ModelInterface& model,
+                    const std::string& path) {
+  for (const auto& [tag, element] : document.get_child("robot")) {
+    if (tag != "link") continue;
+    const std::string name = element.get("<xmlattr>.name", "");
+    const std::string where = path + ": link " + name + ": collision ";
+    std::size_t collisions = 0;
+    for (const auto& [child_tag, collision] : element) {
+      if (child_tag != "collision") continue;
+      const std::string which = where + std::to_string(collisions++);
+      if (collision.count("geometry") != 1) {
+        throw FileError(which + ": " + std::to_string(collision.count("geometry")) +
+                        " geometries, must be one");
+      }
+      const std::size_t shapes = elementsOf(collision.get_child("geometry"));
+      if (shapes != 1) {
+        throw FileError(which + ": its geometry has " + std::to_string(shapes) +
+                        " shapes, must be one");
+      }
+    }
+    const auto link = model.links_.find(name);
+    if (link == model.links_.end() || link->second->collision_array.size() != collisions) {
+      throw FileError(path + ": link " + name + ": not all of its " + std::to_string(collisions) +
+                      " collision elements could be read");
+    }
+  }
+}
+
 }  // namespace
 
 void checkXmlText(const std::string& text, const std::string& path) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\t' || c == '\n' || c == '\r' || (c & '\x80') != 0 || (c >= ' ' && c != '\x7f'))
+      continue;
+    throw FileError(path + ": a control character, character " + std::to_string(i));
+  }
+  // Names go into answers in JSON, where nothing else may stand.
+  try {
+    nlohmann::json(text).dump();
+  } catch (const nlohmann::json::type_error&) {
+    throw FileError(path + ": is not UTF-8");
+  }
   XmlElements(text, path).check();
+}
+
+boost::property_tree::ptree parseXml(const std::string& text, const std::string& path,
+                                     const std::string& what) {
+  checkXmlText(text, path);
+  std::istringstream stream(text);
+  ptree document;
+  try {
+    read_xml(stream, document, boost::property_tree::xml_parser::no_comments);
+  } catch (const boost::property_tree::xml_parser_error& error) {
+    throw FileError(path + ": no " + what + ": " + error.message() + " in line " +
+                    std::to_string(error.line()));
+  }
+  return document;
 }
 
 urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path) {
   const std::string text = fileContent(path, kMostXmlBytes);
-  checkXmlText(text, path);
+  const ptree document = parseXml(text, path, "URDF");
   UrdfMessages messages;
   urdf::ModelInterfaceSharedPtr model;
   try {
@@ -126,10 +194,13 @@ urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path) {
   if (!model || !model->getRoot()) {
     throw FileError(path + ": no URDF" + (messages.first().empty() ? "" : ": " + messages.first()));
   }
+  // It goes on without the element that it complains of.
+  if (!messages.first().empty()) throw FileError(path + ": " + messages.first());
   if (model->links_.size() > kMostLinks) {
     throw FileError(path + ": " + std::to_string(model->links_.size()) + " links, at most " +
                     std::to_string(kMostLinks));
   }
+  requireAllRead(document, *model, path);
   return model;
 }
 

@@ -202,3 +202,39 @@ TEST_CASE("certified plans refuse what makes no sense") {
   CHECK(planCertified(scene.query, scene.self, folded, scene.goal, request).path.status ==
         PlanningStatus::start_refused);
 }
+
+TEST_CASE("what a plan certifies keeps to its limits, too") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(1);
+  request.planning.shorten = false;
+  const Bounds known = scene.plan(request).motion;
+  // Without a limit this would take hours.
+  request.state.relative_tolerance = 1e-9;
+  request.state.absolute_tolerance = 0.0;
+  request.state.max_cells = 1'000'000'000;
+  bool cancelled = false;
+  std::size_t states = 0;
+  request.planning.on_progress = [&](const PlanningProgress& progress) {
+    // The path is found: the states are asked for no more, and the motion is.
+    cancelled = cancelled || (progress.shortening && progress.states == states);
+    states = progress.states;
+    return !cancelled;
+  };
+  const CertifiedPlan plan = scene.plan(request);
+  CHECK(cancelled);
+  REQUIRE(plan.path.status == PlanningStatus::solved);
+  CHECK(plan.motion.lower <= known.upper);
+  CHECK(plan.motion.upper >= known.lower);
+  CHECK(plan.largest.upper <= plan.state_threshold);
+  CHECK(plan.largest.lower <= plan.largest.upper);
+
+  request.planning.on_progress = nullptr;
+  request.planning.time_limit = 3.0;
+  const CertifiedPlan timed = scene.plan(request);
+  if (timed.path.status == PlanningStatus::solved) {
+    CHECK(timed.motion.lower <= known.upper);
+    CHECK(timed.motion.upper >= known.lower);
+  } else {
+    CHECK(timed.path.status == PlanningStatus::time_limit);
+  }
+}

@@ -217,6 +217,7 @@ TEST_CASE("a planning request is checked") {
   refused([](PlanningRequest& request) { request.largest_step = 0.0; });
   refused([](PlanningRequest& request) { request.max_states = 0; });
   refused([](PlanningRequest& request) { request.time_limit = -1.0; });
+  refused([](PlanningRequest& request) { request.largest_step = 1e-13; });
   CHECK_THROWS_AS(planMotion(robot, all, start, at(robot, 0.0, 2.5)), InvalidRequest);
   CHECK_THROWS_AS(planMotion(robot, all, Eigen::VectorXd::Zero(5), goal), InvalidRequest);
 }

@@ -250,6 +250,26 @@ TEST_CASE("what is no URDF is refused with file and element") {
   refused(shape("<geometry><box size=\"1 0 1\"/></geometry>"), "link a: collision 0: size");
   refused(shape("<geometry><cylinder radius=\"1\" length=\"0\"/></geometry>"),
           "link a: collision 0: length");
+  // urdfdom complains of these, or does not, and goes on without the element or the whole link.
+  const std::string good = "<geometry><sphere radius=\"1\"/></geometry></collision><collision>";
+  for (const std::string bad :
+       {"<geometry><capsule radius=\".1\" length=\".2\"/></geometry>",
+        "<geometry><sphere radius=\"nan\"/></geometry>",
+        "<geometry><box size=\"1,1,1\"/></geometry>",
+        "<origin xyz=\"0 0\"/><geometry><sphere radius=\"1\"/></geometry>",
+        "<geometry><cylinder radius=\"0.1\"/></geometry>", "", "<geometry/>",
+        "<geometry><sphere radius=\"1\"/><sphere radius=\"2\"/></geometry>",
+        "<geometry><sphere radius=\"1\"/></geometry><geometry><sphere radius=\"2\"/></geometry>"}) {
+    refused(shape(bad), "");
+    refused(shape(good + bad), "");
+  }
+  refused(
+      "<robot name=\"r\"><link name=\"a\"><visual><geometry><capsule/></geometry></visual>"
+      "<collision><geometry><sphere radius=\"1\"/></geometry></collision></link></robot>",
+      "");
+  refused(joint("revolute", "<axis xyz=\"1e200 0 0\"/>" + limit), "joint j: its axis");
+  refused(urdfWith("<link name=\"\xff\"/>"), "not UTF-8");
+  refused(urdfWith("<link name=\"\x1b\"/>"), "control character");
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
   refused(deep, "nested deeper");
