@@ -43,7 +43,8 @@ class ConvexParts {
   /// Every part is the hull of its pieces, moved outwards by more than what rounding may have moved
   /// the cuts by (1.3e-10 of the largest coordinate, more for parts of more than 400 faces). That
   /// the parts cover the mesh is proven afterwards, triangle by triangle, from the parts alone.
-  /// \throws InvalidGeometry if the mesh is malformed, or the cover cannot be proven;
+  /// \throws InvalidGeometry if the mesh is malformed, its largest coordinate is above 0 and below
+  /// 1e-290 m, or the cover cannot be proven;
   /// InvalidRequest if a number is out of its range
   explicit ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request = {});
 

@@ -37,7 +37,10 @@ void validateDecompositionRequest(const DecompositionRequest& request) {
   }
 }
 
-/// The largest coordinate is below two to this power.
+/// Below two to this power (1e-290 m) what parts are moved outwards by is lost where doubles end.
+constexpr int kLeastExponent = -963;
+
+/// The largest coordinate is below two to this power. \throws InvalidGeometry if that is too small
 int exponentOfSize(const TriangleMesh& mesh) {
   double largest = 0.0;
   for (const fcl::Vector3d& v : mesh.vertices) {
@@ -45,6 +48,10 @@ int exponentOfSize(const TriangleMesh& mesh) {
   }
   int exponent = 0;
   std::frexp(largest, &exponent);
+  if (largest > 0.0 && exponent < kLeastExponent) {
+    throw InvalidGeometry("mesh to decompose: its largest coordinate is " +
+                          detail::numberText(largest) + " m, too small for parts that cover it");
+  }
   return exponent;
 }
 

@@ -103,6 +103,12 @@ class Sums {
     return true;
   }
 
+  /// A pair of which no more than a bound is known.
+  void addUnweighed(double bound) {
+    sum_ += bound;
+    result_.largest = std::max(result_.largest, bound);
+  }
+
   double raised(double sum) const {
     return sum * (1.0 + 2.0 * kEpsilon * static_cast<double>(query_.a.size() * query_.b.size()));
   }
@@ -119,7 +125,7 @@ class Sums {
                                                     query_.pose_b, query_.displacement)
                                     .least;
         if (of_boxes <= negligible) {
-          sum_ += of_boxes;
+          addUnweighed(of_boxes);
           continue;
         }
         const ConvexPcdBounds bounds =
@@ -135,7 +141,7 @@ class Sums {
   void weighPairs() {
     for (const PartPair& pair : pairs_) {
       if (pair.bound < kWorthTheMass * pairs_.front().bound || interrupted()) {
-        sum_ += pair.bound;
+        addUnweighed(pair.bound);
         continue;
       }
       Bounds mass =

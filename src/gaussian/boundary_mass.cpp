@@ -71,8 +71,10 @@ SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*di
     const double reach = face.*distance + extra;
     if (reach == 0) continue;
     const double area = kSlabRounding * areaMass(face, reach + face.deviation);
-    sum.gain += area * normalIntervalMass(face.height, face.height + reach);
-    sum.loss += area * normalIntervalMass(face.height - reach, face.height);
+    // A reach below the spacing of doubles there would be rounded away.
+    const double depth = reach + kEpsilon * std::abs(face.height);
+    sum.gain += area * normalIntervalMass(face.height, face.height + depth);
+    sum.loss += area * normalIntervalMass(face.height - depth, face.height);
   }
   return sum;
 }

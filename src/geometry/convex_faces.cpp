@@ -19,15 +19,32 @@ constexpr double kPlanarTolerance = 1e-6;
 using Points = std::vector<Eigen::Vector3d>;
 
 struct FacePlane {
-  Eigen::Vector3d normal;  ///< unit, or zero for a face without area
+  Eigen::Vector3d normal;  ///< unit, or zero for a face that is narrower than the tolerance
   Eigen::Vector3d point;
 
   double height(const Eigen::Vector3d& v) const { return normal.dot(v - point); }
 };
 
+/// Whether all its corners are as close to a line as they may be off a plane: then it has no
+/// direction of its own that could be wrong.
+bool isNarrow(const Points& points, const std::vector<int>& face, double tolerance) {
+  const Eigen::Vector3d& origin = points[face[0]];
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (int vertex : face) {
+    const Eigen::Vector3d way = points[vertex] - origin;
+    if (way.squaredNorm() > along.squaredNorm()) along = way;
+  }
+  const double length = along.norm();
+  if (!(length > 0.0)) return true;
+  return std::all_of(face.begin(), face.end(), [&](int vertex) {
+    return along.cross(points[vertex] - origin).norm() <= tolerance * length;
+  });
+}
+
 /// Newell's normal: right for any planar polygon, and the mean for one that is not quite.
-FacePlane planeOf(const Points& points, const std::vector<int>& face) {
+FacePlane planeOf(const Points& points, const std::vector<int>& face, double tolerance) {
   const Eigen::Vector3d origin = points[face[0]];
+  if (isNarrow(points, face, tolerance)) return {Eigen::Vector3d::Zero(), origin};
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < face.size(); ++i) {
     normal += (points[face[i]] - origin).cross(points[face[(i + 1) % face.size()]] - origin);
@@ -110,7 +127,7 @@ void requireLocallyConvex(const Points& points, const std::vector<std::vector<in
   std::vector<FacePlane> planes;
   Points middles;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    planes.push_back(planeOf(points, faces[f]));
+    planes.push_back(planeOf(points, faces[f], tolerance));
     middles.push_back(middleOf(points, faces[f]));
     requirePlanar(planes[f], points, faces[f], f, tolerance, name);
   }

@@ -269,4 +269,11 @@ TEST_CASE("requests that make no sense are refused", "[decomposition]") {
   TriangleMesh broken = mesh;
   broken.vertices[0].x() = std::nan("");
   CHECK_THROWS_AS(ConvexParts(broken), fcl_prob::InvalidGeometry);
+  // Where doubles end nothing can be moved outwards.
+  for (const double size : {1e-280, 1e100}) {
+    CHECK(ConvexParts(boxMesh({size, size, size})).coversSolid());
+  }
+  for (const double size : {1e-295, 1e-314, 1e-323}) {
+    CHECK_THROWS_AS(ConvexParts(boxMesh({size, size, size})), fcl_prob::InvalidGeometry);
+  }
 }

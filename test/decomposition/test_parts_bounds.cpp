@@ -210,6 +210,36 @@ TEST_CASE("thresholds that sums decide start no partition", "[decomposition]") {
   CHECK(above.statistics.cells == 0);
 }
 
+TEST_CASE("the heaviest pair is bounded where its mass was not worth computing",
+          "[decomposition]") {
+  const std::vector<ConvexBody> a{boxBody({1, 1, 1}, Vector3d::Zero())};
+  const std::vector<ConvexBody> b{boxBody({1, 1, 1}, {2, 0, 0})};
+  const fcl::Transform3d identity = fcl::Transform3d::Identity();
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.14, 0.14, 0.14});
+  PartsBoundsRequest request;
+  request.negligible = 0.0;
+  const PartsBoundsResult weighed = partsBounds(a, identity, b, identity, displacement, request);
+  const PartsBoundsResult bounds = partsBounds(a, identity, b, identity, displacement);
+  CHECK(weighed.any.lower > 0.0);
+  CHECK(bounds.largest >= weighed.any.lower);
+  CHECK(bounds.largest <= bounds.sum);
+}
+
+TEST_CASE("parts of thin triangles are what a group takes", "[decomposition]") {
+  const auto box = boxMesh({1, 1, 1});
+  RandomBodies random(5);
+  for (int i = 0; i < 60; ++i) {
+    const double width = std::pow(10.0, -1.0 - i % 11);
+    const Eigen::Isometry3d turned(random.quaternion());
+    TriangleMesh triangle;
+    triangle.vertices = {turned * Vector3d::Zero(), turned * Vector3d(1, 0, 0),
+                         turned * Vector3d(random.uniform(0, 1), width, 0)};
+    triangle.triangles = {fcl::Triangle(0, 1, 2)};
+    CAPTURE(i, width);
+    CHECK_NOTHROW(GroupQuery(ConvexParts(triangle).geometries(), ConvexParts(box).geometries()));
+  }
+}
+
 TEST_CASE("bounds with parts are never below the meshes' probability, on random scenes",
           "[decomposition][slow]") {
   RandomBodies random(1);

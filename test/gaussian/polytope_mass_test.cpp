@@ -400,4 +400,34 @@ TEST_CASE("polytopes without volume, far away, or invalid") {
   CHECK_THROWS_AS(polytopeMass(bad), InvalidGeometry);
 }
 
+// An audit found upper bounds below the truth where the error was as small as the spacing of
+// doubles at the distance of a face.
+TEST_CASE("boxes whose corners are off by about a rounding error hold the moved ones") {
+  std::mt19937 random(12);
+  for (int i = 0; i < 4'000; ++i) {
+    const double size = logUniform(random, 1e-9, 20.0);
+    Vector3d half, centre;
+    for (int k = 0; k < 3; ++k) {
+      half[k] = size * (i % 2 == 0 ? 1.0 : logUniform(random, 1e-9, 1.0));
+      centre[k] = uniform(random, -1.0, 1.0) * (i % 3 == 0 ? 8.0 : 1.0);
+    }
+    const double error = i % 4 == 0 ? logUniform(random, 1e-15, 1e-2)
+                                    : half.minCoeff() * logUniform(random, 1e-3, 1e3);
+    const Vector3d lo = centre - half, hi = centre + half;
+    if (!((hi - lo).minCoeff() > 0.0)) continue;
+    const Bounds bounds = polytopeMass(boxPolytope(lo, hi), error);
+    const double moved = error / std::sqrt(3.0) * (1.0 - 1e-14);
+    HighPrecision larger = 1, smaller = 1;
+    for (int k = 0; k < 3; ++k) {
+      const HighPrecision from = lo[k], to = hi[k];
+      larger *= trueIntervalMass(from - moved, to + moved);
+      const bool is_left = from + moved < to - moved;
+      smaller *= is_left ? trueIntervalMass(from + moved, to - moved) : HighPrecision(0);
+    }
+    CAPTURE(i, half.transpose(), centre.transpose(), error, bounds.lower, bounds.upper);
+    CHECK(bounds.upper >= larger * (1 - HighPrecision(1e-14)));
+    CHECK(bounds.lower <= smaller * (1 + HighPrecision(1e-14)));
+  }
+}
+
 }  // namespace fcl_prob

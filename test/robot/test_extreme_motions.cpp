@@ -58,7 +58,7 @@ TEST_CASE("a slider that comes from afar passes through what is on its way") {
   }
 }
 
-TEST_CASE("a slider that comes from afar is at its last waypoint, too") {
+TEST_CASE("a slider that comes from afar is at its last waypoint, too", "[slow]") {
   const Robot robot = slider();
   for (const double from : {-1e3, -1e8, -1e10, -1e16, 1e16}) {
     for (const double deviation : {1e-5, 1e-3, 0.1}) {
@@ -72,7 +72,7 @@ TEST_CASE("a slider that comes from afar is at its last waypoint, too") {
   }
 }
 
-TEST_CASE("an obstacle that comes from afar is where it is in between, too") {
+TEST_CASE("an obstacle that comes from afar is where it is in between, too", "[slow]") {
   const Robot robot = slider();
   for (const double far : {1e3, 1e7, 1e12}) {
     for (const double deviation : {1e-6, 1e-3}) {
