@@ -68,8 +68,11 @@ class Estimator {
   }
 
   InnerTolerance nextTolerance() const {
-    const double by_target = innerFactor() * targetAt(mean_.mean);
-    const double most = kCoarsest * std::max(mean_.mean, 0.0);
+    const double target = targetAt(mean_.mean);
+    const double by_target = innerFactor() * target;
+    // A mean near 0 so far may be that of configurations which all are far away: no answer need be
+    // better than what is asked for.
+    const double most = std::max(kCoarsest * mean_.mean, kInnerShare * target);
     const double absolute = std::max(std::min(by_target, most), kInnerDeviation * mean_.deviation);
     if (absolute > 0.0) return {0.0, absolute};
     return firstTolerance();
