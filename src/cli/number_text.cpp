@@ -13,4 +13,8 @@ std::string numberText(double value, int digits) {
   return text.str();
 }
 
+std::string intervalText(const Bounds& bounds) {
+  return "[" + numberText(bounds.lower, 6) + ", " + numberText(bounds.upper, 6) + "]";
+}
+
 }  // namespace fcl_prob::cli

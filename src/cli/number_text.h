@@ -5,9 +5,14 @@
 
 #include <string>
 
+#include "fcl_prob/bounds.h"
+
 namespace fcl_prob::cli {
 
 /// A number rounded to this many significant digits.
 std::string numberText(double value, int digits);
+
+/// "[lower, upper]", each to six digits.
+std::string intervalText(const Bounds& bounds);
 
 }  // namespace fcl_prob::cli

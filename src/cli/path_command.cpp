@@ -169,15 +169,11 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
   return json;
 }
 
-std::string interval(const Bounds& bounds) {
-  return "[" + numberText(bounds.lower, 6) + ", " + numberText(bounds.upper, 6) + "]";
-}
-
 std::string textOf(const PathReport& report, const RobotScene& scene) {
   const RobotResult& result = report.result;
   const bool persistent = scene.errors == ErrorsOverTime::persistent;
   std::string text = "P(the robot touches anything) " + numberText(result.probability(), 6) +
-                     ", certainly in " + interval(result.any) + "\n";
+                     ", certainly in " + intervalText(result.any) + "\n";
   if (result.standard_error) {
     text += "standard error " + numberText(*result.standard_error, 3) + "\n";
   }
@@ -185,17 +181,17 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   text += "status: " + toString(result.status) + "\n";
   text += std::to_string(report.waypoints) + " waypoints, " + errorsTold(scene.errors) + "\n";
   if (result.any_dependence) {
-    text += "whatever the dependence: " + interval(*result.any_dependence) + "\n";
+    text += "whatever the dependence: " + intervalText(*result.any_dependence) + "\n";
   }
   if (persistent) {
     for (std::size_t i = 0; i < result.parts.size(); ++i) {
       const ProbabilityResult& part = result.parts[i];
       text += "  " + scene.obstacles[i].name + ": " +
-              interval({part.lower.value_or(0.0), part.upper.value_or(1.0)}) + "\n";
+              intervalText({part.lower.value_or(0.0), part.upper.value_or(1.0)}) + "\n";
     }
   }
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
-    text += "  " + report.bodies[i].name() + ": " + interval(report.by_body[i].any) + "\n";
+    text += "  " + report.bodies[i].name() + ": " + intervalText(report.by_body[i].any) + "\n";
   }
   text += textOf(report.self_collisions);
   if (result.swept_band) {
@@ -233,11 +229,11 @@ ordered_json jsonOf(const ProbableReport& report) {
 std::string textOf(const ProbableReport& report) {
   const ProbableResult& result = report.result;
   return "decision: " + toString(result.decision) + ", wrong with a chance of at most " +
-         numberText(result.chance_of_error, 3) + "\nP certainly in " + interval(result.certified) +
-         ", probably in " + interval(result.probable) + "\nstatus: " + toString(result.status) +
-         ", " + std::to_string(result.cells) + " cells, " + std::to_string(result.samples) +
-         " samples\n" + numberText(report.time_ms, 4) + " ms, and " +
-         numberText(report.build_ms, 4) + " ms to load\n";
+         numberText(result.chance_of_error, 3) + "\nP certainly in " +
+         intervalText(result.certified) + ", probably in " + intervalText(result.probable) +
+         "\nstatus: " + toString(result.status) + ", " + std::to_string(result.cells) + " cells, " +
+         std::to_string(result.samples) + " samples\n" + numberText(report.time_ms, 4) +
+         " ms, and " + numberText(report.build_ms, 4) + " ms to load\n";
 }
 
 ProbableReport answerProbably(RobotScene scene, double chance) {

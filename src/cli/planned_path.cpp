@@ -17,10 +17,6 @@ ordered_json byJoint(const Eigen::VectorXd& values, const Robot& robot) {
   return json;
 }
 
-std::string intervalText(const Bounds& bounds) {
-  return "[" + numberText(bounds.lower, 6) + ", " + numberText(bounds.upper, 6) + "]";
-}
-
 }  // namespace
 
 ordered_json planJson(const CertifiedPlan& plan, const Robot& robot) {

@@ -29,6 +29,13 @@ constexpr std::size_t kDividedAtATime = 4;
 constexpr double kPartitionShare = 0.35;
 constexpr std::size_t kMostInnerCells = 20'000;
 
+// Points may be this far from where the middle of a cell has them, in deviations of the
+// displacement or in sizes of A, for a partition to be worth more than a look: around a cell that
+// is smaller than the motion there are all the pairs of two meshes.
+constexpr double kMostDeviations = 2.0;
+constexpr double kMostOfSize = 0.05;
+constexpr std::size_t kCellsOfLook = 16;
+
 // A partition stops where twice the work has left this share of the width: what is left then is how
 // far points move, and no work on displacements makes it less.
 constexpr double kStalled = 0.8;
@@ -180,7 +187,8 @@ class PoseInterval {
     request.time_limit.reset();
     request.gradient = false;
     request.threads = 1;
-    request.max_cells = std::min(kMostInnerCells, request_.max_cells);
+    request.max_cells =
+        std::min(isWide(motion) ? kCellsOfLook : kMostInnerCells, request_.max_cells);
     InnerProgress inner;
     request.on_progress = [&](const ProbabilityProgress& progress) {
       return goOn() && inner.goOn(progress.interval.width());
@@ -190,6 +198,16 @@ class PoseInterval {
     const ProbabilityResult result = partitionProbability(a, b, motion.displacement, request);
     setConditional(motion, {*result.lower, *result.upper}, cell);
     statistics = result.statistics;
+  }
+
+  // Steers; no bound depends on it.
+  bool isWide(const CellMotion& motion) const {
+    const double radius = a_.pieces().radius();
+    double reach = motion.motion.ball + motion.motion.remainder * radius;
+    for (const Eigen::Vector3d& turn : motion.motion.turns) reach += turn.norm() * radius;
+    for (const Eigen::Vector3d& shift : motion.motion.shifts) reach += shift.norm();
+    const double deviation = motion.displacement.standardDeviations().maxCoeff();
+    return reach > std::max(kMostDeviations * deviation, kMostOfSize * radius);
   }
 
   void add(const ProbabilityStatistics& of_one) {

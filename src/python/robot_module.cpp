@@ -13,6 +13,7 @@
 #include "python/displacements.h"
 #include "python/geometries.h"
 #include "python/results.h"
+#include "python/robot_values.h"
 #include "python/running.h"
 
 namespace fcl_prob::python {
@@ -28,37 +29,12 @@ std::shared_ptr<Robot> loadRobot(const py::object& path,
   return std::make_shared<Robot>(name, options);
 }
 
-/// (k,) values of joints, or a dict of them by name.
-Eigen::VectorXd jointValues(const Robot& robot, py::handle value, const std::string& name) {
-  if (py::isinstance<py::dict>(value)) {
-    try {
-      return robot.values(value.cast<std::map<std::string, double>>());
-    } catch (const py::cast_error&) {
-      throw py::type_error(name + " must have a number for each name, not " + textOf(value));
-    }
-  }
-  const Numbers numbers(value, name);
-  if (numbers.dimensions() != 1) numbers.refuseShape("(k,), a value for each joint");
-  Eigen::VectorXd values(static_cast<Eigen::Index>(numbers.size(0)));
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    values[i] = numbers.at(static_cast<std::size_t>(i));
-  robot.validate(values);
-  return values;
+Robot withAttached(const Robot& robot, const std::string& name, const std::string& link,
+                   const py::object& geometry, const py::object& pose,
+                   const std::vector<std::string>& touch_links) {
+  return robot.withAttached(
+      {name, link, geometryFrom(geometry, "geometry"), poseFrom(pose, "pose"), touch_links});
 }
-
-std::vector<Eigen::VectorXd> waypointsFrom(const Robot& robot, const py::object& value) {
-  if (!py::isinstance<py::iterable>(value)) {
-    throw py::type_error("waypoints must be an array (n, k) or a list, not " + textOf(value));
-  }
-  std::vector<Eigen::VectorXd> waypoints;
-  for (const py::handle one : py::reinterpret_borrow<py::iterable>(value)) {
-    waypoints.push_back(
-        jointValues(robot, one, "waypoints[" + std::to_string(waypoints.size()) + "]"));
-  }
-  return waypoints;
-}
-
-py::object matrixOf(const fcl::Transform3d& pose) { return arrayOf(pose.matrix()); }
 
 void bindRobot(py::module_& module) {
   py::class_<Robot, std::shared_ptr<Robot>>(
@@ -109,7 +85,7 @@ void bindRobot(py::module_& module) {
           [](const Robot& robot, const py::object& values) {
             py::list poses;
             for (const auto& pose : robot.poses(jointValues(robot, values, "values"))) {
-              poses.append(matrixOf(pose));
+              poses.append(arrayOf(pose.matrix()));
             }
             return poses;
           },
@@ -117,9 +93,13 @@ void bindRobot(py::module_& module) {
       .def(
           "link_pose",
           [](const Robot& robot, const std::string& link, const py::object& values) {
-            return matrixOf(robot.linkPose(link, jointValues(robot, values, "values")));
+            return arrayOf(robot.linkPose(link, jointValues(robot, values, "values")).matrix());
           },
           py::arg("link"), py::arg("values"), "(4, 4), metres, world frame.")
+      .def("with_attached", &withAttached, py::arg("name"), py::arg("link"), py::arg("geometry"),
+           py::arg("pose") = py::none(), py::arg("touch_links") = std::vector<std::string>(),
+           "The robot with an object that a link carries at `pose` in the link's frame; it may\n"
+           "touch the links named. Raises InvalidRequest, InvalidPose.")
       .def("__repr__", [](const Robot& robot) {
         return "<Robot " + robot.name() + " with " + std::to_string(robot.joints().size()) +
                " joints and " + std::to_string(robot.bodies().size()) + " collision elements>";
@@ -135,6 +115,16 @@ std::string reprOf(const RobotResult& result) {
   if (result.decision != Decision::none) text << ", decision " << toString(result.decision);
   text << ": " << toString(result.status) << ">";
   return text.str();
+}
+
+py::list pairsOf(const std::vector<Bounds>& bounds) {
+  py::list pairs;
+  for (const Bounds& one : bounds) pairs.append(py::make_tuple(one.lower, one.upper));
+  return pairs;
+}
+
+py::object pairOrNone(const std::optional<Bounds>& bounds) {
+  return bounds ? py::object(py::make_tuple(bounds->lower, bounds->upper)) : py::none();
 }
 
 void bindResult(py::module_& module) {
@@ -153,6 +143,16 @@ void bindResult(py::module_& module) {
           "parts", [](const R& r) { return r.parts; },
           "ProbabilityResults by obstacle; with independent errors by waypoint, "
           "and for each by obstacle.")
+      .def_property_readonly(
+          "by_waypoint", [](const R& r) { return pairsOf(r.by_waypoint); },
+          "Unless errors are persistent: (lower, upper) at each waypoint.")
+      .def_property_readonly(
+          "any_dependence", [](const R& r) { return pairOrNone(r.any_dependence); },
+          "Unless errors are persistent: (lower, upper) whatever the errors at one waypoint have\n"
+          "to do with those at another.")
+      .def_property_readonly(
+          "swept_band", [](const R& r) { return orNone(r.swept_band); },
+          "Between waypoints: no point is farther from where it was looked at, metres.")
       .def_property_readonly("far_bodies", [](const R& r) { return r.far_bodies; })
       .def_property_readonly("far_upper", [](const R& r) { return r.far_upper; })
       .def("to_dict",
@@ -165,6 +165,9 @@ void bindResult(py::module_& module) {
              dict["standard_error"] = orNone(r.standard_error);
              dict["decision"] = decisionOf(r.decision);
              dict["status"] = toString(r.status);
+             dict["by_waypoint"] = pairsOf(r.by_waypoint);
+             dict["any_dependence"] = pairOrNone(r.any_dependence);
+             dict["swept_band"] = orNone(r.swept_band);
              dict["far_bodies"] = r.far_bodies;
              dict["far_upper"] = r.far_upper;
              py::list parts;
@@ -217,16 +220,34 @@ std::shared_ptr<RobotQuery> makeQuery(const Robot& robot, const py::list& obstac
 ErrorsOverTime errorsFrom(const std::string& name) {
   if (name == "persistent") return ErrorsOverTime::persistent;
   if (name == "independent") return ErrorsOverTime::independent;
-  throw InvalidRequest("errors is '" + name + "', must be 'persistent' or 'independent'");
+  if (name == "any-dependence") return ErrorsOverTime::any_dependence;
+  throw InvalidRequest("errors is '" + name +
+                       "', must be 'persistent', 'independent' or 'any-dependence'");
+}
+
+BetweenWaypoints betweenFrom(const std::string& name) {
+  if (name == "ignored") return BetweenWaypoints::ignored;
+  if (name == "swept") return BetweenWaypoints::swept;
+  throw InvalidRequest("between is '" + name + "', must be 'ignored' or 'swept'");
 }
 
 RobotResult motion(const RobotQuery& query, const py::object& waypoints, const std::string& errors,
-                   const std::optional<double>& largest_step, const py::kwargs& request) {
+                   const std::optional<double>& largest_step, const std::string& between,
+                   const py::kwargs& request) {
   std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
   if (largest_step) all = interpolated(all, *largest_step);
   const ErrorsOverTime over_time = errorsFrom(errors);
+  const BetweenWaypoints in_between = betweenFrom(between);
   return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
-    return query.motion(all, over_time, of);
+    return query.motion(all, over_time, of, in_between);
+  });
+}
+
+ProbableResult decideProbably(const RobotQuery& query, const py::object& waypoints,
+                              double threshold, double chance_of_error, const py::kwargs& request) {
+  const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
+  return run<ProbableResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
+    return query.decideProbably(all, threshold, chance_of_error, of);
   });
 }
 
@@ -265,11 +286,18 @@ void bindQuery(py::module_& module) {
           py::arg("values"),
           "In one state: (k,) values of the joints, or a dict of them by name. request: as\n"
           "collision_probability takes it; method 'auto', 'interval' or 'estimate'.")
-      .def("motion", &motion, py::arg("waypoints"), py::arg("errors") = "persistent",
-           py::arg("largest_step") = py::none(),
-           "At any of the waypoints (n, k). errors: 'persistent', drawn once, or 'independent',\n"
-           "drawn anew at each. largest_step: add waypoints such that no joint moves further at\n"
-           "once (radians, metres).");
+      .def(
+          "motion", &motion, py::arg("waypoints"), py::arg("errors") = "persistent",
+          py::arg("largest_step") = py::none(), py::arg("between") = "ignored",
+          "At any of the waypoints (n, k). errors: 'persistent', drawn once, 'independent', drawn\n"
+          "anew at each, or 'any-dependence'. largest_step: add waypoints such that no joint "
+          "moves\n"
+          "further at once (radians, metres). between: 'swept' for all times between waypoints,\n"
+          "too, certified (persistent errors only).")
+      .def("decide_probably", &decideProbably, py::arg("waypoints"), py::arg("threshold"),
+           py::arg("chance_of_error"),
+           "Whether P at any of the waypoints (n, k), persistent errors, is below the threshold:\n"
+           "certain, or right but for a chance (ProbableResult). request: seed and limits.");
   module.def("load_robot_scene", &loadScene, py::arg("path"),
              "The RobotQuery and the waypoints (n, k) of a scene file (docs/robots.md).");
 }
@@ -281,6 +309,7 @@ PYBIND11_MODULE(_robot, module) {
   // Of which geometries, displacements and results are.
   pybind11::module_::import("fcl_prob._core");
   fcl_prob::python::bindRobot(module);
+  fcl_prob::python::bindDecisions(module);
   fcl_prob::python::bindResult(module);
   fcl_prob::python::bindQuery(module);
 }

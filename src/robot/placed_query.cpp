@@ -7,6 +7,7 @@
 
 #include "fcl_prob/group.h"
 #include "robot/reversed.h"
+#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -51,7 +52,7 @@ double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const Obs
                    [](const auto& x, const auto& y) { return x.first > y.first; });
   double sum = 0.0;
   while (!ordered.empty()) {
-    const double next = (sum + ordered.back().first) * (1.0 + 1e-15);
+    const double next = sumAbove(sum, ordered.back().first);
     if (next > most) break;
     sum = next;
     ordered.pop_back();
@@ -89,7 +90,7 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
       },
       state.displacement);
   if (far > 0.0 && result.upper) {
-    result.upper = std::min(1.0, (*result.upper + far) * (1.0 + 1e-15));
+    result.upper = std::min(1.0, sumAbove(*result.upper, far));
   }
   return result;
 }

@@ -10,6 +10,7 @@
 #include "narrowphase/convex_pair_mass.h"
 #include "partition/probable_partition.h"
 #include "query/call_budget.h"
+#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -44,10 +45,9 @@ class ObstacleSampling {
     for (const PlacedBody& body : scene_.bodies) {
       const PreparedGeometry& geometry = geometries_[body.body];
       if (!geometry.hasRootBody()) return;
-      sum += convexPcd(geometry.rootBody(), body.pose, obstacle.rootBody(), scene_.state.pose,
-                       displacement_, at_once)
-                 .least;
-      sum *= 1.0 + 1e-15;
+      sum = sumAbove(sum, convexPcd(geometry.rootBody(), body.pose, obstacle.rootBody(),
+                                    scene_.state.pose, displacement_, at_once)
+                              .least);
       if (sum >= useful) return;
     }
     certified_.upper = std::min(certified_.upper, sum);
@@ -89,7 +89,7 @@ class ObstacleSampling {
 
   /// What is far is besides.
   Bounds within(const Bounds& of_near, const Bounds& known) const {
-    const double upper = std::min(known.upper, (of_near.upper + far_) * (1.0 + 1e-15));
+    const double upper = std::min(known.upper, sumAbove(of_near.upper, far_));
     return {std::min(upper, std::max(known.lower, of_near.lower)), upper};
   }
 

@@ -9,6 +9,7 @@
 
 #include "query/call_budget.h"
 #include "query/single_collide.h"
+#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -125,7 +126,7 @@ class SweptMotion {
       left.pop_back();
       if (isFar(step)) {
         ++answer_.far;
-        answer_.far_upper = (answer_.far_upper + step.far_upper) * (1.0 + 1e-15);
+        answer_.far_upper = sumAbove(answer_.far_upper, step.far_upper);
         continue;
       }
       if (step.sweep.reach > distance) {
@@ -168,7 +169,7 @@ class SweptMotion {
   void keep(const ProbabilityResult& answer) {
     budget_.spend(answer.statistics);
     const Bounds before{answer_.result.lower.value_or(0.0), answer_.result.upper.value_or(1.0)};
-    const double upper = (answer.upper.value_or(1.0) + answer_.far_upper) * (1.0 + 1e-15);
+    const double upper = sumAbove(answer.upper.value_or(1.0), answer_.far_upper);
     ProbabilityStatistics statistics = answer.statistics;
     statistics.cells += answer_.result.statistics.cells;
     statistics.pairs_tested += answer_.result.statistics.pairs_tested;

@@ -175,3 +175,64 @@ def test_robot_from_parts():
         fcl_prob.RobotQuery(robot, [fcl_prob.Sphere(1)])
     with pytest.raises(fcl_prob.FileError):
         fcl_prob.Robot(DATA / "mug.obj")
+
+
+@needs_command
+@needs_robot
+def test_motions_between_waypoints_are_those_of_the_command_to_the_bit():
+    of_command = command("path", "--scene", str(DATA / "arm_path.json"), "--json", "--tolerance=0.3", "--threshold=0.9", "--between")
+    query, waypoints = fcl_prob.load_robot_scene(DATA / "arm_path.json")
+    result = query.motion(waypoints, relative_tolerance=0.3, threshold=0.9, between="swept")
+    assert (result.lower, result.upper) == (of_command["lower"], of_command["upper"])
+    assert result.swept_band > 0.0 and result.by_waypoint == [] and result.any_dependence is None
+    some = query.motion(waypoints, relative_tolerance=0.3)
+    assert some.swept_band is None and some.lower <= result.upper
+    with pytest.raises(fcl_prob.InvalidRequest, match="between is 'all'"):
+        query.motion(waypoints, between="all")
+    with pytest.raises(fcl_prob.InvalidRequest):
+        query.motion(waypoints, "independent", between="swept")
+
+
+@needs_robot
+def test_any_dependence_holds_what_independence_gives():
+    query, waypoints = fcl_prob.load_robot_scene(DATA / "arm_path.json")
+    independent = query.motion(waypoints, "independent", relative_tolerance=0.3)
+    lower, upper = independent.any_dependence
+    assert len(independent.by_waypoint) == len(waypoints)
+    assert lower <= independent.lower and independent.upper <= upper
+    assert max(low for low, _ in independent.by_waypoint) <= independent.upper
+    asked = query.motion(waypoints, "any-dependence", relative_tolerance=0.3)
+    assert asked.lower <= independent.upper and asked.upper >= independent.lower
+
+
+@needs_robot
+def test_probable_decisions_are_told_from_certain_ones():
+    query, waypoints = fcl_prob.load_robot_scene(DATA / "arm_path.json")
+    certified = query.motion(waypoints, relative_tolerance=0.1)
+    for threshold in (0.3 * certified.lower, min(1.0, 3.0 * certified.upper)):
+        result = query.decide_probably(waypoints, threshold, 1e-3, seed=3)
+        assert result.decision.endswith("below" if threshold > certified.upper else "above")
+        assert result.chance_of_error == (0.0 if result.decision.startswith("certainly") else 1e-3)
+        assert result.certified[0] <= certified.upper and result.certified[1] >= certified.lower
+    with pytest.raises(fcl_prob.InvalidRequest, match="chance"):
+        query.decide_probably(waypoints, 0.05, 2.0)
+
+
+@needs_robot
+def test_attached_objects_and_self_collision():
+    robot = fcl_prob.Robot(DATA / "arm.urdf")
+    rod = fcl_prob.Cylinder(0.01, 0.3)
+    holding = robot.with_attached("rod", "hand", rod, [0.09, 0, 0], ["left_finger", "right_finger"])
+    assert len(holding.links) == len(robot.links) + 1 and holding.links[-1] == "hand"
+    straight = holding.values({"grip": 0.0})
+    lenient = fcl_prob.SelfCollision(holding, DATA / "arm.srdf")
+    assert ("left_finger", "rod") not in lenient.collisions(straight)
+    assert not fcl_prob.SelfCollision(robot, DATA / "arm.srdf").collides(straight)
+    assert len(lenient.pairs) < len(fcl_prob.SelfCollision(holding).pairs)
+    strict = fcl_prob.SelfCollision(robot.with_attached("rod", "hand", rod, [0.09, 0, 0]))
+    assert ("left_finger", "rod") in strict.collisions(straight)
+    assert ("left_finger", "rod") in strict.pairs and strict.collides(straight)
+    with pytest.raises(fcl_prob.InvalidRequest, match="foot"):
+        robot.with_attached("rod", "foot", rod)
+    with pytest.raises(fcl_prob.FileError):
+        fcl_prob.SelfCollision(robot, DATA / "arm.urdf.srdf")

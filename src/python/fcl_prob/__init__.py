@@ -53,7 +53,14 @@ from ._errors import (
 
 if TYPE_CHECKING:
     from ._io import load_mesh
-    from ._robot import Robot, RobotQuery, RobotResult, load_robot_scene
+    from ._robot import (
+        ProbableResult,
+        Robot,
+        RobotQuery,
+        RobotResult,
+        SelfCollision,
+        load_robot_scene,
+    )
 
 __all__ = [
     "BatchResult",
@@ -80,9 +87,11 @@ __all__ = [
     "PoseError",
     "PreparedQuery",
     "ProbabilityResult",
+    "ProbableResult",
     "Robot",
     "RobotQuery",
     "RobotResult",
+    "SelfCollision",
     "Sphere",
     "TruncatedGaussian",
     "UnsupportedGeometry",
@@ -96,9 +105,11 @@ __all__ = [
 # Each in an extension module of its own, with libraries of its own.
 _LATER = {
     "load_mesh": "_io",
+    "ProbableResult": "_robot",
     "Robot": "_robot",
     "RobotQuery": "_robot",
     "RobotResult": "_robot",
+    "SelfCollision": "_robot",
     "load_robot_scene": "_robot",
 }
 

@@ -39,6 +39,14 @@ class Robot:
     def values(self, by_name: Mapping[str, float]) -> FloatArray: ...
     def poses(self, values: Values) -> list[FloatArray]: ...
     def link_pose(self, link: str, values: Values) -> FloatArray: ...
+    def with_attached(
+        self,
+        name: str,
+        link: str,
+        geometry: Union[Geometry, AnyMesh],
+        pose: Optional[Numbers] = None,
+        touch_links: Sequence[str] = ...,
+    ) -> Robot: ...
 
 class RobotResult:
     @property
@@ -57,6 +65,12 @@ class RobotResult:
     def status(self) -> str: ...
     @property
     def parts(self) -> list[ProbabilityResult]: ...
+    @property
+    def by_waypoint(self) -> list[Tuple[float, float]]: ...
+    @property
+    def any_dependence(self) -> Optional[Tuple[float, float]]: ...
+    @property
+    def swept_band(self) -> Optional[float]: ...
     @property
     def far_bodies(self) -> int: ...
     @property
@@ -90,6 +104,7 @@ class RobotQuery:
         waypoints: Union[Numbers, Sequence[Values]],
         errors: str = "persistent",
         largest_step: Optional[float] = None,
+        between: str = "ignored",
         *,
         method: str = "auto",
         contact: str = "fcl",
@@ -106,5 +121,44 @@ class RobotQuery:
         gradient: bool = False,
         on_progress: Optional[QueryProgress] = None,
     ) -> RobotResult: ...
+
+    def decide_probably(
+        self,
+        waypoints: Union[Numbers, Sequence[Values]],
+        threshold: float,
+        chance_of_error: float,
+        *,
+        contact: str = "fcl",
+        time_limit: Optional[float] = None,
+        max_cells: int = ...,
+        max_memory: int = ...,
+        seed: int = 1,
+        on_progress: Optional[QueryProgress] = None,
+    ) -> ProbableResult: ...
+
+class ProbableResult:
+    @property
+    def decision(self) -> str: ...
+    @property
+    def chance_of_error(self) -> float: ...
+    @property
+    def certified(self) -> Tuple[float, float]: ...
+    @property
+    def probable(self) -> Tuple[float, float]: ...
+    @property
+    def status(self) -> str: ...
+    @property
+    def cells(self) -> int: ...
+    @property
+    def samples(self) -> int: ...
+
+class SelfCollision:
+    def __init__(
+        self, robot: Robot, srdf: Optional[Union[str, os.PathLike[str]]] = None
+    ) -> None: ...
+    @property
+    def pairs(self) -> list[Tuple[str, str]]: ...
+    def collides(self, values: Values) -> bool: ...
+    def collisions(self, values: Values) -> list[Tuple[str, str]]: ...
 
 def load_robot_scene(path: Union[str, os.PathLike[str]]) -> Tuple[RobotQuery, FloatArray]: ...

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include <pybind11/stl.h>
+
+#include "fcl_prob/probable_decision.h"
+#include "fcl_prob/self_collision.h"
+#include "python/arrays.h"
+#include "python/results.h"
+#include "python/robot_values.h"
+
+namespace fcl_prob::python {
+namespace {
+
+std::shared_ptr<SelfCollision> makeSelfCollision(const Robot& robot, const py::object& srdf) {
+  if (srdf.is_none()) return std::make_shared<SelfCollision>(robot);
+  const std::string file = pathFrom(srdf);
+  const py::gil_scoped_release released;
+  return std::make_shared<SelfCollision>(robot, loadAllowedPairs(file, robot));
+}
+
+py::list namesOf(const Robot& robot, const std::vector<BodyPair>& pairs) {
+  py::list names;
+  for (const BodyPair& pair : pairs) {
+    names.append(
+        py::make_tuple(robot.bodies()[pair.first].name(), robot.bodies()[pair.second].name()));
+  }
+  return names;
+}
+
+void bindSelfCollision(py::module_& module) {
+  py::class_<SelfCollision, std::shared_ptr<SelfCollision>>(
+      module, "SelfCollision",
+      "SelfCollision(robot, srdf=None): a robot's bodies against each other by fcl::collide,\n"
+      "without errors. srdf: a file that tells which links may touch. Raises FileError.")
+      .def(py::init(&makeSelfCollision), py::arg("robot"), py::arg("srdf") = py::none())
+      .def_property_readonly(
+          "pairs", [](const SelfCollision& self) { return namesOf(self.robot(), self.pairs()); },
+          "Names of the bodies that are looked at.")
+      .def(
+          "collides",
+          [](const SelfCollision& self, const py::object& values) {
+            return self.collides(jointValues(self.robot(), values, "values"));
+          },
+          py::arg("values"))
+      .def(
+          "collisions",
+          [](const SelfCollision& self, const py::object& values) {
+            return namesOf(self.robot(),
+                           self.collisions(jointValues(self.robot(), values, "values")));
+          },
+          py::arg("values"), "Names of the bodies that touch.");
+}
+
+}  // namespace
+
+void bindDecisions(py::module_& module) {
+  using R = ProbableResult;
+  py::class_<R>(module, "ProbableResult", "What is certified and what is probable, side by side.")
+      .def_property_readonly(
+          "decision", [](const R& r) { return toString(r.decision); },
+          "'undecided', 'certainly-below', 'certainly-above', 'probably-below' or\n"
+          "'probably-above'.")
+      .def_property_readonly(
+          "chance_of_error", [](const R& r) { return r.chance_of_error; },
+          "Of being wrong with this decision; 0 for a certain one.")
+      .def_property_readonly(
+          "certified",
+          [](const R& r) { return py::make_tuple(r.certified.lower, r.certified.upper); },
+          "(lower, upper), certified.")
+      .def_property_readonly(
+          "probable", [](const R& r) { return py::make_tuple(r.probable.lower, r.probable.upper); },
+          "(lower, upper), but for the chance that was stated.")
+      .def_property_readonly("status", [](const R& r) { return toString(r.status); })
+      .def_property_readonly("cells", [](const R& r) { return r.cells; })
+      .def_property_readonly("samples", [](const R& r) { return r.samples; })
+      .def("__repr__", [](const R& r) {
+        return "<ProbableResult " + toString(r.decision) + ": " + toString(r.status) + ">";
+      });
+  bindSelfCollision(module);
+}
+
+}  // namespace fcl_prob::python
