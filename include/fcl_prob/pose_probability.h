@@ -23,6 +23,8 @@ namespace fcl_prob {
 /// means
 ///   about a point near the contact joins the translation, and what is left moves the pieces. No
 ///   gradient. \throws UnsupportedGeometry beside a Halfspace or Plane
+/// - `rare_event`: as `estimate`, but what is left given a rotation is counted by fcl::collide at
+///   importance samples, request.samples of them a rotation at most: independent of the partition.
 /// - `monte_carlo`: fcl::collide at poses displaced in all six dimensions.
 /// The seed fixes all samples, whatever the number of threads. The gradient is that of moving the
 /// mean of A (world frame). If the rotation does not vary, every method is that for the translation

@@ -72,7 +72,10 @@ ConditionalSamples::Answer ConditionalSamples::answerAt(std::size_t index,
   const Eigen::VectorXd z = normals(index / 2);
   const PlacedConfiguration placed = configuration_.at(index % 2 == 0 ? z : Eigen::VectorXd(-z));
   ProbabilityRequest request = request_;
-  request.method = ProbabilityMethod::estimate;
+  // Rare events are counted by fcl::collide, given the configuration; all else is estimated.
+  if (request_.method != ProbabilityMethod::rare_event) {
+    request.method = ProbabilityMethod::estimate;
+  }
   request.relative_tolerance = tolerance.relative;
   request.absolute_tolerance = tolerance.absolute;
   request.threshold.reset();

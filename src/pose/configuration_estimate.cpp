@@ -122,7 +122,9 @@ class Estimator {
 
   ProbabilityResult resultOf(ProbabilityStatus status) const {
     ProbabilityResult result;
-    result.method = ProbabilityMethod::estimate;
+    result.method = request_.method == ProbabilityMethod::rare_event
+                        ? ProbabilityMethod::rare_event
+                        : ProbabilityMethod::estimate;
     result.status = status;
     result.lower = 0.0;
     result.upper = 1.0;

@@ -67,6 +67,7 @@ double PreparedPoseQuery::collisionProbability(const fcl::Transform3d& pose_a,
   switch (request.method) {
     case ProbabilityMethod::automatic:
     case ProbabilityMethod::estimate:
+    case ProbabilityMethod::rare_event:
       result = implementation_->estimate(poses, request);
       break;
     case ProbabilityMethod::interval:
