@@ -16,7 +16,10 @@ namespace {
 // Pairs of the first look, which says how large P is; of the least answer, whose standard error has
 // some degrees of freedom; and of the most that a mean is taken of at all.
 constexpr std::size_t kFirstPairs = 4;
-constexpr std::size_t kLeastPairs = 12;
+constexpr std::size_t kLeastPairs = 32;
+
+// A single answer is as accurate as if so many pairs made up the estimate.
+constexpr double kPairsOfAccuracy = 12.0;
 
 // What of the variance single answers may make up where configurations do not vary.
 constexpr double kInnerShare = 0.5;
@@ -79,7 +82,7 @@ class Estimator {
   }
 
   static double innerFactor() {
-    return std::sqrt(kInnerShare * 2.0 * static_cast<double>(kLeastPairs));
+    return std::sqrt(kInnerShare * 2.0 * kPairsOfAccuracy);
   }
 
   std::size_t nextCount() const {
