@@ -81,9 +81,7 @@ class Estimator {
     return firstTolerance();
   }
 
-  static double innerFactor() {
-    return std::sqrt(kInnerShare * 2.0 * kPairsOfAccuracy);
-  }
+  static double innerFactor() { return std::sqrt(kInnerShare * 2.0 * kPairsOfAccuracy); }
 
   std::size_t nextCount() const {
     const auto n = static_cast<double>(samples_.pairs().size());
@@ -101,13 +99,15 @@ class Estimator {
       interval_ = intervalAt(looks_);
       samples_.setProgress(interval_);
     }
+    if (count >= kLeastPairs) {
+      const Decision decision = decisionOf(interval_, request_);
+      if (decision == Decision::below || decision == Decision::above) {
+        return ProbabilityStatus::decided;
+      }
+      if (standardError() <= targetAt(mean_.mean)) return ProbabilityStatus::converged;
+    }
     if (const auto reason = samples_.reason()) return reason;
     if (count < kLeastPairs) return std::nullopt;
-    const Decision decision = decisionOf(interval_, request_);
-    if (decision == Decision::below || decision == Decision::above) {
-      return ProbabilityStatus::decided;
-    }
-    if (standardError() <= targetAt(mean_.mean)) return ProbabilityStatus::converged;
     // No number of configurations makes up for what their answers leave open.
     if (samples_.doubt() > targetAt(mean_.mean)) return ProbabilityStatus::resolution_limit;
     return std::nullopt;
@@ -125,9 +125,8 @@ class Estimator {
 
   ProbabilityResult resultOf(ProbabilityStatus status) const {
     ProbabilityResult result;
-    result.method = request_.method == ProbabilityMethod::rare_event
-                        ? ProbabilityMethod::rare_event
-                        : ProbabilityMethod::estimate;
+    result.method = request_.method == ProbabilityMethod::rare_event ? ProbabilityMethod::rare_event
+                                                                     : ProbabilityMethod::estimate;
     result.status = status;
     result.lower = 0.0;
     result.upper = 1.0;

@@ -164,7 +164,7 @@ TEST_CASE("covariances of low rank are answered, and standard errors stay true")
     const auto counted = answer(query, kIdentity, pose_b, error, counting);
     const auto result =
         answer(query, kIdentity, pose_b, error, poseRequest(Method::automatic, 0.03));
-    CAPTURE(rank);
+    CAPTURE(rank, *counted.estimate, *result.estimate, *result.standard_error, result.plan[0]);
     CHECK(result.status == ProbabilityStatus::converged);
     checkNear(result, *counted.estimate, *counted.standard_error);
   }
