@@ -119,8 +119,24 @@ void requireBehind(const FacePlane& plane, const Eigen::Vector3d& middle_of_neig
   refuse(name, out.str());
 }
 
-void requireLocallyConvex(const Points& points, const std::vector<std::vector<int>>& faces,
-                          const std::vector<EdgeMatch>& matches, const std::string& name) {
+/// Across a face without a normal its neighbours may be dented unnoticed: then all vertices have to
+/// be behind all other faces.
+void requireAllBehind(const std::vector<FacePlane>& planes, const Points& points, double tolerance,
+                      const std::string& name) {
+  for (std::size_t f = 0; f < planes.size(); ++f) {
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const double height = planes[f].height(points[v]);
+      if (height <= tolerance) continue;
+      std::ostringstream out;
+      out << "vertex " << v << " lies " << height << " m before face " << f
+          << ": it is not convex, or not counter-clockwise seen from outside";
+      refuse(name, out.str());
+    }
+  }
+}
+
+void requireConvex(const Points& points, const std::vector<std::vector<int>>& faces,
+                   const std::vector<EdgeMatch>& matches, const std::string& name) {
   double size = 0.0;
   for (const auto& p : points) size = std::max(size, (p - points[0]).cwiseAbs().maxCoeff());
   const double tolerance = kPlanarTolerance * size;
@@ -137,6 +153,10 @@ void requireLocallyConvex(const Points& points, const std::vector<std::vector<in
     requireBehind(planes[edge.backward.polygon], middles[edge.forward.polygon], edge, tolerance,
                   name);
   }
+  const bool all_known = std::none_of(planes.begin(), planes.end(), [](const FacePlane& plane) {
+    return plane.normal.isZero(0.0);
+  });
+  if (!all_known) requireAllBehind(planes, points, tolerance, name);
 }
 
 }  // namespace
@@ -175,7 +195,7 @@ void validateConvex(const fcl::Convexd& convex, const std::string& name) {
   requireAllUsed(points.size(), faces, name);
   const EdgePairing pairing = pairEdges(edgesOf(faces));
   if (pairing.fault) refuse(name, "its faces do not close: " + *pairing.fault);
-  requireLocallyConvex(points, faces, pairing.matches, name);
+  requireConvex(points, faces, pairing.matches, name);
 }
 
 }  // namespace fcl_prob::detail

@@ -10,6 +10,7 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
+#include <array>
 #include <limits>
 
 #include "catch.h"
@@ -143,6 +144,40 @@ TEST_CASE("Convex shapes with broken faces are refused") {
   const std::vector<int> dented_faces = {3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 3, 4, 3, 3, 0, 4,
                                          3, 1, 0, 5, 3, 2, 1, 5, 3, 3, 2, 5, 3, 0, 3, 5};
   CHECK_THROWS_WITH(validate(convex(dented, 8, dented_faces)), Contains("not convex"));
+}
+
+// A trough whose bottom is a strip: across it no two faces share an edge that would tell.
+TEST_CASE("Convex shapes that are dented along a narrow face are refused") {
+  for (const double width : {0.1, 1e-5, 1e-7, 1e-10, 1e-13}) {
+    for (const double bottom : {0.5, 1.5}) {
+      std::vector<Eigen::Vector3d> vertices;
+      for (const double y : {0.0, 1.0}) {
+        vertices.insert(vertices.end(), {{0, y, 0},
+                                         {2, y, 0},
+                                         {2, y, 1},
+                                         {1 + width, y, bottom},
+                                         {1 - width, y, bottom},
+                                         {0, y, 1}});
+      }
+      std::vector<int> faces;
+      for (int i = 0; i < 6; ++i) {
+        const int j = (i + 1) % 6;
+        faces.insert(faces.end(), {4, i, i + 6, j + 6, j});
+      }
+      // Both ends, in triangles that are right for either bottom.
+      for (const auto& [i, j, k] :
+           std::vector<std::array<int, 3>>{{0, 4, 5}, {0, 3, 4}, {0, 1, 3}, {1, 2, 3}}) {
+        faces.insert(faces.end(), {3, i, j, k, 3, i + 6, k + 6, j + 6});
+      }
+      const fcl::Convexd body = convex(vertices, 14, faces);
+      CAPTURE(width, bottom);
+      if (bottom > 1.0) {
+        CHECK_NOTHROW(validate(body));
+      } else {
+        CHECK_THROWS_WITH(validate(body), Contains("not convex"));
+      }
+    }
+  }
 }
 
 TEST_CASE("poses must be finite and rigid") {
