@@ -27,4 +27,11 @@ Eigen::Vector3d PointMotion::bound(const Eigen::Matrix3d& whitening,
   return result;
 }
 
+double PointMotion::reach(double radius) const {
+  double sum = ball + remainder * radius;
+  for (const Eigen::Vector3d& turn : turns) sum += turn.norm() * radius;
+  for (const Eigen::Vector3d& shift : shifts) sum += shift.norm();
+  return sum;
+}
+
 }  // namespace fcl_prob::detail

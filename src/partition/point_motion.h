@@ -22,6 +22,10 @@ struct PointMotion {
   /// Bound on how far the point moves along each axis of the frame that `whitening` maps to. Convex
   /// in `x`: over a polytope it is largest at a vertex.
   Eigen::Vector3d bound(const Eigen::Matrix3d& whitening, const Eigen::Vector3d& x) const;
+
+  /// How far points move that are no farther than `radius` from the centre, up to the rounding of
+  /// its sums.
+  double reach(double radius) const;
 };
 
 }  // namespace fcl_prob::detail

@@ -92,12 +92,8 @@ double SweptParts::alongPart(const Part& part, const Eigen::Vector3d& n) {
 }
 
 double SweptParts::radiusOf(const Part& part) {
-  const PointMotion& sweep = *part.sweep;
-  double sum = sweep.ball + sweep.remainder * part.half.norm();
-  for (const Eigen::Vector3d& shift : sweep.shifts) sum += shift.norm();
   // The box's axes are orthogonal to 1e-9.
-  for (const Eigen::Vector3d& turn : sweep.turns) sum += turn.norm() * part.half.norm();
-  return (1.0 + kNoRotation) * sum;
+  return (1.0 + kNoRotation) * part.sweep->reach(part.half.norm());
 }
 
 double SweptParts::along(const Eigen::Vector3d& n, int node) const {

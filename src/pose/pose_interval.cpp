@@ -203,11 +203,9 @@ class PoseInterval {
   // Steers; no bound depends on it.
   bool isWide(const CellMotion& motion) const {
     const double radius = a_.pieces().radius();
-    double reach = motion.motion.ball + motion.motion.remainder * radius;
-    for (const Eigen::Vector3d& turn : motion.motion.turns) reach += turn.norm() * radius;
-    for (const Eigen::Vector3d& shift : motion.motion.shifts) reach += shift.norm();
     const double deviation = motion.displacement.standardDeviations().maxCoeff();
-    return reach > std::max(kMostDeviations * deviation, kMostOfSize * radius);
+    return motion.motion.reach(radius) >
+           std::max(kMostDeviations * deviation, kMostOfSize * radius);
   }
 
   void add(const ProbabilityStatistics& of_one) {

@@ -72,8 +72,7 @@ py::tuple pathOf(const BatchResult& batch) {
     all.push_back(answer ? Bounds{answer->lower.value_or(0.0), answer->upper.value_or(1.0)}
                          : Bounds{0.0, 1.0});
   }
-  const Bounds path = anyOf(all);
-  return py::make_tuple(path.lower, path.upper);
+  return pairOf(anyOf(all));
 }
 
 std::size_t doneOf(const BatchResult& batch) {

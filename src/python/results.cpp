@@ -35,11 +35,6 @@ std::optional<Eigen::Vector3d> vectorOf(const std::optional<Vector>& value) {
   return Eigen::Vector3d((*value)[0], (*value)[1], (*value)[2]);
 }
 
-py::object pairOf(const std::optional<Bounds>& bounds) {
-  if (!bounds) return py::none();
-  return py::make_tuple(bounds->lower, bounds->upper);
-}
-
 py::dict dictOf(const ProbabilityStatistics& statistics) {
   py::dict seconds;
   for (const auto& [stage, time] : statistics.seconds) seconds[py::str(stage)] = time;

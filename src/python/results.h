@@ -21,6 +21,14 @@ py::object orNone(const std::optional<Value>& value) {
   return value ? py::cast(*value) : py::none();
 }
 
+/// (lower, upper).
+inline py::tuple pairOf(const Bounds& bounds) { return py::make_tuple(bounds.lower, bounds.upper); }
+
+/// (lower, upper), or None.
+inline py::object pairOf(const std::optional<Bounds>& bounds) {
+  return bounds ? py::object(pairOf(*bounds)) : py::none();
+}
+
 // In the order of their values.
 inline constexpr std::array<Decision, 4> kDecisions = {Decision::none, Decision::below,
                                                        Decision::above, Decision::undecided};

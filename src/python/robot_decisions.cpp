@@ -64,11 +64,9 @@ void bindDecisions(py::module_& module) {
           "chance_of_error", [](const R& r) { return r.chance_of_error; },
           "Of being wrong with this decision; 0 for a certain one.")
       .def_property_readonly(
-          "certified",
-          [](const R& r) { return py::make_tuple(r.certified.lower, r.certified.upper); },
-          "(lower, upper), certified.")
+          "certified", [](const R& r) { return pairOf(r.certified); }, "(lower, upper), certified.")
       .def_property_readonly(
-          "probable", [](const R& r) { return py::make_tuple(r.probable.lower, r.probable.upper); },
+          "probable", [](const R& r) { return pairOf(r.probable); },
           "(lower, upper), but for the chance that was stated.")
       .def_property_readonly("status", [](const R& r) { return toString(r.status); })
       .def_property_readonly("cells", [](const R& r) { return r.cells; })

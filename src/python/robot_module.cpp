@@ -119,12 +119,8 @@ std::string reprOf(const RobotResult& result) {
 
 py::list pairsOf(const std::vector<Bounds>& bounds) {
   py::list pairs;
-  for (const Bounds& one : bounds) pairs.append(py::make_tuple(one.lower, one.upper));
+  for (const Bounds& one : bounds) pairs.append(pairOf(one));
   return pairs;
-}
-
-py::object pairOrNone(const std::optional<Bounds>& bounds) {
-  return bounds ? py::object(py::make_tuple(bounds->lower, bounds->upper)) : py::none();
 }
 
 void bindResult(py::module_& module) {
@@ -147,7 +143,7 @@ void bindResult(py::module_& module) {
           "by_waypoint", [](const R& r) { return pairsOf(r.by_waypoint); },
           "Unless errors are persistent: (lower, upper) at each waypoint.")
       .def_property_readonly(
-          "any_dependence", [](const R& r) { return pairOrNone(r.any_dependence); },
+          "any_dependence", [](const R& r) { return pairOf(r.any_dependence); },
           "Unless errors are persistent: (lower, upper) whatever the errors at one waypoint have\n"
           "to do with those at another.")
       .def_property_readonly(
@@ -166,7 +162,7 @@ void bindResult(py::module_& module) {
              dict["decision"] = decisionOf(r.decision);
              dict["status"] = toString(r.status);
              dict["by_waypoint"] = pairsOf(r.by_waypoint);
-             dict["any_dependence"] = pairOrNone(r.any_dependence);
+             dict["any_dependence"] = pairOf(r.any_dependence);
              dict["swept_band"] = orNone(r.swept_band);
              dict["far_bodies"] = r.far_bodies;
              dict["far_upper"] = r.far_upper;

@@ -181,26 +181,30 @@ struct RobotQuery::Implementation {
     return result;
   }
 
-  ProbableResult ofUnionProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
-                                 double chance, const ProbabilityRequest& request) const {
+  /// What a probable decision draws from; nothing where it has to be certain: an obstacle that
+  /// cannot be sampled, a body without pieces, or nothing that could meet.
+  std::vector<detail::ProbableScene> probableScenes(
+      const std::vector<Eigen::VectorXd>& waypoints) const {
     const auto relative = relativeTo(waypoints, -1);
     std::vector<detail::ProbableScene> scenes;
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       const ObstacleState state = detail::stateAt(obstacles[i], 0);
-      if (!detail::canBeSampled(obstacle_geometries[i], state)) {
-        return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
-      }
+      if (!detail::canBeSampled(obstacle_geometries[i], state)) return {};
       std::vector<PlacedBody> bodies;
       for (const PlacedBody& one : relative[i]) {
         if (!meets(one.body, i)) continue;
-        if (!geometries[one.body].hasPieces()) {
-          return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
-        }
+        if (!geometries[one.body].hasPieces()) return {};
         bodies.push_back(one);
       }
       if (bodies.empty()) continue;
       scenes.push_back({&obstacle_geometries[i], &obstacle_balls[i], state, std::move(bodies)});
     }
+    return scenes;
+  }
+
+  ProbableResult ofUnionProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
+                                 double chance, const ProbabilityRequest& request) const {
+    const std::vector<detail::ProbableScene> scenes = probableScenes(waypoints);
     if (scenes.empty()) return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
     return detail::probablyAny(scenes, geometries, balls, threshold, chance, request);
   }
