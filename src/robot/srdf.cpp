@@ -22,21 +22,19 @@ class SrdfPairs {
   std::vector<LinkPair> read() {
     const std::string text = detail::fileContent(path_, detail::kMostXmlBytes);
     const ptree document = detail::parseXml(text, path_, "SRDF");
-    if (document.count("robot") > 1) throw FileError(path_ + ": more than one element robot");
-    const auto root = document.get_child_optional("robot");
-    if (!root) throw FileError(path_ + ": no SRDF: has no element robot");
-    const std::string name = root->get("<xmlattr>.name", "");
+    const ptree& root = document.get_child("robot");
+    const std::string name = root.get("<xmlattr>.name", "");
     if (name != robot_.name()) {
       throw FileError(path_ + ": robot: its name is " + name + ", not " + robot_.name());
     }
     // What is on by default, before what is on or off by name.
-    for (const auto& [tag, element] : *root) {
+    for (const auto& [tag, element] : root) {
       if (tag == "disable_default_collisions") allowAllOf(link(element, tag, "link"));
     }
-    for (const auto& [tag, element] : *root) {
+    for (const auto& [tag, element] : root) {
       if (tag == "enable_collisions") allowed_.erase(pairOf(element, tag));
     }
-    for (const auto& [tag, element] : *root) {
+    for (const auto& [tag, element] : root) {
       if (tag == "disable_collisions") allowed_.insert(pairOf(element, tag));
     }
     std::vector<LinkPair> pairs;

@@ -5,6 +5,7 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <mutex>
@@ -113,6 +114,13 @@ class XmlElements {
   int depth_ = 0;
 };
 
+/// None of which text has but tabs and ends of lines.
+bool isControlCharacter(char c) {
+  if (c == '\t' || c == '\n' || c == '\r') return false;
+  const auto code = static_cast<unsigned char>(c);
+  return code < ' ' || code == 0x7f;
+}
+
 std::size_t elementsOf(const ptree& parent) {
   std::size_t count = 0;
   for (const auto& child : parent) count += child.first != "<xmlattr>";
@@ -152,11 +160,10 @@ void requireAllRead(const ptree& document, const urdf::ModelInterface& model,
 }  // namespace
 
 void checkXmlText(const std::string& text, const std::string& path) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\t' || c == '\n' || c == '\r' || (c & '\x80') != 0 || (c >= ' ' && c != '\x7f'))
-      continue;
-    throw FileError(path + ": a control character, character " + std::to_string(i));
+  const auto control = std::find_if(text.begin(), text.end(), isControlCharacter);
+  if (control != text.end()) {
+    throw FileError(path + ": a control character, character " +
+                    std::to_string(control - text.begin()));
   }
   // Names go into answers in JSON, where nothing else may stand.
   try {
@@ -178,6 +185,10 @@ boost::property_tree::ptree parseXml(const std::string& text, const std::string&
     throw FileError(path + ": no " + what + ": " + error.message() + " in line " +
                     std::to_string(error.line()));
   }
+  // Of several, urdfdom reads the first one and says nothing of the others.
+  const std::size_t robots = document.count("robot");
+  if (robots == 0) throw FileError(path + ": no " + what + ": has no element robot");
+  if (robots > 1) throw FileError(path + ": more than one element robot");
   return document;
 }
 

@@ -22,7 +22,8 @@ urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path);
 ///         nested too deeply for a parser that recurses
 void checkXmlText(const std::string& text, const std::string& path);
 
-/// The elements of a text that has passed checkXmlText(). \param what  URDF or SRDF, for messages
+/// The elements of a text that passes checkXmlText() and has one element robot.
+/// \param what  URDF or SRDF, for messages
 /// \throws FileError
 boost::property_tree::ptree parseXml(const std::string& text, const std::string& path,
                                      const std::string& what);

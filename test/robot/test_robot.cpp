@@ -212,6 +212,15 @@ TEST_CASE("meshes of a URDF are found, scaled and mirrored") {
   CHECK_THROWS_AS(Robot(robotWith("filename=\"tetrahedron.off\" scale=\"1 0 1\"")), FileError);
 }
 
+TEST_CASE("names may have any letters, and lines end as they do anywhere") {
+  const TemporaryFolder folder;
+  const std::string text =
+      "\r\n\t<link name=\"\u00e9\u6249\"/><joint name=\"j\" type=\"fixed\">"
+      "<parent link=\"a\"/><child link=\"\u00e9\u6249\"/></joint>";
+  const Robot robot(folder.write("r.urdf", urdfWith(text)));
+  CHECK(robot.links().back().name == "\u00e9\u6249");
+}
+
 TEST_CASE("what is no URDF is refused with file and element") {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& text, const std::string& told) {
@@ -269,7 +278,11 @@ TEST_CASE("what is no URDF is refused with file and element") {
       "");
   refused(joint("revolute", "<axis xyz=\"1e200 0 0\"/>" + limit), "joint j: its axis");
   refused(urdfWith("<link name=\"\xff\"/>"), "not UTF-8");
-  refused(urdfWith("<link name=\"\x1b\"/>"), "control character");
+  refused(urdfWith("<link name=\"\x1b\"/>"), "control character, character");
+  refused(urdfWith("<link name=\"\x7f\"/>"), "control character, character");
+  refused("\x01" + urdfWith(""), "control character, character 0");
+  refused(urdfWith("") + urdfWith(""), "more than one element robot");
+  refused("<gripper name=\"r\"/>", "no URDF: has no element robot");
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
   refused(deep, "nested deeper");

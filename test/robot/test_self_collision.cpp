@@ -177,6 +177,7 @@ TEST_CASE("what is no SRDF is refused with file and element") {
   refused("nothing of the kind", "no SRDF");
   refused("<robot name=\"arm\">", "no SRDF");
   refused("<gripper name=\"arm\"/>", "no element robot");
+  refused(inside("") + inside(""), "more than one element robot");
   refused("<robot name=\"leg\"/>", "its name is leg, not arm");
   refused("<!DOCTYPE r [<!ENTITY e \"e\">]>" + inside(""), "document type");
   refused(inside("<disable_collisions link1=\"hand\"/>"), "disable_collisions: has no link2");
