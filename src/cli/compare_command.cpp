@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <iostream>
 
 #include "cli/comparison.h"
 #include "cli/comparison_report.h"
@@ -61,19 +60,8 @@ Comparison compareWithProgress(const Scene& scene, const SceneArguments& argumen
   return compare(prepared, runsFor(request, partsUse(arguments)), request, seeds, progress);
 }
 
-void plot(const Comparison& comparison, const CompareArguments& arguments,
-          const std::string& terminal) {
-  const std::string script = gnuplotScriptOf(comparison, titleOf(arguments.scene), terminal);
-  if (!runGnuplot(script, arguments.plot)) {
-    std::cerr << "fcl_prob: no plot: gnuplot is not installed (package gnuplot-nox)\n";
-  }
-}
-
 int runCompare(const CompareArguments& arguments) {
-  const std::optional<std::string> terminal = gnuplotTerminal(arguments.plot);
-  if (!arguments.plot.empty() && !terminal) {
-    throw InvalidRequest("--plot: the file name must end in .svg or .png");
-  }
+  validatePlotPath(arguments.plot);
   const Comparison comparison =
       compareWithProgress(sceneFrom(arguments.scene), arguments.scene, arguments.seeds);
   if (arguments.json) {
@@ -81,7 +69,9 @@ int runCompare(const CompareArguments& arguments) {
   } else {
     deliver(arguments.csv ? csvOf(comparison) : tableOf(comparison), arguments.output);
   }
-  if (terminal) plot(comparison, arguments, *terminal);
+  if (!arguments.plot.empty()) {
+    writePlot(gnuplotScriptOf(comparison, titleOf(arguments.scene)), arguments.plot);
+  }
   return interrupted() ? kStopped : kAnswered;
 }
 

@@ -78,16 +78,14 @@ void writeCurves(const Curves& curves, const std::string& columns, std::ostream&
 
 }  // namespace
 
-std::string gnuplotScriptOf(const Comparison& comparison, const std::string& title,
-                            const std::string& terminal) {
+std::string gnuplotScriptOf(const Comparison& comparison, const std::string& title) {
   const Curves curves = curvesOf(comparison);
   std::ostringstream out;
   out << std::setprecision(10);
   writeData(curves, comparison.reference, out);
   std::string safe_title = title;
   std::replace(safe_title.begin(), safe_title.end(), '\'', ' ');
-  out << "set terminal " << terminal << " noenhanced\nset output\n"
-      << "set multiplot layout 1,2 title '" << safe_title << "'\n"
+  out << "set multiplot layout 1,2 title '" << safe_title << "'\n"
       << "set logscale x\nset xtics 100\nset grid\nset xlabel 'run time / ms'\nset key off\n"
       << "set logscale y\nset format y '%.0e'\nset ylabel 'relative error'\n";
   writeCurves(curves, "1:2:3:4", out);

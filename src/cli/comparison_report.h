@@ -19,9 +19,7 @@ std::string csvOf(const Comparison& comparison);
 nlohmann::ordered_json jsonOf(const Comparison& comparison);
 
 /// Two panels: relative error against run time, one curve a method with its confidence bars; and
-/// the intervals and bounds themselves against run time. `terminal` is gnuplot's ("svg",
-/// "pngcairo").
-std::string gnuplotScriptOf(const Comparison& comparison, const std::string& title,
-                            const std::string& terminal);
+/// the intervals and bounds themselves against run time. For writePlot().
+std::string gnuplotScriptOf(const Comparison& comparison, const std::string& title);
 
 }  // namespace fcl_prob::cli

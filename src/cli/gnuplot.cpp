@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <optional>
 
 #include "cli/output.h"
 #include "fcl_prob/exceptions.h"
@@ -43,18 +45,31 @@ class ScriptFile {
 
 bool installed() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
-}  // namespace
-
-std::optional<std::string> gnuplotTerminal(const std::string& path) {
+std::optional<std::string> terminalOf(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".svg") return "svg size 1200,500 dynamic background rgb 'white'";
   if (extension == ".png") return "pngcairo size 1200,500";
   return std::nullopt;
 }
 
-bool runGnuplot(const std::string& script, const std::string& path) {
-  if (!installed()) return false;
-  const ScriptFile file(script);
+}  // namespace
+
+void validatePlotPath(const std::string& path) {
+  if (path.empty() || terminalOf(path)) return;
+  throw InvalidRequest("--plot: the file name must end in .svg or .png");
+}
+
+void writePlot(const std::string& script, const std::string& path) {
+  if (script.empty()) {
+    std::cerr << "fcl_prob: no plot: there is nothing to draw\n";
+    return;
+  }
+  if (!installed()) {
+    std::cerr << "fcl_prob: no plot: gnuplot is not installed (package gnuplot-nox)\n";
+    return;
+  }
+  const ScriptFile file("set terminal " + terminalOf(path).value() + " noenhanced\nset output\n" +
+                        script);
   std::FILE* pipe = ::popen(("gnuplot '" + file.path() + "' 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) throw FileError(path + ": gnuplot could not be started");
   std::string plot;
@@ -64,7 +79,6 @@ bool runGnuplot(const std::string& script, const std::string& path) {
   }
   if (::pclose(pipe) != 0 || plot.empty()) throw FileError(path + ": gnuplot failed");
   writeFile(path, plot);
-  return true;
 }
 
 }  // namespace fcl_prob::cli

@@ -3,17 +3,17 @@
 // Plots by way of gnuplot, if it is installed.
 #pragma once
 
-#include <optional>
 #include <string>
 
 namespace fcl_prob::cli {
 
-/// gnuplot's terminal for a file name that ends in .svg or .png; nothing for another.
-std::optional<std::string> gnuplotTerminal(const std::string& path);
+/// \param path  of a plot that is asked for; empty: of none
+/// \throws InvalidRequest unless it ends in .svg or .png
+void validatePlotPath(const std::string& path);
 
-/// Runs `script`, whose plot goes to standard output, and writes it to `path`.
-/// \returns false if gnuplot is not installed. \throws FileError if it fails, or `path` cannot be
-/// written
-bool runGnuplot(const std::string& script, const std::string& path);
+/// Runs `script`, which draws and sets no terminal, and writes the plot to `path`. Where gnuplot is
+/// not installed, or the script is empty, there is no plot, which the error output says.
+/// \param path  a valid one \throws FileError if gnuplot fails, or `path` cannot be written
+void writePlot(const std::string& script, const std::string& path);
 
 }  // namespace fcl_prob::cli
