@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "cli/benchmark.h"
+#include "cli/gnuplot.h"
 #include "cli/output.h"
 #include "cli/progress_bar.h"
 #include "cli/run.h"
@@ -20,6 +21,7 @@ struct BenchArguments {
   bool csv = false;
   bool json = false;
   std::string output;
+  std::string plot;
 };
 
 std::string listOfBenchmarks() {
@@ -50,6 +52,10 @@ int runBench(BenchArguments arguments) {
     return kAnswered;
   }
   const Benchmark& benchmark = benchmarkNamed(arguments.name);
+  validatePlotPath(arguments.plot);
+  if (!arguments.plot.empty() && !benchmark.has_plot) {
+    throw InvalidRequest("--plot: " + benchmark.name + " has no plot");
+  }
   if (benchmark.needs_models) {
     arguments.options.models_folder = modelsFolder(arguments.options.models_folder);
   }
@@ -67,6 +73,7 @@ int runBench(BenchArguments arguments) {
   } else {
     deliver(arguments.csv ? report.table.csv() : report.markdown(), arguments.output);
   }
+  if (!arguments.plot.empty()) writePlot(report.plot, arguments.plot);
   return interrupted() ? kStopped : kAnswered;
 }
 
@@ -97,6 +104,8 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
       "parts: two scenes of each part; pose_pairs: 2,000 samples; table2: three seeds, 10 s each");
   auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of Markdown");
   command.add_flag("--json", arguments->json, "JSON instead of Markdown")->excludes(csv);
+  command.add_option("--plot", arguments->plot,
+                     "table2: also plot length of paths against time, to FILE.svg or FILE.png");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runBench(*arguments); });
 }

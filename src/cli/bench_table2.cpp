@@ -9,6 +9,7 @@
 #include "cli/number_text.h"
 #include "cli/stopwatch.h"
 #include "cli/table2_methods.h"
+#include "cli/table2_plot.h"
 #include "cli/uniforms.h"
 #include "fcl_prob/certified_planning.h"
 
@@ -42,6 +43,7 @@ std::optional<PublishedPath> publishedPath(const std::string& row, const std::st
 struct FoundPath {
   std::vector<Eigen::VectorXd> waypoints;
   double length = 0.0;
+  double query_ms = 0.0;     ///< to find and shorten it
   double hand_length = 0.0;  ///< metres
   double by_method = 0.0;    ///< its largest P of a state of the path
   Bounds certified{0.0, 1.0};
@@ -90,7 +92,8 @@ class Table2Run {
     const bool refused =
         plan.status == PlanningStatus::start_refused || plan.status == PlanningStatus::goal_refused;
     runs.refused.push_back(refused ? 1.0 : 0.0);
-    if (plan.status == PlanningStatus::solved) runs.found.push_back(measured(method, plan));
+    if (plan.status == PlanningStatus::solved)
+      runs.found.push_back(measured(method, plan, query_ms));
   }
 
   /// Errors the same all along.
@@ -103,20 +106,21 @@ class Table2Run {
   }
 
  private:
-  FoundPath measured(const Table2Method& method, const PlanningResult& plan) const {
-    FoundPath path{plan.waypoints, plan.length};
+  FoundPath measured(const Table2Method& method, const PlanningResult& plan,
+                     double query_ms) const {
+    FoundPath path{plan.waypoints, plan.length, query_ms};
     const auto states = interpolated(plan.waypoints, kLargestStep);
     Eigen::Vector3d before = handAt(states.front());
     for (const Eigen::VectorXd& values : states) {
       const Eigen::Vector3d hand = handAt(values);
       path.hand_length += (hand - before).norm();
       before = hand;
-      if (!method.has_probability || method.is_certified) continue;
+      if (method.answer != Table2Answer::probability) continue;
       path.by_method = std::max(
           path.by_method, method.probability(values, std::numeric_limits<double>::infinity()));
     }
     path.certified = largestProbability(scene_.query, states, certifyingRequest()).probability;
-    if (method.is_certified) {
+    if (method.answer == Table2Answer::certified) {
       // Every state was decided, which may have taken more than the interval's cells.
       path.certified.upper = std::min(path.certified.upper, kMostProbable);
       path.by_method = path.certified.upper;
@@ -138,6 +142,20 @@ double middleOfPaths(const std::vector<FoundPath>& paths, double (*value)(const 
   std::vector<double> values;
   for (const FoundPath& path : paths) values.push_back(value(path));
   return middleOf(values);
+}
+
+const char* nameOf(Table2Answer answer) {
+  switch (answer) {
+    case Table2Answer::probability:
+      return "probability";
+    case Table2Answer::certified:
+      return "certified";
+    case Table2Answer::probable:
+      return "probable";
+    case Table2Answer::padding:
+      break;
+  }
+  return "padding";
 }
 
 class Table2Report {
@@ -165,7 +183,12 @@ class Table2Report {
         "interval, of the\n"
         "first path, that any state touches, errors the same all along. `refused`: start or goal "
         "is not\n"
-        "below 5 % by the row's method. Sums are over bodies and obstacles, with at most 8 convex "
+        "below 5 % by the row's method. The probable decision, of the same screens first, is wrong "
+        "about a\n"
+        "state that it passes with a chance of at most 1e-4: its paths are not certified but by "
+        "`certified`,\n"
+        "as those of the other rows. Sums are over bodies and obstacles, with at most "
+        "8 convex "
         "parts each.\n"
         "Padding: fcl::collide or fcl::distance, by that many of the largest standard deviation. "
         "The paper's\n"
@@ -190,26 +213,41 @@ class Table2Report {
          ofFound([](const FoundPath& path) { return path.length; }),
          ofFound([](const FoundPath& path) { return path.hand_length; }), number(states),
          number(query_ms), number(query_ms / std::max(1.0, states)),
-         method.has_probability ? ofFound([](const FoundPath& path) { return path.by_method; })
-                                : "-",
+         saysProbability(method) ? ofFound([](const FoundPath& path) { return path.by_method; })
+                                 : "-",
          ofFound([](const FoundPath& path) { return path.certified.upper; }),
          found.empty() ? "-" : number(worst),
          runs.motion ? number(runs.motion->lower) + " to " + number(runs.motion->upper) : "-",
          published ? number(published->percent) : "-",
          published ? numberText(published->time_ms, 5) : "-"});
+    for (const FoundPath& path : found) {
+      plotted_.push_back({scene, method.name, path.query_ms, path.length});
+    }
     record(scene, method, runs);
   }
 
-  BenchReport take() { return std::move(report_); }
+  BenchReport take() {
+    report_.plot = table2PlotScript(plotted_);
+    return std::move(report_);
+  }
 
  private:
+  static bool saysProbability(const Table2Method& method) {
+    return method.answer == Table2Answer::probability || method.answer == Table2Answer::certified;
+  }
+
   void record(const std::string& scene, const Table2Method& method, const MethodRuns& runs) {
-    nlohmann::ordered_json json{
-        {"scene", scene},          {"method", method.name},
-        {"states", runs.states},   {"query_ms", runs.query_ms},
-        {"refused", runs.refused}, {"paths", nlohmann::ordered_json::array()}};
+    nlohmann::ordered_json json{{"scene", scene},
+                                {"method", method.name},
+                                {"answer", nameOf(method.answer)},
+                                {"states", runs.states},
+                                {"query_ms", runs.query_ms},
+                                {"refused", runs.refused},
+                                {"paths", nlohmann::ordered_json::array()}};
+    if (method.answer == Table2Answer::probable) json["chance_of_error"] = kChanceOfError;
     for (const FoundPath& path : runs.found) {
       json["paths"].push_back({{"length", path.length},
+                               {"query_ms", path.query_ms},
                                {"hand_length", path.hand_length},
                                {"by_method", path.by_method},
                                {"certified", {path.certified.lower, path.certified.upper}}});
@@ -219,6 +257,7 @@ class Table2Report {
   }
 
   BenchReport report_;
+  std::vector<PlottedPath> plotted_;
 };
 
 }  // namespace

@@ -27,6 +27,7 @@ struct BenchReport {
   std::string notes;  ///< Markdown, under the table: what the columns mean
   TextTable table{{}};
   nlohmann::ordered_json records = nlohmann::ordered_json::array();
+  std::string plot;  ///< for writePlot(); empty: there is nothing to draw
 
   std::string markdown() const;
 };
@@ -39,6 +40,7 @@ struct Benchmark {
   std::string description;
   bool needs_models;
   BenchReport (*run)(const BenchOptions& options, const BenchProgress& progress);
+  bool has_plot = false;
 };
 
 /// All of them. Deterministic for a seed, but for the times.
