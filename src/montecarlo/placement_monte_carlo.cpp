@@ -18,32 +18,15 @@ class PlacementRun : public CountingRun {
  public:
   PlacementRun(const GeometryList& a, const GeometryList& b, const PlacementSampler& sampler,
                const ProbabilityRequest& request)
-      : CountingRun(request), sampler_(sampler), members_of_b_(b.size()) {
-    const fcl::Transform3d anywhere = fcl::Transform3d::Identity();
-    for (const auto& of_a : a) {
-      for (const auto& of_b : b) {
-        colliders_.emplace_back(*of_a, anywhere, *of_b, anywhere, request.contact);
-      }
-    }
-  }
+      : CountingRun(request), sampler_(sampler), collider_(a, b, request.contact) {}
 
-  const std::vector<std::string>& plan() const { return colliders_.front().plan(); }
+  const std::vector<std::string>& plan() const { return collider_.plan(); }
 
  private:
-  bool collides(std::size_t index) const override {
-    const SampledPlacement placement = sampler_(index);
-    for (std::size_t i = 0; i < colliders_.size(); ++i) {
-      if (colliders_[i].collidesAt(placement.poses_a[i / members_of_b_],
-                                   placement.poses_b[i % members_of_b_])) {
-        return true;
-      }
-    }
-    return false;
-  }
+  bool collides(std::size_t index) const override { return collider_.collides(sampler_(index)); }
 
   const PlacementSampler& sampler_;
-  std::size_t members_of_b_;
-  std::vector<DisplacedCollider> colliders_;
+  PlacementCollider collider_;
 };
 
 }  // namespace

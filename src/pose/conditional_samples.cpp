@@ -22,19 +22,8 @@ constexpr std::uint64_t kSeedsOfAnswers = 0x696e6e72;
 
 ConditionalSamples::ConditionalSamples(const RandomConfiguration& configuration,
                                        const ConditionalAnswer& answer,
-                                       const ProbabilityRequest& request)
-    : configuration_(configuration), answer_(answer), request_(request) {}
-
-std::optional<ProbabilityStatus> ConditionalSamples::reason() const {
-  if (cancelled_) return ProbabilityStatus::cancelled;
-  if (timed_out_) return ProbabilityStatus::time_limit;
-  if (cells_used_up_) return ProbabilityStatus::cell_limit;
-  return std::nullopt;
-}
-
-double ConditionalSamples::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-}
+                                       const ProbabilityRequest& request, RunWatch& watch)
+    : configuration_(configuration), answer_(answer), request_(request), watch_(watch) {}
 
 Eigen::VectorXd ConditionalSamples::normals(std::size_t pair) const {
   Eigen::VectorXd z(configuration_.dimension());
@@ -47,28 +36,10 @@ Eigen::VectorXd ConditionalSamples::normals(std::size_t pair) const {
   return z;
 }
 
-// May be called from any thread; the request's on_progress only from the one that made the query.
-bool ConditionalSamples::goOn() const {
-  if (cancelled_ || timed_out_) return false;
-  const double now = seconds();
-  if (request_.time_limit && now >= *request_.time_limit) {
-    timed_out_ = true;
-    return false;
-  }
-  if (request_.on_progress && std::this_thread::get_id() == caller_) {
-    const double by_cells = static_cast<double>(statistics_.cells) /
-                            static_cast<double>(std::max<std::size_t>(request_.max_cells, 1));
-    const double by_time = request_.time_limit ? now / *request_.time_limit : 0.0;
-    const double fraction = std::min(1.0, std::max(by_cells, by_time));
-    if (!request_.on_progress({interval_, fraction, now})) cancelled_ = true;
-  }
-  return !cancelled_;
-}
-
 ConditionalSamples::Answer ConditionalSamples::answerAt(std::size_t index,
                                                         const InnerTolerance& tolerance) const {
   Answer answer;
-  if (!goOn()) return answer;
+  if (!watch_.goOn()) return answer;
   const Eigen::VectorXd z = normals(index / 2);
   const PlacedConfiguration placed = configuration_.at(index % 2 == 0 ? z : Eigen::VectorXd(-z));
   ProbabilityRequest request = request_;
@@ -82,7 +53,7 @@ ConditionalSamples::Answer ConditionalSamples::answerAt(std::size_t index,
   request.time_limit.reset();
   request.threads = 1;
   request.seed = randomWords({request_.seed, kSeedsOfAnswers}, index)[0];
-  request.on_progress = [this](const ProbabilityProgress&) { return goOn(); };
+  request.on_progress = [this](const ProbabilityProgress&) { return watch_.goOn(); };
   const ProbabilityResult result = answer_(placed, request);
   answer.value = result.probability();
   // Of what is no sample the middle of an interval is taken.
@@ -116,7 +87,6 @@ void ConditionalSamples::drawTo(std::size_t count, const InnerTolerance& toleran
     if (!answers[i].complete || !answers[i + 1].complete) break;
     add(first + i / 2, answers[i], answers[i + 1]);
   }
-  cells_used_up_ = cells_used_up_ || statistics_.cells >= request_.max_cells;
 }
 
 void ConditionalSamples::add(std::size_t pair, const Answer& at_z, const Answer& at_opposite) {
@@ -132,7 +102,9 @@ void ConditionalSamples::add(std::size_t pair, const Answer& at_z, const Answer&
 
 void ConditionalSamples::addStatistics(const ProbabilityStatistics& of_one) {
   // An answer without cells is work all the same: the limit on cells ends every query.
-  statistics_.cells += std::max<std::size_t>(of_one.cells, 1);
+  const std::size_t cells = std::max<std::size_t>(of_one.cells, 1);
+  watch_.addCells(cells);
+  statistics_.cells += cells;
   statistics_.pairs_tested += of_one.pairs_tested;
   statistics_.leaf_pairs += of_one.leaf_pairs;
   statistics_.samples += of_one.samples;

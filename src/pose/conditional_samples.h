@@ -3,15 +3,13 @@
 // Answers at random configurations, in antithetic pairs, on several threads.
 #pragma once
 
-#include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "pose/configuration_estimate.h"
 #include "pose/even_regression.h"
+#include "pose/run_watch.h"
 
 namespace fcl_prob::detail {
 
@@ -25,16 +23,13 @@ class ConditionalSamples {
  public:
   /// Keeps references to all arguments.
   ConditionalSamples(const RandomConfiguration& configuration, const ConditionalAnswer& answer,
-                     const ProbabilityRequest& request);
+                     const ProbabilityRequest& request, RunWatch& watch);
 
   /// Adds pairs until there are `count`, or a limit is reached: then only those before the first
   /// one that is not answered count.
   void drawTo(std::size_t count, const InnerTolerance& tolerance);
 
   const std::vector<AntitheticPair>& pairs() const { return pairs_; }
-
-  /// `time_limit`, `cancelled` or `cell_limit`, once that has happened.
-  std::optional<ProbabilityStatus> reason() const;
 
   /// Some configuration left less than three directions to the translation: P given the
   /// configuration then may jump.
@@ -48,11 +43,6 @@ class ConditionalSamples {
 
   /// Mean and standard error of the gradients, if they were asked for and there are some.
   void fillGradient(ProbabilityResult& result) const;
-
-  /// What on_progress is told.
-  void setProgress(const Bounds& interval) { interval_ = interval; }
-
-  double seconds() const;
 
  private:
   /// One configuration answered.
@@ -68,24 +58,18 @@ class ConditionalSamples {
   double countOfPairs() const { return static_cast<double>(pairs_.size()); }
   Eigen::VectorXd normals(std::size_t pair) const;
   Answer answerAt(std::size_t index, const InnerTolerance& tolerance) const;
-  bool goOn() const;
   void add(std::size_t pair, const Answer& at_z, const Answer& at_opposite);
   void addStatistics(const ProbabilityStatistics& of_one);
 
   const RandomConfiguration& configuration_;
   const ConditionalAnswer& answer_;
   const ProbabilityRequest& request_;
+  RunWatch& watch_;
   std::vector<AntitheticPair> pairs_;
   std::vector<Eigen::Vector3d> gradients_;  ///< of pairs
   ProbabilityStatistics statistics_;
   double doubt_ = 0.0;
   bool may_jump_ = false;
-  bool cells_used_up_ = false;
-  Bounds interval_{0.0, 1.0};
-  std::thread::id caller_ = std::this_thread::get_id();
-  mutable std::atomic<bool> cancelled_{false};
-  mutable std::atomic<bool> timed_out_{false};
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace fcl_prob::detail

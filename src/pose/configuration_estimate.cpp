@@ -5,122 +5,103 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <string>
 
-#include "pose/conditional_samples.h"
+#include "gaussian/constants.h"
+#include "pose/counting_source.h"
+#include "pose/pair_source.h"
+#include "pose/query_costs.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// Pairs of the first look, which says how large P is; of the least answer, whose standard error has
-// some degrees of freedom; and of the most that a mean is taken of at all.
-constexpr std::size_t kFirstPairs = 4;
-constexpr std::size_t kLeastPairs = 32;
+// A threshold so many standard errors away is decided.
+constexpr double kDecided = 4.0;
 
-// A single answer is as accurate as if so many pairs made up the estimate.
-constexpr double kPairsOfAccuracy = 12.0;
-
-// What of the variance single answers may make up where configurations do not vary.
-constexpr double kInnerShare = 0.5;
-
-// A single answer need not be much better than the spread over configurations.
-constexpr double kInnerDeviation = 0.7;
-
-constexpr double kCoarsest = 0.3;
-
-// Drawn beyond what the last look says is needed.
-constexpr double kReserve = 1.1;
-constexpr double kMostGrowth = 8.0;
-
+/// Whichever source is expected to come to an end first goes on.
 class Estimator {
  public:
   Estimator(const RandomConfiguration& configuration, const ConditionalAnswer& answer,
-            const ProbabilityRequest& request)
-      : configuration_(configuration),
-        request_(request),
-        samples_(configuration, answer, request) {}
+            const GeometryList& a, const GeometryList& b, const ProbabilityRequest& request)
+      : request_(request),
+        watch_(request),
+        pairs_(configuration, answer, leastQueryCost(a, b), request, watch_) {
+    if (CountingSource::isFor(configuration, a, b, request)) {
+      counting_.emplace(configuration, a, b, request, watch_);
+    }
+  }
 
   ProbabilityResult run() {
-    samples_.drawTo(kFirstPairs, firstTolerance());
-    std::optional<ProbabilityStatus> status = look();
-    for (std::size_t count = kLeastPairs; !status; count = nextCount()) {
-      samples_.drawTo(count, nextTolerance());
-      status = look();
-    }
+    EstimateSource* next = cheapestToBegin();
+    std::optional<ProbabilityStatus> status;
+    do {
+      next->draw(request_.toleranceAt(probability_));
+      status = look(*next);
+      if (status) break;
+      next = cheapest();
+      if (next == nullptr) status = ProbabilityStatus::resolution_limit;
+    } while (!status);
     return resultOf(*status);
   }
 
  private:
-  double targetAt(double probability) const {
-    return request_.toleranceAt(std::max(probability, 0.0));
+  struct Answer {
+    const EstimateSource* source;
+    EstimatedMean mean;
+    Bounds interval;
+  };
+
+  std::optional<ProbabilityStatus> look(const EstimateSource& source) {
+    const auto mean = source.mean();
+    if (!mean) return watch_.reason();
+    probability_ = std::clamp(mean->mean, 0.0, 1.0);
+    ++looks_;
+    const Answer answer{&source, *mean, intervalAt(looks_, *mean)};
+    watch_.setProgress(answer.interval);
+    const auto status = source.isAnswer() ? satisfied(answer) : std::nullopt;
+    const bool is_best =
+        !best_ || best_->source == &source || mean->standard_error < best_->mean.standard_error;
+    if (status || is_best) best_ = answer;
+    return status ? status : watch_.reason();
   }
 
-  double standardError() const {
-    // Where P given the configuration may jump, all that were seen being alike says little: as in
-    // counting, half a hit is added.
-    const double n = 2.0 * static_cast<double>(samples_.pairs().size());
-    const double unseen = samples_.mayJump() ? 0.7 / n : 0.0;
-    return std::hypot(mean_.standard_error, unseen) + samples_.doubt();
-  }
-
-  InnerTolerance firstTolerance() const {
-    const double factor = innerFactor();
-    return {std::min(kCoarsest, factor * request_.relative_tolerance),
-            factor * request_.absolute_tolerance};
-  }
-
-  InnerTolerance nextTolerance() const {
-    const double target = targetAt(mean_.mean);
-    const double by_target = innerFactor() * target;
-    // A mean near 0 so far may be that of configurations which all are far away: no answer need be
-    // better than what is asked for.
-    const double most = std::max(kCoarsest * mean_.mean, kInnerShare * target);
-    const double absolute = std::max(std::min(by_target, most), kInnerDeviation * mean_.deviation);
-    if (absolute > 0.0) return {0.0, absolute};
-    return firstTolerance();
-  }
-
-  static double innerFactor() { return std::sqrt(kInnerShare * 2.0 * kPairsOfAccuracy); }
-
-  std::size_t nextCount() const {
-    const auto n = static_cast<double>(samples_.pairs().size());
-    const double ratio = standardError() / targetAt(mean_.mean);
-    const double wanted = kReserve * n * ratio * ratio;
-    const double most = kMostGrowth * n;
-    return static_cast<std::size_t>(std::ceil(std::clamp(wanted, n + 2.0, most)));
-  }
-
-  std::optional<ProbabilityStatus> look() {
-    const std::size_t count = samples_.pairs().size();
-    if (count >= kFirstPairs) {
-      mean_ = meanOfPairs(samples_.pairs());
-      ++looks_;
-      interval_ = intervalAt(looks_);
-      samples_.setProgress(interval_);
+  std::optional<ProbabilityStatus> satisfied(const Answer& answer) const {
+    const Decision decision = decisionOf(answer.interval, request_);
+    if (decision == Decision::below || decision == Decision::above) {
+      return ProbabilityStatus::decided;
     }
-    if (count >= kLeastPairs) {
-      const Decision decision = decisionOf(interval_, request_);
-      if (decision == Decision::below || decision == Decision::above) {
-        return ProbabilityStatus::decided;
-      }
-      if (standardError() <= targetAt(mean_.mean)) return ProbabilityStatus::converged;
+    if (answer.mean.standard_error <= request_.toleranceAt(probability_)) {
+      return ProbabilityStatus::converged;
     }
-    if (const auto reason = samples_.reason()) return reason;
-    if (count < kLeastPairs) return std::nullopt;
-    // No number of configurations makes up for what their answers leave open.
-    if (samples_.doubt() > targetAt(mean_.mean)) return ProbabilityStatus::resolution_limit;
     return std::nullopt;
   }
 
+  EstimateSource* cheapestToBegin() {
+    if (counting_ && counting_->costOfFirst() < pairs_.costOfFirst()) return &*counting_;
+    return &pairs_;
+  }
+
+  /// Null if no more work helps.
+  EstimateSource* cheapest() {
+    double needed = request_.toleranceAt(probability_);
+    if (request_.threshold) {
+      needed = std::max(needed, std::fabs(probability_ - *request_.threshold) / kDecided);
+    }
+    const double by_pairs = pairs_.costTo(needed, probability_);
+    const double by_counting = counting_ ? counting_->costTo(needed, probability_) : kInfinity;
+    if (std::min(by_pairs, by_counting) == kInfinity) return nullptr;
+    if (by_counting < by_pairs) return &*counting_;
+    return &pairs_;
+  }
+
   // The error probabilities of all looks add up to that of the request.
-  Bounds intervalAt(int look) const {
+  Bounds intervalAt(int look, const EstimatedMean& mean) const {
     const double error = (1.0 - request_.confidence) * std::ldexp(1.0, -look);
-    const boost::math::students_t distribution(mean_.freedom);
+    const boost::math::students_t distribution(mean.freedom);
     const double quantile =
         boost::math::quantile(boost::math::complement(distribution, 0.5 * error));
-    const double reach = quantile * standardError();
-    return {std::clamp(mean_.mean - reach, 0.0, 1.0), std::clamp(mean_.mean + reach, 0.0, 1.0)};
+    const double reach = quantile * mean.standard_error;
+    return {std::clamp(mean.mean - reach, 0.0, 1.0), std::clamp(mean.mean + reach, 0.0, 1.0)};
   }
 
   ProbabilityResult resultOf(ProbabilityStatus status) const {
@@ -130,41 +111,38 @@ class Estimator {
     result.status = status;
     result.lower = 0.0;
     result.upper = 1.0;
-    result.statistics = samples_.statistics();
-    result.statistics.seconds.emplace_back("configurations", samples_.seconds());
-    if (looks_ > 0) {
-      result.estimate = std::clamp(mean_.mean, 0.0, 1.0);
-      result.standard_error = standardError();
-      result.confidence_interval = interval_;
-      samples_.fillGradient(result);
+    result.statistics = pairs_.statistics();
+    result.statistics.seconds.emplace_back("configurations", watch_.seconds());
+    result.decision = decisionOf(best_ ? best_->interval : Bounds{0.0, 1.0}, request_);
+    if (best_) {
+      result.estimate = std::clamp(best_->mean.mean, 0.0, 1.0);
+      result.standard_error = best_->mean.standard_error;
+      result.confidence_interval = best_->interval;
     }
-    result.decision = decisionOf(interval_, request_);
-    result.plan.push_back(
-        std::to_string(2 * samples_.pairs().size()) + " configurations of " +
-        std::to_string(configuration_.dimension()) + " dimensions in antithetic pairs, " +
-        (mean_.quadratic ? "with a quadratic control variate" : "without a control variate"));
-    if (samples_.mayJump()) {
-      result.plan.push_back(
-          "given the configuration, A does not move along every axis: P may jump from one to the "
-          "next");
+    const bool by_pairs = !best_ || best_->source == &pairs_;
+    if (by_pairs || pairs_.mean()) pairs_.describe(result);
+    if (counting_ && counting_->mean()) counting_->describe(result);
+    if (!by_pairs) {
+      result.plan.push_back("the estimate is that of fcl::collide, which gets there sooner");
     }
     return result;
   }
 
-  const RandomConfiguration& configuration_;
   const ProbabilityRequest& request_;
-  ConditionalSamples samples_;
-  EstimatedMean mean_;
-  Bounds interval_{0.0, 1.0};
+  RunWatch watch_;
+  PairSource pairs_;
+  std::optional<CountingSource> counting_;
+  std::optional<Answer> best_;
+  double probability_ = 0.0;  ///< by the last look
   int looks_ = 0;
 };
 
 }  // namespace
 
 ProbabilityResult configurationEstimate(const RandomConfiguration& configuration,
-                                        const ConditionalAnswer& answer,
-                                        const ProbabilityRequest& request) {
-  return Estimator(configuration, answer, request).run();
+                                        const ConditionalAnswer& answer, const GeometryList& a,
+                                        const GeometryList& b, const ProbabilityRequest& request) {
+  return Estimator(configuration, answer, a, b, request).run();
 }
 
 }  // namespace fcl_prob::detail

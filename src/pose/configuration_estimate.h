@@ -8,6 +8,7 @@
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/random_configuration.h"
+#include "montecarlo/placement_collider.h"
 
 namespace fcl_prob::detail {
 
@@ -15,10 +16,12 @@ namespace fcl_prob::detail {
 using ConditionalAnswer =
     std::function<ProbabilityResult(const PlacedConfiguration&, const ProbabilityRequest&)>;
 
-/// Configurations in antithetic pairs until the standard error is within the tolerance.
+/// Draws until the standard error is within the tolerance: configurations in antithetic pairs, or
+/// calls of fcl::collide at evenly spread points, whichever gets there sooner.
 /// \param configuration  of dimension 1 at least
+/// \param a, b           what the answers are about
 ProbabilityResult configurationEstimate(const RandomConfiguration& configuration,
-                                        const ConditionalAnswer& answer,
-                                        const ProbabilityRequest& request);
+                                        const ConditionalAnswer& answer, const GeometryList& a,
+                                        const GeometryList& b, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

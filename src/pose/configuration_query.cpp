@@ -95,7 +95,7 @@ struct ConfigurationQuery::Implementation {
                                const ProbabilityRequest& of_one) {
       return answerAt(placed, of_one);
     };
-    return detail::configurationEstimate(configuration, answer, request);
+    return detail::configurationEstimate(configuration, answer, a, b, request);
   }
 
   ProbabilityResult count(const std::vector<Weighted>& mixture, const std::vector<double>& weights,

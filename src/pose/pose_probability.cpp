@@ -13,6 +13,10 @@
 namespace fcl_prob {
 namespace {
 
+std::shared_ptr<const fcl::CollisionGeometryd> unowned(const fcl::CollisionGeometryd* geometry) {
+  return {std::shared_ptr<const void>(), geometry};
+}
+
 [[noreturn]] void refuse(ProbabilityMethod method) {
   throw UnsupportedGeometry("method " + toString(method) +
                             " has no answer for errors of a rotation");
@@ -36,7 +40,8 @@ struct PreparedPoseQuery::Implementation {
                                const ProbabilityRequest& of_one) {
       return pair.answer(placed.poses_a[0], placed.poses_b[0], placed.displacement, of_one);
     };
-    return detail::configurationEstimate(poses, answer, request);
+    return detail::configurationEstimate(poses, answer, {unowned(&a->geometry())},
+                                         {unowned(&b->geometry())}, request);
   }
 };
 
@@ -98,9 +103,6 @@ double collisionProbability(const fcl::CollisionGeometryd* a, const fcl::Transfo
                             const fcl::CollisionGeometryd* b, const fcl::Transform3d& pose_b,
                             const PoseError& error, const ProbabilityRequest& request,
                             ProbabilityResult& result) {
-  const auto unowned = [](const fcl::CollisionGeometryd* geometry) {
-    return std::shared_ptr<const fcl::CollisionGeometryd>(std::shared_ptr<const void>(), geometry);
-  };
   return PreparedPoseQuery(unowned(a), unowned(b))
       .collisionProbability(pose_a, pose_b, error, request, result);
 }

@@ -4,6 +4,7 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/triangle_p.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
@@ -46,6 +47,10 @@ ProbabilityResult answer(const PreparedPoseQuery& query, const fcl::Transform3d&
 
 PreparedPoseQuery boxes() {
   return {std::make_shared<fcl::Boxd>(1.0, 0.4, 0.2), std::make_shared<fcl::Boxd>(0.5, 0.8, 0.6)};
+}
+
+bool isCounted(const ProbabilityResult& result) {
+  return result.plan.back().find("that of fcl::collide") != std::string::npos;
 }
 
 void checkNear(const ProbabilityResult& estimate, double expected, double error_of_expected) {
@@ -213,17 +218,74 @@ TEST_CASE("without rotation every answer is that of the translation, to the last
 TEST_CASE("the seed fixes the answer, whatever the number of threads") {
   const PreparedPoseQuery query = boxes();
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.1, 0.2, 0.1});
-  ProbabilityRequest request = poseRequest(Method::estimate);
-  request.gradient = true;
-  const auto one = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
-  request.threads = 3;
-  const auto three = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
-  CHECK(*one.estimate == *three.estimate);
-  CHECK(*one.standard_error == *three.standard_error);
-  CHECK(*one.gradient == *three.gradient);
-  request.seed = 2;
-  const auto other = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
-  CHECK(*one.estimate != *other.estimate);
+  for (const bool gradient : {true, false}) {
+    ProbabilityRequest request = poseRequest(Method::estimate);
+    request.gradient = gradient;
+    const auto one = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
+    CHECK(isCounted(one) == !gradient);
+    request.threads = 3;
+    const auto three = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
+    CHECK(*one.estimate == *three.estimate);
+    CHECK(*one.standard_error == *three.standard_error);
+    CHECK(one.statistics.samples == three.statistics.samples);
+    CHECK(one.gradient.has_value() == gradient);
+    if (gradient) CHECK(*one.gradient == *three.gradient);
+    request.seed = 2;
+    const auto other = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
+    CHECK(*one.estimate != *other.estimate);
+  }
+}
+
+TEST_CASE("estimates that count are calibrated, and take less than counting at random") {
+  const PreparedPoseQuery query = boxes();
+  const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.3, 0.4, 0.3});
+  for (const double x : {0.7, 0.9}) {
+    const fcl::Transform3d pose_b = poseAt(x, 0, 0);
+    ProbabilityRequest request = poseRequest(Method::estimate, 0.001);
+    request.seed = 1000;
+    const auto reference = answer(query, kIdentity, pose_b, error, request);
+    const double truth = *reference.estimate;
+    constexpr int kSeeds = 60;
+    double squares = 0.0, gain = 0.0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      request = poseRequest(Method::estimate, 0.005);
+      request.seed = static_cast<std::uint64_t>(seed);
+      const auto result = answer(query, kIdentity, pose_b, error, request);
+      REQUIRE(isCounted(result));
+      CHECK(result.status == ProbabilityStatus::converged);
+      const double ratio = (*result.estimate - truth) / *result.standard_error;
+      squares += ratio * ratio;
+      gain +=
+          truth * (1.0 - truth) /
+          (static_cast<double>(result.statistics.samples) * std::pow(*result.standard_error, 2));
+    }
+    CAPTURE(x, truth, gain / kSeeds);
+    CHECK(std::sqrt(squares / kSeeds) > 0.75);
+    CHECK(std::sqrt(squares / kSeeds) < 1.25);
+    CHECK(gain / kSeeds > 2.0);
+  }
+}
+
+TEST_CASE("estimates count where that is sooner, and where fcl::collide can be asked") {
+  const auto wide = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.3, 0.3, 0.3});
+  const fcl::Transform3d pose_b = poseAt(0.9, 0, 0);
+  const ProbabilityRequest request = poseRequest(Method::estimate, 0.02);
+  CHECK(isCounted(answer(boxes(), kIdentity, pose_b, wide, request)));
+  // Far out in the tail no counting gets there.
+  const auto narrow = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {1e-3, 1e-3, 1e-3});
+  ProbabilityRequest relative = request;
+  relative.absolute_tolerance = 0.0;
+  const auto far = answer(boxes(), kIdentity, poseAt(1.3, 0, 0), narrow, relative);
+  CHECK_FALSE(isCounted(far));
+  CHECK(*far.estimate < 1e-6);
+  // What fcl::collide takes for touching is no longer small beside such displacements.
+  const auto small = PoseError::fromStandardDeviations({1e-5, 1e-5, 1e-5}, {0.3, 0.3, 0.3});
+  CHECK_FALSE(isCounted(answer(boxes(), kIdentity, pose_b, small, request)));
+  // It has no answer for a triangle.
+  const auto triangle = std::make_shared<fcl::TrianglePd>(
+      Eigen::Vector3d(0, -1, -1), Eigen::Vector3d(0, 1, -1), Eigen::Vector3d(0, 0, 1));
+  const PreparedPoseQuery of_triangle(triangle, std::make_shared<fcl::Boxd>(0.5, 0.8, 0.6));
+  CHECK_FALSE(isCounted(answer(of_triangle, kIdentity, poseAt(0.3, 0, 0), wide, request)));
 }
 
 TEST_CASE("a query over poses stops at a threshold, a limit or when told to") {
