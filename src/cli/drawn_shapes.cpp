@@ -4,6 +4,7 @@
 
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/narrowphase/distance.h>
 
 namespace fcl_prob::cli {
 namespace {
@@ -16,11 +17,6 @@ constexpr unsigned kRings = 24;
 TriangleMesh meshOf(const Model& model) {
   return {{model.vertices, model.vertices + model.num_vertices},
           {model.tri_indices, model.tri_indices + model.num_tris}};
-}
-
-TriangleMesh moved(TriangleMesh mesh, const fcl::Transform3d& pose) {
-  for (fcl::Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
-  return mesh;
 }
 
 /// A sphere whose upper half is lifted: FCL has no tessellation of capsules.
@@ -58,6 +54,16 @@ TriangleMesh primitiveMesh(const fcl::CollisionGeometryd& geometry) {
 
 }  // namespace
 
+TriangleMesh moved(TriangleMesh mesh, const fcl::Transform3d& pose) {
+  for (fcl::Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
+  return mesh;
+}
+
+TriangleMesh drawnGeometry(const fcl::CollisionGeometryd& geometry) {
+  if (const auto* model = dynamic_cast<const Model*>(&geometry)) return meshOf(*model);
+  return primitiveMesh(geometry);
+}
+
 TriangleMesh drawnMesh(const LoadedObject& object) {
   if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) return moved(*mesh, object.pose);
   return moved(primitiveMesh(*std::get<PrimitiveShape>(object.shape)), object.pose);
@@ -72,6 +78,16 @@ TriangleMesh drawnEllipsoid(const GaussianDisplacement& displacement, double dev
       displacement.axes() * (deviations * displacement.standardDeviations()).asDiagonal();
   pose.translation() = centre;
   return moved(meshOf(model), pose);
+}
+
+Eigen::Vector3d nearestPoint(const TriangleMesh& a, const TriangleMesh& b) {
+  const fcl::Transform3d identity = fcl::Transform3d::Identity();
+  const auto model_a = buildModel<fcl::OBBRSSd>(a);
+  const auto model_b = buildModel<fcl::OBBRSSd>(b);
+  fcl::DistanceResultd result;
+  fcl::distance(model_a.get(), identity, model_b.get(), identity, fcl::DistanceRequestd(true),
+                result);
+  return result.min_distance > 0.0 ? result.nearest_points[0] : model_a->aabb_local.center();
 }
 
 }  // namespace fcl_prob::cli

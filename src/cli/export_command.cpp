@@ -2,18 +2,19 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/export_command.h"
 
-#include <fcl/narrowphase/distance.h>
-
 #include <CLI/CLI.hpp>
 #include <Eigen/Eigenvalues>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include "cli/drawn_shapes.h"
+#ifdef FCL_PROB_HAS_ROBOT
+#include "cli/export_motion.h"
+#endif
 #include "cli/gltf_file.h"
 #include "cli/output.h"
+#include "cli/picture_colours.h"
 #include "cli/random_frames.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
@@ -28,28 +29,6 @@ struct ExportArguments {
   std::uint64_t seed = 1;
   std::string output;
 };
-
-/// From grey through yellow to red. The root makes rarely touched parts visible.
-Colour heat(double likelihood) {
-  static const std::array<Colour, 4> kStops{
-      Colour(0.80F, 0.84F, 0.88F, 1.0F), Colour(1.0F, 0.85F, 0.25F, 1.0F),
-      Colour(1.0F, 0.30F, 0.03F, 1.0F), Colour(0.60F, 0.0F, 0.02F, 1.0F)};
-  const double position = std::sqrt(std::clamp(likelihood, 0.0, 1.0)) * (kStops.size() - 1);
-  const std::size_t stop = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
-  const auto fraction = static_cast<float>(position - static_cast<double>(stop));
-  return (1.0F - fraction) * kStops[stop] + fraction * kStops[stop + 1];
-}
-
-/// The point of A that is nearest to B; the middle of A if they overlap.
-Eigen::Vector3d nearestPoint(const TriangleMesh& a, const TriangleMesh& b) {
-  const fcl::Transform3d identity = fcl::Transform3d::Identity();
-  const auto model_a = buildModel<fcl::OBBRSSd>(a);
-  const auto model_b = buildModel<fcl::OBBRSSd>(b);
-  fcl::DistanceResultd result;
-  fcl::distance(model_a.get(), identity, model_b.get(), identity, fcl::DistanceRequestd(true),
-                result);
-  return result.min_distance > 0.0 ? result.nearest_points[0] : model_a->aabb_local.center();
-}
 
 ColouredMesh uniform(const std::string& name, TriangleMesh mesh, const Colour& colour) {
   const std::vector<Colour> colours(mesh.vertices.size(), colour);
@@ -95,26 +74,68 @@ std::vector<ColouredMesh> picture(const ExportArguments& arguments) {
   std::vector<Colour> colours;
   for (const double likelihood : map.likelihood) colours.push_back(heat(likelihood));
 
-  std::vector<ColouredMesh> meshes{{"A", a, colours},
-                                   uniform("B", b, Colour(0.45F, 0.65F, 1.0F, 1.0F))};
+  std::vector<ColouredMesh> meshes{{"A", a, colours}, uniform("B", b, touchedColour())};
   const Eigen::Vector3d centre = nearestPoint(a, b);
   for (const int deviations : {1, 2, 3}) {
-    const float opacity = 0.6F / static_cast<float>(deviations);
     meshes.push_back(uniform(std::to_string(deviations) + " sigma",
                              drawnEllipsoid(around_mean, deviations, centre),
-                             Colour(0.05F, 0.6F, 0.2F, opacity)));
+                             ellipsoidColour(deviations)));
   }
   if (scene.pose_error) addDisplacedCopies(scene, nominal_a, arguments.seed, meshes);
   return meshes;
 }
 
-int runExport(const ExportArguments& arguments) {
-  if (std::filesystem::path(arguments.output).extension() != ".glb") {
+void requireGlb(const std::string& output) {
+  if (std::filesystem::path(output).extension() != ".glb") {
     throw InvalidRequest("--output: the file name must end in .glb");
   }
+}
+
+int runExport(const ExportArguments& arguments) {
+  requireGlb(arguments.output);
   writeFile(arguments.output, glbOf(picture(arguments)));
   return kAnswered;
 }
+
+#ifdef FCL_PROB_HAS_ROBOT
+
+void addMotionOptions(CLI::App& command, MotionExportArguments& arguments) {
+  command.add_option("--motion", arguments.motion,
+                     "Of robots: JSON or CSV file of waypoints in place of the scene's");
+  command.add_option("--largest-step", arguments.largest_step,
+                     "Of robots: add waypoints such that no joint moves further at once");
+  command
+      .add_option("--poses", arguments.poses,
+                  "Of robots: waypoints that are shown, the likeliest to collide among them")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_flag("--still", arguments.still, "Of robots: nothing that moves");
+}
+
+/// An option that says nothing about a scene of this kind shall not be taken for one that does.
+void refuseOptionsOfOthers(const CLI::App& command, bool has_robot) {
+  const std::set<std::string> of_robots{"--motion", "--largest-step", "--poses", "--still"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || name == "--scene" || name == "--output") continue;
+    if ((of_robots.count(name) > 0) == has_robot) continue;
+    throw InvalidRequest(
+        name + (has_robot ? ": not of a scene with a robot" : ": only of a scene with a robot"));
+  }
+}
+
+int runExportOfAny(const CLI::App& command, const ExportArguments& arguments,
+                   MotionExportArguments motion) {
+  const std::string& scene = arguments.scene.scene_file;
+  const bool has_robot = !scene.empty() && isRobotScene(scene);
+  refuseOptionsOfOthers(command, has_robot);
+  if (!has_robot) return runExport(arguments);
+  requireGlb(arguments.output);
+  motion.scene = scene;
+  motion.output = arguments.output;
+  return exportMotion(motion);
+}
+
+#endif
 
 }  // namespace
 
@@ -123,14 +144,23 @@ void addExportCommand(CLI::App& app, int& exit_code) {
   CLI::App& command = *app.add_subcommand(
       "export",
       "The scene as a glTF file: A coloured by where it is touched, B, and the "
-      "displacement's ellipsoids of 1, 2 and 3 sigma at the point of A nearest to B");
+      "displacement's ellipsoids of 1, 2 and 3 sigma at the point of A nearest to B. Of a robot's "
+      "scene: the robot at waypoints of its motion, coloured by P, and the motion");
   addSceneOptions(command, arguments->scene);
   command
       .add_option("--samples", arguments->samples, "Displacements that are tried for the colours")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", arguments->seed, "Fixes them")->check(CLI::NonNegativeNumber);
   command.add_option("--output", arguments->output, "The file to write, FILE.glb")->required();
+#ifdef FCL_PROB_HAS_ROBOT
+  auto motion = std::make_shared<MotionExportArguments>();
+  addMotionOptions(command, *motion);
+  command.callback([arguments, motion, &command, &exit_code] {
+    exit_code = runExportOfAny(command, *arguments, *motion);
+  });
+#else
   command.callback([arguments, &exit_code] { exit_code = runExport(*arguments); });
+#endif
 }
 
 }  // namespace fcl_prob::cli

@@ -5,7 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <utility>
+
+#include "cli/gltf_accessors.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -13,11 +16,75 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Constants of the glTF 2.0 specification.
-constexpr int kFloat = 5126;
-constexpr int kArrayBuffer = 34962;
 constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+
+void appendNumber(std::string& bytes, std::uint32_t number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+/// Three columns a triangle: its corners' values.
+template <int Rows, typename Value>
+Eigen::MatrixXf byCorner(const TriangleMesh& mesh, const Value& value) {
+  Eigen::Matrix<float, Rows, Eigen::Dynamic> values(Rows, 3 * mesh.triangles.size());
+  Eigen::Index column = 0;
+  for (const fcl::Triangle& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) values.col(column++) = value(triangle, k);
+  }
+  return values;
+}
+
+Eigen::MatrixXf cornerPositions(const TriangleMesh& mesh) {
+  return byCorner<3>(mesh, [&](const fcl::Triangle& triangle, int k) {
+    return Eigen::Vector3f(mesh.vertices[triangle[k]].cast<float>());
+  });
+}
+
+Eigen::MatrixXf cornerNormals(const TriangleMesh& mesh) {
+  return byCorner<3>(mesh, [&](const fcl::Triangle& t, int) {
+    const Eigen::Vector3d side = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+    const Eigen::Vector3d normal = side.cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    const double length = normal.norm();
+    const Eigen::Vector3d unit =
+        length > 0.0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitZ();
+    return Eigen::Vector3f(unit.cast<float>());
+  });
+}
+
+/// Unit quaternions x, y, z, w. Of the two of each rotation the one that is nearer to the one
+/// before: a viewer that takes them for plain vectors between two times is right, too.
+Eigen::MatrixXf rotationsAlong(const std::vector<fcl::Transform3d>& path) {
+  Eigen::Matrix<float, 4, Eigen::Dynamic> rotations(4, path.size());
+  Eigen::Vector4d before = Eigen::Vector4d::Zero();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    Eigen::Vector4d now = Eigen::Quaterniond(path[i].linear()).normalized().coeffs();
+    if (now.dot(before) < 0.0) now = -now;
+    rotations.col(static_cast<Eigen::Index>(i)) = now.cast<float>();
+    before = now;
+  }
+  return rotations;
+}
+
+Eigen::MatrixXf translationsAlong(const std::vector<fcl::Transform3d>& path) {
+  Eigen::Matrix<float, 3, Eigen::Dynamic> translations(3, path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    translations.col(static_cast<Eigen::Index>(i)) = path[i].translation().cast<float>();
+  }
+  return translations;
+}
+
+std::vector<float> floatsOf(const Eigen::MatrixXf& column) {
+  return {column.data(), column.data() + column.size()};
+}
+
+Json materialOf(const std::string& name, bool transparent) {
+  Json material = {{"name", name},
+                   {"doubleSided", true},
+                   {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}}}};
+  if (transparent) material["alphaMode"] = "BLEND";
+  return material;
+}
 
 /// Collects the binary data and the JSON that describes it.
 class GltfBuilder {
@@ -32,116 +99,132 @@ class GltfBuilder {
   }
 
   void add(const ColouredMesh& mesh) {
-    const Json attributes = {{"POSITION", addPositions(mesh.mesh)},
-                             {"NORMAL", addNormals(mesh.mesh)},
-                             {"COLOR_0", addColours(mesh)}};
-    const std::size_t index = document_["meshes"].size();
-    document_["materials"].push_back(materialOf(mesh));
-    document_["meshes"].push_back(
-        {{"name", mesh.name},
-         {"primitives", Json::array({{{"attributes", attributes}, {"material", index}}})}});
-    document_["nodes"].push_back({{"name", mesh.name}, {"mesh", index}});
-    document_["scenes"][0]["nodes"].push_back(index);
+    Json attributes = attributesOf(mesh.mesh);
+    attributes["COLOR_0"] =
+        accessors_.add(byCorner<4>(mesh.mesh, [&](const fcl::Triangle& triangle,
+                                                  int k) { return mesh.colours[triangle[k]]; }),
+                       GltfAccessors::Use::vertices, false);
+    const auto transparent = [](const Colour& colour) { return colour[3] < 1.0F; };
+    const std::size_t material = append(
+        "materials",
+        materialOf(mesh.name, std::any_of(mesh.colours.begin(), mesh.colours.end(), transparent)));
+    const std::size_t index = addMesh(mesh.name, attributes, material);
+    document_["scenes"][0]["nodes"].push_back(
+        append("nodes", {{"name", mesh.name}, {"mesh", index}}));
+  }
+
+  void add(const AnimatedScene& scene) {
+    if (!scene.times.empty()) startAnimation(scene.times);
+    for (const MeshGroup& group : scene.groups) {
+      Json node = {{"name", group.name}};
+      if (!group.notes.is_null()) node["extras"] = group.notes;
+      for (const PlacedMesh& member : group.members) node["children"].push_back(addNode(member));
+      document_["scenes"][0]["nodes"].push_back(append("nodes", node));
+    }
   }
 
   std::string container() {
-    document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    document_["accessors"] = accessors_.accessors();
+    document_["bufferViews"] = accessors_.bufferViews();
+    const std::string& binary = accessors_.binary();
+    document_["buffers"] = Json::array({{{"byteLength", binary.size()}}});
     std::string json = document_.dump();
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string result;
-    append(result, kMagic);
-    append(result, std::uint32_t{2});
-    append(result, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary_.size()));
-    append(result, static_cast<std::uint32_t>(json.size()));
-    append(result, kJsonChunk);
+    for (const std::uint32_t number :
+         {kMagic, std::uint32_t{2},
+          static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary.size()),
+          static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
+      appendNumber(result, number);
+    }
     result += json;
-    append(result, static_cast<std::uint32_t>(binary_.size()));
-    append(result, kBinaryChunk);
-    return result + binary_;
+    appendNumber(result, static_cast<std::uint32_t>(binary.size()));
+    appendNumber(result, kBinaryChunk);
+    return result + binary;
   }
 
  private:
-  template <typename Number>
-  static void append(std::string& bytes, Number number) {
-    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  std::size_t append(const char* list, Json entry) {
+    document_[list].push_back(std::move(entry));
+    return document_[list].size() - 1;
   }
 
-  template <int Size>
-  using Values = std::vector<Eigen::Matrix<float, Size, 1>>;
-
-  template <int Size>
-  std::size_t addAccessor(const Values<Size>& values, const char* type, bool with_bounds) {
-    const std::size_t offset = binary_.size();
-    for (const auto& value : values) {
-      for (int i = 0; i < Size; ++i) append(binary_, value[i]);
-    }
-    document_["bufferViews"].push_back({{"buffer", 0},
-                                        {"byteOffset", offset},
-                                        {"byteLength", binary_.size() - offset},
-                                        {"target", kArrayBuffer}});
-    Json accessor = {{"bufferView", document_["bufferViews"].size() - 1},
-                     {"componentType", kFloat},
-                     {"count", values.size()},
-                     {"type", type}};
-    if (with_bounds) addBounds(values, accessor);
-    document_["accessors"].push_back(accessor);
-    return document_["accessors"].size() - 1;
+  Json attributesOf(const TriangleMesh& mesh) {
+    const auto vertices = GltfAccessors::Use::vertices;
+    const std::size_t positions = accessors_.add(cornerPositions(mesh), vertices, true);
+    return {{"POSITION", positions},
+            {"NORMAL", accessors_.add(cornerNormals(mesh), vertices, false)}};
   }
 
-  template <int Size>
-  static void addBounds(const Values<Size>& values, Json& accessor) {
-    Eigen::Matrix<float, Size, 1> lo = values.front();
-    Eigen::Matrix<float, Size, 1> hi = values.front();
-    for (const auto& value : values) {
-      lo = lo.cwiseMin(value);
-      hi = hi.cwiseMax(value);
-    }
-    accessor["min"] = std::vector<float>(lo.data(), lo.data() + Size);
-    accessor["max"] = std::vector<float>(hi.data(), hi.data() + Size);
+  std::size_t addMesh(const std::string& name, const Json& attributes, std::size_t material) {
+    return append(
+        "meshes",
+        {{"name", name},
+         {"primitives", Json::array({{{"attributes", attributes}, {"material", material}}})}});
   }
 
-  std::size_t addPositions(const TriangleMesh& mesh) {
-    Values<3> values;
-    for (const fcl::Triangle& triangle : mesh.triangles) {
-      for (int k = 0; k < 3; ++k) values.push_back(mesh.vertices[triangle[k]].cast<float>());
-    }
-    return addAccessor<3>(values, "VEC3", true);
+  std::size_t materialOfColour(const Colour& colour) {
+    const std::vector<float> key = floatsOf(colour);
+    const auto known = materials_.find(key);
+    if (known != materials_.end()) return known->second;
+    const bool transparent = colour[3] < 1.0F;
+    Json material = materialOf("colour " + std::to_string(materials_.size() + 1), transparent);
+    if (!transparent) material["pbrMetallicRoughness"]["baseColorFactor"] = key;
+    return materials_[key] = append("materials", material);
   }
 
-  std::size_t addNormals(const TriangleMesh& mesh) {
-    Values<3> values;
-    for (const fcl::Triangle& t : mesh.triangles) {
-      const Eigen::Vector3d side = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-      const Eigen::Vector3d normal = side.cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-      const double length = normal.norm();
-      const Eigen::Vector3d unit =
-          length > 0.0 ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::UnitZ();
-      values.insert(values.end(), 3, unit.cast<float>());
+  /// A colour is its material's, but a transparent one that of the vertices: VTK's importer (9.1)
+  /// ignores the opacity of a material.
+  std::size_t meshOf(const PlacedMesh& placed) {
+    const std::size_t material = materialOfColour(placed.colour);
+    const auto known = meshes_.find({placed.mesh.get(), material});
+    if (known != meshes_.end()) return known->second;
+    Json& shared = attributes_[placed.mesh.get()];
+    if (shared.is_null()) shared = attributesOf(*placed.mesh);
+    Json attributes = shared;
+    if (placed.colour[3] < 1.0F) {
+      attributes["COLOR_0"] =
+          accessors_.add(placed.colour.replicate(1, 3 * placed.mesh->triangles.size()),
+                         GltfAccessors::Use::vertices, false);
     }
-    return addAccessor<3>(values, "VEC3", false);
+    return meshes_[{placed.mesh.get(), material}] = addMesh(placed.name, attributes, material);
   }
 
-  std::size_t addColours(const ColouredMesh& mesh) {
-    Values<4> values;
-    for (const fcl::Triangle& triangle : mesh.mesh.triangles) {
-      for (int k = 0; k < 3; ++k) values.push_back(mesh.colours[triangle[k]]);
+  std::size_t addNode(const PlacedMesh& placed) {
+    const std::size_t node =
+        append("nodes", {{"name", placed.name},
+                         {"mesh", meshOf(placed)},
+                         {"translation", floatsOf(translationsAlong({placed.pose}))},
+                         {"rotation", floatsOf(rotationsAlong({placed.pose}))}});
+    if (!placed.path.empty()) {
+      addChannel(node, "translation", translationsAlong(placed.path));
+      addChannel(node, "rotation", rotationsAlong(placed.path));
     }
-    return addAccessor<4>(values, "VEC4", false);
+    return node;
   }
 
-  static Json materialOf(const ColouredMesh& mesh) {
-    Json material = {{"name", mesh.name},
-                     {"doubleSided", true},
-                     {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}}}};
-    const auto transparent = [](const Colour& colour) { return colour[3] < 1.0F; };
-    if (std::any_of(mesh.colours.begin(), mesh.colours.end(), transparent)) {
-      material["alphaMode"] = "BLEND";
-    }
-    return material;
+  void startAnimation(const std::vector<double>& times) {
+    const Eigen::RowVectorXd row = Eigen::Map<const Eigen::RowVectorXd>(times.data(), times.size());
+    times_ = accessors_.add(row.cast<float>(), GltfAccessors::Use::animation, true);
+    document_["animations"] = Json::array(
+        {{{"name", "motion"}, {"channels", Json::array()}, {"samplers", Json::array()}}});
+  }
+
+  void addChannel(std::size_t node, const char* path, const Eigen::MatrixXf& values) {
+    Json& animation = document_["animations"][0];
+    const std::size_t output = accessors_.add(values, GltfAccessors::Use::animation, false);
+    animation["samplers"].push_back(
+        {{"input", times_}, {"interpolation", "LINEAR"}, {"output", output}});
+    animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},
+                                     {"target", {{"node", node}, {"path", path}}}});
   }
 
   Json document_;
-  std::string binary_;
+  GltfAccessors accessors_;
+  std::size_t times_ = 0;  ///< accessor of the animation's times
+  std::map<const TriangleMesh*, Json> attributes_;
+  std::map<std::vector<float>, std::size_t> materials_;                        ///< by colour
+  std::map<std::pair<const TriangleMesh*, std::size_t>, std::size_t> meshes_;  ///< by material, too
 };
 
 }  // namespace
@@ -149,6 +232,12 @@ class GltfBuilder {
 std::string glbOf(const std::vector<ColouredMesh>& meshes) {
   GltfBuilder builder;
   for (const ColouredMesh& mesh : meshes) builder.add(mesh);
+  return builder.container();
+}
+
+std::string glbOf(const AnimatedScene& scene) {
+  GltfBuilder builder;
+  builder.add(scene);
   return builder.container();
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -24,5 +26,29 @@ struct ColouredMesh {
 /// The meshes as a binary glTF container (.glb): one file without references to others. Normals are
 /// those of the faces, so that edges look like edges.
 std::string glbOf(const std::vector<ColouredMesh>& meshes);
+
+/// A mesh of one colour at a pose of its own.
+struct PlacedMesh {
+  std::string name;
+  std::shared_ptr<const TriangleMesh> mesh;  ///< in its own frame; what shares it is written once
+  Colour colour;
+  fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
+  std::vector<fcl::Transform3d> path = {};  ///< at the times of the animation; empty: it stays
+};
+
+/// Meshes that a viewer shows or hides together.
+struct MeshGroup {
+  std::string name;
+  std::vector<PlacedMesh> members;
+  nlohmann::ordered_json notes = nullptr;  ///< for programs: the `extras` of its node
+};
+
+struct AnimatedScene {
+  std::vector<MeshGroup> groups;
+  std::vector<double> times = {};  ///< seconds, increasing from 0; empty: nothing moves
+};
+
+/// The same of a scene in which things move, linearly between the times.
+std::string glbOf(const AnimatedScene& scene);
 
 }  // namespace fcl_prob::cli
