@@ -127,6 +127,21 @@ std::size_t elementsOf(const ptree& parent) {
   return count;
 }
 
+/// urdfdom takes some of its messages, in which values of attributes are, for formats of printf;
+/// names of files are in none of these.
+void requireNoFormat(const ptree& parent, const std::string& path) {
+  for (const auto& [tag, child] : parent) {
+    if (tag != "<xmlattr>") {
+      requireNoFormat(child, path);
+      continue;
+    }
+    for (const auto& [name, value] : child) {
+      if (name == "filename" || value.data().find('%') == std::string::npos) continue;
+      throw FileError(path + ": " + name + ": a '%', which only names of files may have");
+    }
+  }
+}
+
 /// urdfdom reads the first geometry of a collision element and the first shape of a geometry, and
 /// drops a link's other elements where one of them is wrong: what it leaves out could collide.
 void requireAllRead(const ptree& document, const urdf::ModelInterface& model,
@@ -195,6 +210,7 @@ boost::property_tree::ptree parseXml(const std::string& text, const std::string&
 urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& path) {
   const std::string text = fileContent(path, kMostXmlBytes);
   const ptree document = parseXml(text, path, "URDF");
+  requireNoFormat(document, path);
   UrdfMessages messages;
   urdf::ModelInterfaceSharedPtr model;
   try {
