@@ -104,6 +104,10 @@ void Kinematics::addJoints(const urdf::ModelInterface& model, const std::string&
 void Kinematics::addLinks(const urdf::Link& link, int parent, const urdf::ModelInterface& model,
                           const std::string& path) {
   for (const auto& child : link.child_links) {
+    // urdfdom allows that, and loops of links, too.
+    if (link_index_.count(child->name) > 0) {
+      throw FileError(path + ": link " + child->name + " hangs on more than one joint");
+    }
     const urdf::Joint& joint = *child->parent_joint;
     CarriedLink carried{segmentOf(joint, placeOf(path, joint)), parent, -1};
     if (!isFixed(joint)) follow(joint, model, path, carried);

@@ -102,6 +102,25 @@ std::string urdfWith(const std::string& inside) {
          inside + "</robot>";
 }
 
+std::string hangs(const std::string& child, const std::string& parent, const std::string& joint) {
+  return "<joint name=\"" + joint + "\" type=\"fixed\"><parent link=\"" + parent +
+         "\"/><child link=\"" + child + "\"/></joint>";
+}
+
+void refused(const std::string& text, const std::string& told) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("bad.urdf", text);
+  try {
+    const Robot robot(path);
+  } catch (const FileError& error) {
+    CAPTURE(error.what(), told);
+    CHECK(std::string(error.what()).find(path) == 0);
+    CHECK(std::string(error.what()).find(told) != std::string::npos);
+    return;
+  }
+  FAIL("accepted: " + text);
+}
+
 }  // namespace
 
 TEST_CASE("links are where a product of transforms puts them") {
@@ -215,26 +234,13 @@ TEST_CASE("meshes of a URDF are found, scaled and mirrored") {
 TEST_CASE("names may have any letters, and lines end as they do anywhere") {
   const TemporaryFolder folder;
   const std::string text =
-      "\r\n\t<link name=\"\u00e9\u6249\"/><joint name=\"j\" type=\"fixed\">"
+      "\r\n\t<!-- 100 % --><link name=\"\u00e9\u6249\"/><joint name=\"j\" type=\"fixed\">"
       "<parent link=\"a\"/><child link=\"\u00e9\u6249\"/></joint>";
   const Robot robot(folder.write("r.urdf", urdfWith(text)));
   CHECK(robot.links().back().name == "\u00e9\u6249");
 }
 
 TEST_CASE("what is no URDF is refused with file and element") {
-  const TemporaryFolder folder;
-  const auto refused = [&](const std::string& text, const std::string& told) {
-    const std::string path = folder.write("bad.urdf", text);
-    try {
-      const Robot robot(path);
-    } catch (const FileError& error) {
-      CAPTURE(error.what(), told);
-      CHECK(std::string(error.what()).find(path) == 0);
-      CHECK(std::string(error.what()).find(told) != std::string::npos);
-      return;
-    }
-    FAIL("accepted: " + text);
-  };
   const auto joint = [](const std::string& type, const std::string& inside) {
     return urdfWith("<link name=\"b\"/><joint name=\"j\" type=\"" + type +
                     "\"><parent link=\"a\"/><child link=\"b\"/>" + inside + "</joint>");
@@ -272,6 +278,13 @@ TEST_CASE("what is no URDF is refused with file and element") {
     refused(shape(bad), "");
     refused(shape(good + bad), "");
   }
+  // What urdfdom would take for a format of printf.
+  for (const std::string percent : {"%n%s", "&#37;n", "&#x25;s"}) {
+    refused(shape("<origin xyz=\"" + percent + "\"/><geometry><sphere radius=\"1\"/></geometry>"),
+            "xyz: a '%'");
+    refused(urdfWith("<material name=\"" + percent + "\"/>"), "name: a '%'");
+  }
+  refused(shape("<geometry><mesh filename=\"package://a%20b/c\"/></geometry>"), "package a%20b");
   refused(
       "<robot name=\"r\"><link name=\"a\"><visual><geometry><capsule/></geometry></visual>"
       "<collision><geometry><sphere radius=\"1\"/></geometry></collision></link></robot>",
@@ -292,8 +305,16 @@ TEST_CASE("what is no URDF is refused with file and element") {
   refused("<a></a></a>", "closing tag");
   refused("<a><b", "without an end");
   refused("<", "without an end");
-  std::string loop = urdfWith(
-      "<link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"b\"/>"
-      "<child link=\"b\"/></joint>");
-  refused(loop, "");
+  refused(urdfWith("<link name=\"b\"/>" + hangs("b", "b", "j")), "");
+}
+
+TEST_CASE("a link on more than one joint is refused, and so are loops of links") {
+  const std::string links = "<link name=\"b\"/><link name=\"c\"/>" + hangs("b", "a", "j");
+  const TemporaryFolder folder;
+  const Robot robot(folder.write("r.urdf", urdfWith(links + hangs("c", "b", "k"))));
+  CHECK(robot.links().size() == 3);
+  const std::string told = " hangs on more than one joint";
+  refused(urdfWith(links + hangs("c", "a", "k") + hangs("c", "a", "l")), "link c" + told);
+  refused(urdfWith(links + hangs("c", "a", "k") + hangs("c", "b", "l")), "link c" + told);
+  refused(urdfWith(links + hangs("c", "b", "k") + hangs("b", "c", "l")), "link b" + told);
 }
