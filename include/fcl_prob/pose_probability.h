@@ -16,8 +16,8 @@ namespace fcl_prob {
 /// Given the rotation, what is left is a Gaussian translation, which a PreparedQuery answers; the
 /// answers are combined over rotations. request.method is one of
 /// - `automatic`, `estimate`: rotations in antithetic pairs with a quadratic control variate, or
-///   calls of fcl::collide at evenly spread points in all dimensions (randomised quasi-Monte Carlo),
-///   whichever promises to end sooner, until the standard error is within the tolerance;
+///   calls of fcl::collide at evenly spread points in all dimensions (randomised quasi-Monte
+///   Carlo), whichever promises to end sooner, until the standard error is within the tolerance;
 ///   `confidence_interval` and a threshold go by Student's t. The plan says which it was. The
 ///   certified interval given is [0, 1]. request.max_cells limits the cells of all rotations
 ///   together (16 samples count as one), time_limit all of them. With a gradient: pairs only.

@@ -21,11 +21,11 @@ constexpr std::uint64_t kShiftWords = 0x736f626f;
 // The first coordinates are those of the translation.
 constexpr int kTranslation = 3;
 
-constexpr std::size_t kFirstPoints = 64;
+constexpr std::size_t kFirstPoints = 32;
 
 // The variance of counting at random points is assumed to be so many times as large before there
 // are any.
-constexpr double kExpectedGain = 5.0;
+constexpr double kExpectedGain = 6.0;
 
 // Drawn beyond what the last look says is needed.
 constexpr double kPointReserve = 1.1;
@@ -93,7 +93,7 @@ CountingSource::Hits CountingSource::hitsAt(std::size_t point) const {
     for (std::size_t k = 0; k < words.size(); ++k) {
       normals[static_cast<Eigen::Index>(k)] = quantileAt(words[k] ^ shifts_[k][shift]);
     }
-    if (collider_->collides(placementAt(normals))) hits |= static_cast<Hits>(1U << shift);
+    if (collider_->collides(placementAt(normals))) hits |= Hits{1} << shift;
   }
   return hits;
 }

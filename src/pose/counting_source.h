@@ -39,8 +39,8 @@ class CountingSource : public EstimateSource {
   void describe(ProbabilityResult& result) const override;
 
  private:
-  static constexpr std::size_t kShifts = 16;
-  using Hits = std::uint16_t;  ///< a bit for every shift
+  static constexpr std::size_t kShifts = 32;
+  using Hits = std::uint32_t;  ///< a bit for every shift
 
   std::size_t pointsTo(double standard_error) const;
   Hits hitsAt(std::size_t point) const;
