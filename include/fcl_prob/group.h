@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/motion_gradient.h"
 
 namespace fcl_prob {
 
@@ -45,6 +46,16 @@ class GroupQuery {
                               const std::vector<fcl::Transform3d>& poses_b,
                               const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request, ProbabilityResult& result) const;
+
+  /// How P changes as the members of A move, each by itself: an estimate, see MotionGradient.
+  /// \param velocities  of the members of A: see MemberVelocities, rigidMotions()
+  /// \throws InvalidRequest for a displacement of rank 0, velocities that are not one a member, of
+  ///         one width or finite, or a request without lines; InvalidPose, OpenMesh
+  MotionGradient motionGradient(const std::vector<fcl::Transform3d>& poses_a,
+                                const std::vector<fcl::Transform3d>& poses_b,
+                                const GaussianDisplacement& displacement,
+                                const MemberVelocities& velocities,
+                                const MotionGradientRequest& request = {}) const;
 
  private:
   // Declared for callers in fcl_prob/mixture.h.

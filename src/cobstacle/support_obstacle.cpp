@@ -5,6 +5,12 @@
 #include <Eigen/Geometry>
 
 namespace fcl_prob::detail {
+namespace {
+
+// Relative to the size of a triangle: corners that are as high as the highest.
+constexpr double kSameCorner = 1e-9;
+
+}  // namespace
 
 const Eigen::Vector3d& SupportBody::farthestCorner(const Eigen::Vector3d& direction) const {
   const double heights[3] = {direction.dot(corners_[0]), direction.dot(corners_[1]),
@@ -21,6 +27,23 @@ Eigen::Vector3d SupportBody::supportPoint(const Eigen::Vector3d& direction) cons
 double SupportBody::supportValue(const Eigen::Vector3d& direction) const {
   if (!shape_) return direction.dot(farthestCorner(direction));
   return direction.dot(position_) + shape_->supportValue(direction);
+}
+
+TouchingFace SupportBody::touchingFace(const Eigen::Vector3d& direction) const {
+  if (shape_) {
+    TouchingFace face = shape_->touchingFace(direction);
+    face.middle += position_;
+    return face;
+  }
+  const Eigen::Vector3d& top = farthestCorner(direction);
+  const double size = (corners_[1] - corners_[0]).norm() + (corners_[2] - corners_[0]).norm();
+  Eigen::Matrix<double, 3, Eigen::Dynamic> farthest(3, 3);
+  Eigen::Index count = 0;
+  for (const Eigen::Vector3d& corner : corners_) {
+    if (direction.dot(top - corner) > kSameCorner * direction.norm() * size) continue;
+    farthest.col(count++) = corner;
+  }
+  return TouchingFace::around(farthest.leftCols(count));
 }
 
 Eigen::Matrix3d SupportBody::supportDerivative(const Eigen::Vector3d& direction) const {

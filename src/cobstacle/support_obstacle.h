@@ -23,6 +23,7 @@ class SupportBody {
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
   double supportValue(const Eigen::Vector3d& direction) const;
   Eigen::Matrix3d supportDerivative(const Eigen::Vector3d& direction) const;
+  TouchingFace touchingFace(const Eigen::Vector3d& direction) const;
   Eigen::Vector3d centre() const;
   Eigen::Matrix3d spread() const;
   std::vector<Eigen::Vector3d> sideNormals() const;
@@ -49,6 +50,13 @@ class SupportObstacle {
   /// Derivative of supportPoint(): the inverse of the curvature of the boundary.
   Eigen::Matrix3d supportDerivative(const Eigen::Vector3d& direction) const {
     return b_.supportDerivative(direction) + a_.supportDerivative(-direction);
+  }
+
+  /// Of a point of the boundary of V, where its outward normal is `normal`: the point of A that
+  /// touches B there.
+  Eigen::Vector3d touchingPointOfA(const Eigen::Vector3d& boundary,
+                                   const Eigen::Vector3d& normal) const {
+    return touchingPoint(a_.touchingFace(-normal), b_.touchingFace(normal), boundary);
   }
 
   /// Certainly not below direction·y on V.

@@ -18,6 +18,9 @@
 namespace fcl_prob::detail {
 namespace {
 
+// Relative to the size of a shape: points that are as high as the highest.
+constexpr double kSameHeight = 1e-9;
+
 struct Farthest {
   int index;
   double height;  // of the point itself, plus the ellipsoid's if it is swept
@@ -50,6 +53,33 @@ Eigen::Vector3d SupportShape::supportPoint(const Eigen::Vector3d& direction) con
   const int index = farthest(*this, direction, length).index;
   if (index >= swept || !(length > 0.0)) return points[index];
   return points[index] + semi_axes * (on_ball / length);
+}
+
+TouchingFace SupportShape::touchingFace(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d on_ball = semi_axes.transpose() * direction;
+  const double length = on_ball.norm();
+  const double size = semi_axes.norm();
+  const double swept_height = curved() ? length : 0.0;
+  const double highest = farthest(*this, direction, swept_height).height;
+  const double tolerance = kSameHeight * direction.norm() * (radius() + size);
+  // Across a disk's own plane all of the disk lies farthest.
+  const bool whole_disk = curved() && length <= kSameHeight * direction.norm() * size;
+  const Eigen::Vector3d reach = !curved() || whole_disk
+                                    ? Eigen::Vector3d::Zero()
+                                    : Eigen::Vector3d(semi_axes * on_ball / length);
+  Eigen::Matrix<double, 3, Eigen::Dynamic> farthest_points(3, points.size() + 6);
+  Eigen::Index count = 0;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    const bool is_swept = i < swept;
+    if (direction.dot(points[i]) + (is_swept ? swept_height : 0.0) < highest - tolerance) continue;
+    farthest_points.col(count++) = is_swept ? Eigen::Vector3d(points[i] + reach) : points[i];
+    if (!is_swept || !whole_disk || count > 1) continue;
+    for (int k = 0; k < 3; ++k) {
+      farthest_points.col(count++) = points[i] + semi_axes.col(k);
+      farthest_points.col(count++) = points[i] - semi_axes.col(k);
+    }
+  }
+  return TouchingFace::around(farthest_points.leftCols(count));
 }
 
 // Of E E'd / |E'd|.

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "cobstacle/touching_face.h"
+
 namespace fcl_prob::detail {
 
 /// The convex hull of points, some of which are swept by an ellipsoid: conv ∪ (p_i ⊕ s_i E·ball)
@@ -27,6 +29,9 @@ struct SupportShape {
   /// Derivative of the support point with respect to the direction: zero where the point is a
   /// corner, and across a flat side, where the support point jumps.
   Eigen::Matrix3d supportDerivative(const Eigen::Vector3d& direction) const;
+
+  /// All points that lie farthest, up to rounding.
+  TouchingFace touchingFace(const Eigen::Vector3d& direction) const;
 
   /// max of direction·x over the shape, up to rounding.
   double supportValue(const Eigen::Vector3d& direction) const;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "partition/unit_uniform.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -33,16 +35,15 @@ struct RandomSample {
   Eigen::Vector3d point;
 };
 
-double unitOf(std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; }
-
 RandomSample randomSample(std::uint64_t seed, std::uint64_t number) {
   using Generator = r123::Philox4x64;
   Generator generator;
   const Generator::key_type key = {{seed, 0x70726f62}};
   const Generator::ctr_type point = generator({{number, 0, 0, 0}}, key);
   const Generator::ctr_type other = generator({{number, 1, 0, 0}}, key);
-  return {
-      unitOf(other[0]), unitOf(other[1]), {unitOf(point[0]), unitOf(point[1]), unitOf(point[2])}};
+  return {unitUniform(other[0]),
+          unitUniform(other[1]),
+          {unitUniform(point[0]), unitUniform(point[1]), unitUniform(point[2])}};
 }
 
 // More of what one plane covers than the open cell counts.

@@ -3,8 +3,6 @@
 #include "fcl_prob/group.h"
 
 #include <algorithm>
-#include <deque>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -14,13 +12,14 @@
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "narrowphase/convex_pair_mass.h"
+#include "partition/motion_flux.h"
 #include "partition/partition.h"
 #include "partition/without_contact.h"
-#include "query/bounded_part.h"
 #include "query/call_budget.h"
+#include "query/member_group.h"
 #include "query/mixture_query.h"
+#include "query/motion_gradient.h"
 #include "query/octree_cells.h"
-#include "query/prepared_geometry.h"
 #include "query/request_limits.h"
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
@@ -35,132 +34,8 @@ using detail::PreparedGeometry;
 /// Of the threshold: what may be left out of the sums that decide it.
 constexpr double kNegligible = 1e-6;
 
-/// The members of one side, and the tree of those that are bounded. Members that fcl::collide
-/// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
-class Group {
- public:
-  Group(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
-    if (geometries.empty()) throw InvalidGeometry(name + " has no members");
-    // A geometry that is in the group many times, as a link at many waypoints, is prepared once.
-    std::map<const fcl::CollisionGeometryd*, const PreparedGeometry*> known;
-    for (std::size_t i = 0; i < geometries.size(); ++i) {
-      const PreparedGeometry*& prepared = known[geometries[i].get()];
-      if (prepared == nullptr) {
-        prepared =
-            &distinct_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
-      }
-      members_.push_back(prepared);
-      if (isLeftOut(*geometries[i])) continue;
-      (prepared->hasPieces() ? bounded_ : unbounded_).push_back(i);
-    }
-    std::vector<const detail::PieceTree*> trees;
-    for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
-    tree_ = detail::joinPieceTrees(trees);
-  }
-
-  // Members point into it.
-  Group(const Group&) = delete;
-  Group& operator=(const Group&) = delete;
-
-  const std::vector<const PreparedGeometry*>& members() const { return members_; }
-  const detail::PieceTree& tree() const { return *tree_; }
-  const std::vector<std::size_t>& unbounded() const { return unbounded_; }
-  bool anyUnbounded() const { return !unbounded_.empty(); }
-  bool isEmpty() const { return bounded_.empty() && unbounded_.empty(); }
-  std::size_t leftOut() const { return members_.size() - bounded_.size() - unbounded_.size(); }
-
-  bool haveRootBodies() const {
-    return std::all_of(members_.begin(), members_.end(),
-                       [](const PreparedGeometry* member) { return member->hasRootBody(); });
-  }
-
-  bool isConvexInOnePlace(const Poses& poses) const {
-    const auto same = [&](const fcl::Transform3d& pose) {
-      return pose.matrix() == poses[0].matrix();
-    };
-    return std::all_of(poses.begin(), poses.end(), same) &&
-           std::all_of(members_.begin(), members_.end(),
-                       [](const PreparedGeometry* member) { return member->isConvex(); });
-  }
-
-  /// Of convex members.
-  std::vector<ConvexBody> bodies() const {
-    std::vector<ConvexBody> bodies;
-    for (const PreparedGeometry* member : members_) bodies.push_back(member->rootBody());
-    return bodies;
-  }
-
-  void validate(const Poses& poses) const {
-    if (poses.size() != members_.size()) {
-      throw InvalidRequest(name_ + " has " + std::to_string(members_.size()) + " members but " +
-                           std::to_string(poses.size()) + " poses");
-    }
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      detail::validatePose(poses[i], "member " + std::to_string(i) + " of " + name_);
-    }
-  }
-
-  /// The bounded members, placed. \throws OpenMesh
-  detail::PartitionObject placed(const Poses& poses, ContactMeaning contact) const {
-    detail::PartitionObject object{tree_.get(), {}};
-    for (const std::size_t i : bounded_) {
-      object.parts.push_back({poses[i], members_[i]->solid(contact)});
-    }
-    return object;
-  }
-
-  bool hasOcTree() const {
-    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry* member) {
-      return member->geometry().getNodeType() == fcl::GEOM_OCTREE;
-    });
-  }
-
- private:
-  static bool isLeftOut(const fcl::CollisionGeometryd& geometry) {
-    return geometry.getNodeType() != fcl::GEOM_OCTREE && !geometry.isOccupied();
-  }
-
-  std::string name_;
-  std::deque<PreparedGeometry> distinct_;
-  std::vector<const PreparedGeometry*> members_;  ///< into distinct_
-  std::vector<std::size_t> bounded_;
-  std::vector<std::size_t> unbounded_;
-  std::shared_ptr<const detail::PieceTree> tree_;
-};
-
-/// A group with what the displacement can reach of its unbounded members.
-class PlacedGroup {
- public:
-  PlacedGroup(const Group& group, const Poses& poses, ContactMeaning contact)
-      : group_(group), poses_(poses), object_(group.placed(poses, contact)) {}
-
-  const detail::PartitionObject& object() const { return object_; }
-
-  /// Adds the unbounded members, as far as `other` can get.
-  void boundBy(const detail::PartitionObject& other, const GaussianDisplacement& displacement) {
-    if (!group_.anyUnbounded()) return;
-    const detail::ReachedBall ball = detail::reachedBall(other, displacement, detail::kReach);
-    std::vector<const detail::PieceTree*> trees{&group_.tree()};
-    for (const std::size_t i : group_.unbounded()) {
-      const auto part = detail::boundedPart(group_.members()[i]->geometry(), poses_[i], ball);
-      stand_ins_.push_back(detail::buildPieceTree(*part.geometry));
-      trees.push_back(stand_ins_.back().get());
-      object_.parts.push_back({part.pose, nullptr});
-    }
-    joined_ = detail::joinPieceTrees(trees);
-    object_.tree = joined_.get();
-  }
-
- private:
-  const Group& group_;
-  const Poses& poses_;
-  detail::PartitionObject object_;
-  std::vector<std::shared_ptr<const detail::PieceTree>> stand_ins_;
-  std::shared_ptr<const detail::PieceTree> joined_;
-};
-
 /// One union of pieces must do for all pairs of members.
-void requireAlike(const Group& group, const Group& others) {
+void requireAlike(const detail::MemberGroup& group, const detail::MemberGroup& others) {
   if (!others.hasOcTree()) return;
   for (const PreparedGeometry* member : group.members()) {
     if (!detail::isAlikeBesideOcTrees(member->geometry())) {
@@ -192,8 +67,8 @@ void requireMethod(const ProbabilityRequest& request) {
 }  // namespace
 
 struct GroupQuery::Implementation {
-  Group a;
-  Group b;
+  detail::MemberGroup a;
+  detail::MemberGroup b;
   std::optional<PreparedQuery> single;
 
   Implementation(const Geometries& group_a, const Geometries& group_b)
@@ -225,8 +100,8 @@ struct GroupQuery::Implementation {
                            const detail::BallTruncation* ball = nullptr) const {
     if (a.isEmpty() || b.isEmpty()) return detail::withoutContact(request, note());
     const detail::CallBudget budget(request);
-    PlacedGroup placed_a(a, poses_a, request.contact);
-    PlacedGroup placed_b(b, poses_b, request.contact);
+    detail::PlacedGroup placed_a(a, poses_a, request.contact);
+    detail::PlacedGroup placed_b(b, poses_b, request.contact);
     if (request.hasBand() && (a.anyUnbounded() || b.anyUnbounded())) {
       throw UnsupportedGeometry("a group with unbounded members knows no bands around its shapes");
     }
@@ -248,6 +123,26 @@ struct GroupQuery::Implementation {
     result.upper = std::max(*result.lower, std::min(*result.upper, most));
     result.plan.insert(result.plan.begin(), note());
     return result;
+  }
+
+  MotionGradient gradient(const Poses& poses_a, const Poses& poses_b,
+                          const GaussianDisplacement& displacement,
+                          const MemberVelocities& velocities,
+                          const MotionGradientRequest& request) const {
+    a.validate(poses_a);
+    b.validate(poses_b);
+    detail::validateVelocities(velocities, a.members().size());
+    detail::validateGradient(displacement, request);
+    if (a.isEmpty() || b.isEmpty()) return detail::withoutGradient(velocities[0].cols());
+    detail::PlacedGroup placed_a(a, poses_a, request.contact);
+    detail::PlacedGroup placed_b(b, poses_b, request.contact);
+    placed_a.boundBy(placed_b.object(), displacement);
+    placed_b.boundBy(placed_a.object(), displacement);
+    MemberVelocities of_parts;
+    for (const std::size_t i : a.bounded()) of_parts.push_back(velocities[i]);
+    for (const std::size_t i : a.unbounded()) of_parts.push_back(velocities[i]);
+    return detail::gradientFrom(detail::motionFlux(
+        placed_a.object(), placed_b.object(), displacement, of_parts, detail::drawsOf(request)));
   }
 
  private:
@@ -367,6 +262,14 @@ double GroupQuery::collisionProbability(const std::vector<fcl::Transform3d>& pos
   result = implementation_->answer(poses_a, poses_b, displacement, request);
   detail::noteTolerance(request, result);
   return result.probability();
+}
+
+MotionGradient GroupQuery::motionGradient(const std::vector<fcl::Transform3d>& poses_a,
+                                          const std::vector<fcl::Transform3d>& poses_b,
+                                          const GaussianDisplacement& displacement,
+                                          const MemberVelocities& velocities,
+                                          const MotionGradientRequest& request) const {
+  return implementation_->gradient(poses_a, poses_b, displacement, velocities, request);
 }
 
 double collisionProbability(const GroupQuery& query, const std::vector<fcl::Transform3d>& poses_a,

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The members of a group, prepared, and where they are in one query.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fcl_prob/convex_body.h"
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/group.h"
+#include "geometry/validation.h"
+#include "partition/partition.h"
+#include "query/bounded_part.h"
+#include "query/prepared_geometry.h"
+
+namespace fcl_prob::detail {
+
+/// The members of one side, and the tree of those that are bounded. Members that fcl::collide
+/// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
+class MemberGroup {
+ public:
+  MemberGroup(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
+    if (geometries.empty()) throw InvalidGeometry(name + " has no members");
+    // A geometry that is in the group many times, as a link at many waypoints, is prepared once.
+    std::map<const fcl::CollisionGeometryd*, const PreparedGeometry*> known;
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      const PreparedGeometry*& prepared = known[geometries[i].get()];
+      if (prepared == nullptr) {
+        prepared =
+            &distinct_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
+      }
+      members_.push_back(prepared);
+      if (isLeftOut(*geometries[i])) continue;
+      (prepared->hasPieces() ? bounded_ : unbounded_).push_back(i);
+    }
+    std::vector<const PieceTree*> trees;
+    for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
+    tree_ = joinPieceTrees(trees);
+  }
+
+  // Members point into it.
+  MemberGroup(const MemberGroup&) = delete;
+  MemberGroup& operator=(const MemberGroup&) = delete;
+
+  const std::vector<const PreparedGeometry*>& members() const { return members_; }
+  const PieceTree& tree() const { return *tree_; }
+  const std::vector<std::size_t>& bounded() const { return bounded_; }
+  const std::vector<std::size_t>& unbounded() const { return unbounded_; }
+  bool anyUnbounded() const { return !unbounded_.empty(); }
+  bool isEmpty() const { return bounded_.empty() && unbounded_.empty(); }
+  std::size_t leftOut() const { return members_.size() - bounded_.size() - unbounded_.size(); }
+
+  bool haveRootBodies() const {
+    return std::all_of(members_.begin(), members_.end(),
+                       [](const PreparedGeometry* member) { return member->hasRootBody(); });
+  }
+
+  bool isConvexInOnePlace(const std::vector<fcl::Transform3d>& poses) const {
+    const auto same = [&](const fcl::Transform3d& pose) {
+      return pose.matrix() == poses[0].matrix();
+    };
+    return std::all_of(poses.begin(), poses.end(), same) &&
+           std::all_of(members_.begin(), members_.end(),
+                       [](const PreparedGeometry* member) { return member->isConvex(); });
+  }
+
+  /// Of convex members.
+  std::vector<ConvexBody> bodies() const {
+    std::vector<ConvexBody> bodies;
+    for (const PreparedGeometry* member : members_) bodies.push_back(member->rootBody());
+    return bodies;
+  }
+
+  void validate(const std::vector<fcl::Transform3d>& poses) const {
+    if (poses.size() != members_.size()) {
+      throw InvalidRequest(name_ + " has " + std::to_string(members_.size()) + " members but " +
+                           std::to_string(poses.size()) + " poses");
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      validatePose(poses[i], "member " + std::to_string(i) + " of " + name_);
+    }
+  }
+
+  /// The bounded members, placed. \throws OpenMesh
+  PartitionObject placed(const std::vector<fcl::Transform3d>& poses, ContactMeaning contact) const {
+    PartitionObject object{tree_.get(), {}};
+    for (const std::size_t i : bounded_) {
+      object.parts.push_back({poses[i], members_[i]->solid(contact)});
+    }
+    return object;
+  }
+
+  bool hasOcTree() const {
+    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry* member) {
+      return member->geometry().getNodeType() == fcl::GEOM_OCTREE;
+    });
+  }
+
+ private:
+  static bool isLeftOut(const fcl::CollisionGeometryd& geometry) {
+    return geometry.getNodeType() != fcl::GEOM_OCTREE && !geometry.isOccupied();
+  }
+
+  std::string name_;
+  std::deque<PreparedGeometry> distinct_;
+  std::vector<const PreparedGeometry*> members_;  ///< into distinct_
+  std::vector<std::size_t> bounded_;
+  std::vector<std::size_t> unbounded_;
+  std::shared_ptr<const PieceTree> tree_;
+};
+
+/// A group with what the displacement can reach of its unbounded members.
+class PlacedGroup {
+ public:
+  PlacedGroup(const MemberGroup& group, const std::vector<fcl::Transform3d>& poses,
+              ContactMeaning contact)
+      : group_(group), poses_(poses), object_(group.placed(poses, contact)) {}
+
+  /// Its parts are the bounded members in their order, and behind them the unbounded ones.
+  const PartitionObject& object() const { return object_; }
+
+  /// Adds the unbounded members, as far as `other` can get.
+  void boundBy(const PartitionObject& other, const GaussianDisplacement& displacement) {
+    if (!group_.anyUnbounded()) return;
+    const ReachedBall ball = reachedBall(other, displacement, kReach);
+    std::vector<const PieceTree*> trees{&group_.tree()};
+    for (const std::size_t i : group_.unbounded()) {
+      const auto part = boundedPart(group_.members()[i]->geometry(), poses_[i], ball);
+      stand_ins_.push_back(buildPieceTree(*part.geometry));
+      trees.push_back(stand_ins_.back().get());
+      object_.parts.push_back({part.pose, nullptr});
+    }
+    joined_ = joinPieceTrees(trees);
+    object_.tree = joined_.get();
+  }
+
+ private:
+  const MemberGroup& group_;
+  const std::vector<fcl::Transform3d>& poses_;
+  PartitionObject object_;
+  std::vector<std::shared_ptr<const PieceTree>> stand_ins_;
+  std::shared_ptr<const PieceTree> joined_;
+};
+
+}  // namespace fcl_prob::detail
