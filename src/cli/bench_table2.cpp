@@ -246,11 +246,11 @@ class Table2Report {
                                 {"paths", nlohmann::ordered_json::array()}};
     if (method.answer == Table2Answer::probable) json["chance_of_error"] = kChanceOfError;
     for (const FoundPath& path : runs.found) {
-      json["paths"].push_back({{"length", path.length},
-                               {"query_ms", path.query_ms},
-                               {"hand_length", path.hand_length},
-                               {"by_method", path.by_method},
-                               {"certified", {path.certified.lower, path.certified.upper}}});
+      nlohmann::ordered_json of_path{
+          {"length", path.length}, {"query_ms", path.query_ms}, {"hand_length", path.hand_length}};
+      if (saysProbability(method)) of_path["by_method"] = path.by_method;
+      of_path["certified"] = {path.certified.lower, path.certified.upper};
+      json["paths"].push_back(std::move(of_path));
     }
     if (runs.motion) json["motion"] = {runs.motion->lower, runs.motion->upper};
     report_.records.push_back(std::move(json));

@@ -40,7 +40,8 @@ class Table2Script {
     }
     out_ << "set multiplot layout 1," << scenes_.size() << "\nset logscale x\nset grid\n"
          << "set xlabel 'time of the tests of states / ms'\nset ylabel 'length of the path / rad'\n"
-         << "set key outside below\nset offsets graph 0, 0, 0.1, 0.1\n";
+         << "set key outside below maxrows 4\nset bmargin 8\nset rmargin 5\nset pointsize 1.2\n"
+         << "set offsets graph 0, 0, 0.1, 0.1\n";
     for (std::size_t s = 0; s < scenes_.size(); ++s) writePanel(s);
     out_ << "unset multiplot\n";
     return out_.str();
