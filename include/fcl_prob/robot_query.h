@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_prob/joint_gradient.h"
 #include "fcl_prob/mixture.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/probable_decision.h"
@@ -135,6 +136,13 @@ class RobotQuery {
   /// chance that is not in (0, 1), another method, and as motion()
   ProbableResult decideProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
                                 double chance_of_error, const ProbabilityRequest& request) const;
+
+  /// P at any of the waypoints, with persistent errors, and how it changes with the joint values at
+  /// each: estimates. Bodies that are likelier than 1e-12 to touch an obstacle take part.
+  /// \throws InvalidRequest for a truncated displacement, as GroupQuery::motionGradient() for the
+  ///         request, and as motion()
+  JointGradient gradient(const std::vector<Eigen::VectorXd>& waypoints,
+                         const MotionGradientRequest& request = {}) const;
 
   /// At the waypoints, persistent, for each body of the robot by itself: which links carry the
   /// probability. \throws as motion()

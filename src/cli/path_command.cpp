@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/gradient_report.h"
 #include "cli/json_values.h"
 #include "cli/number_text.h"
 #include "cli/output.h"
@@ -33,6 +34,7 @@ struct PathArguments {
   std::string errors;
   bool between = false;
   bool by_body = false;
+  bool gradient = false;
   bool json = false;
   std::string output;
 };
@@ -41,6 +43,8 @@ struct PathReport {
   std::vector<RobotBody> bodies;  ///< of the robot
   RobotResult result;
   std::vector<RobotResult> by_body;
+  std::optional<ordered_json> gradient;
+  std::string gradient_text;
   std::vector<TouchingBodies> self_collisions;
   std::size_t waypoints = 0;
   double build_ms = 0.0;
@@ -81,7 +85,7 @@ RobotScene sceneOf(const PathArguments& arguments) {
   return scene;
 }
 
-PathReport answer(RobotScene scene, bool by_body) {
+PathReport answer(RobotScene scene, const PathArguments& arguments) {
   PathReport report;
   const Stopwatch building;
   const RobotQuery query = loadRobotQuery(scene);
@@ -95,7 +99,12 @@ PathReport answer(RobotScene scene, bool by_body) {
   const Stopwatch watch;
   report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   report.time_ms = watch.milliseconds();
-  if (by_body) report.by_body = query.byBody(waypoints, scene.request);
+  if (arguments.by_body) report.by_body = query.byBody(waypoints, scene.request);
+  if (arguments.gradient) {
+    const JointGradient gradient = jointGradient(query, waypoints, scene);
+    report.gradient = jsonOf(gradient, query.robot());
+    report.gradient_text = textOf(gradient, query.robot());
+  }
   report.self_collisions = selfCollisionsOf(loadSelfCollision(scene, query.robot()), waypoints);
   return report;
 }
@@ -160,6 +169,7 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"parts", partsOf(report, scene)},
                     {"self_collisions", jsonOf(report.self_collisions)}};
   addWaypoints(result, json);
+  if (report.gradient) json["gradient"] = *report.gradient;
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     json["bodies"].push_back({{"link", report.bodies[i].link},
                               {"name", report.bodies[i].name()},
@@ -193,7 +203,7 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
     text += "  " + report.bodies[i].name() + ": " + intervalText(report.by_body[i].any) + "\n";
   }
-  text += textOf(report.self_collisions);
+  text += report.gradient_text + textOf(report.self_collisions);
   if (result.swept_band) {
     text += "at all times: " + std::to_string(result.swept_steps) + " steps of bodies, within " +
             numberText(*result.swept_band, 3) + " m of the states looked at\n";
@@ -265,7 +275,7 @@ int runProbably(const PathArguments& arguments, const RobotScene& scene) {
 int runPath(const PathArguments& arguments) {
   const RobotScene scene = sceneOf(arguments);
   if (arguments.probable) return runProbably(arguments, scene);
-  const PathReport report = answer(scene, arguments.by_body);
+  const PathReport report = answer(scene, arguments);
   deliver(arguments.json ? jsonOf(report, scene).dump() + "\n" : textOf(report, scene),
           arguments.output);
   return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
@@ -296,6 +306,10 @@ void addPathCommand(CLI::App& app, int& exit_code) {
   command.add_flag("--between", arguments->between,
                    "Certified for all of the way between the waypoints, too");
   command.add_flag("--by-body", arguments->by_body, "Also each collision body by itself")
+      ->excludes("--probable");
+  command
+      .add_flag("--gradient", arguments->gradient,
+                "Also how P changes with the joints at each waypoint, an estimate")
       ->excludes("--probable");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include <pybind11/stl.h>
 
+#include "fcl_prob/joint_gradient.h"
 #include "fcl_prob/probable_decision.h"
 #include "fcl_prob/self_collision.h"
 #include "python/arrays.h"
@@ -51,6 +52,26 @@ void bindSelfCollision(py::module_& module) {
           py::arg("values"), "Names of the bodies that touch.");
 }
 
+void bindGradient(py::module_& module) {
+  using G = JointGradient;
+  py::class_<G>(module, "JointGradient",
+                "P at any of some waypoints, and how it changes with the joints: estimates.")
+      .def_property_readonly("probability", [](const G& g) { return g.probability; })
+      .def_property_readonly("standard_error", [](const G& g) { return g.standard_error; })
+      .def_property_readonly(
+          "gradient", [](const G& g) { return arrayOf(g.gradient.transpose()); },
+          "(n, k) float64: a row a waypoint, 1/radian or 1/metre.")
+      .def_property_readonly(
+          "gradient_standard_error",
+          [](const G& g) { return arrayOf(g.gradient_standard_error.transpose()); })
+      .def_property_readonly(
+          "lines", [](const G& g) { return g.lines; }, "Random lines that were drawn.")
+      .def("__repr__", [](const G& g) {
+        return "<JointGradient of " + std::to_string(g.gradient.cols()) + " waypoints, " +
+               std::to_string(g.lines) + " lines>";
+      });
+}
+
 }  // namespace
 
 void bindDecisions(py::module_& module) {
@@ -75,6 +96,7 @@ void bindDecisions(py::module_& module) {
         return "<ProbableResult " + toString(r.decision) + ": " + toString(r.status) + ">";
       });
   bindSelfCollision(module);
+  bindGradient(module);
 }
 
 }  // namespace fcl_prob::python

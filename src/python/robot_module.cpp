@@ -247,6 +247,19 @@ ProbableResult decideProbably(const RobotQuery& query, const py::object& waypoin
   });
 }
 
+JointGradient gradient(const RobotQuery& query, const py::object& waypoints, std::size_t lines,
+                       std::uint64_t seed, unsigned threads,
+                       const std::optional<double>& time_limit) {
+  const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
+  MotionGradientRequest request;
+  request.lines = lines;
+  request.seed = seed;
+  request.threads = threads;
+  request.time_limit = time_limit;
+  const py::gil_scoped_release released;
+  return query.gradient(all, request);
+}
+
 /// What a robot's scene file asks: (query, waypoints (n, k)).
 py::tuple loadScene(const py::object& path) {
   const std::string name = pathFrom(path);
@@ -293,7 +306,12 @@ void bindQuery(py::module_& module) {
       .def("decide_probably", &decideProbably, py::arg("waypoints"), py::arg("threshold"),
            py::arg("chance_of_error"),
            "Whether P at any of the waypoints (n, k), persistent errors, is below the threshold:\n"
-           "certain, or right but for a chance (ProbableResult). request: seed and limits.");
+           "certain, or right but for a chance (ProbableResult). request: seed and limits.")
+      .def(
+          "gradient", &gradient, py::arg("waypoints"), py::kw_only(), py::arg("lines") = 4096,
+          py::arg("seed") = 1, py::arg("threads") = 1, py::arg("time_limit") = py::none(),
+          "How P at any of the waypoints (n, k), persistent errors, changes with the joint values\n"
+          "at each (JointGradient): an estimate from random lines.");
   module.def("load_robot_scene", &loadScene, py::arg("path"),
              "The RobotQuery and the waypoints (n, k) of a scene file (docs/robots.md).");
 }

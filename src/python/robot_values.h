@@ -21,7 +21,7 @@ Eigen::VectorXd jointValues(const Robot& robot, py::handle value, const std::str
 /// (n, k), or a list of what jointValues() takes.
 std::vector<Eigen::VectorXd> waypointsFrom(const Robot& robot, const py::object& value);
 
-/// Self-collision and probable decisions, in the module of robots.
+/// Self-collision, probable decisions and gradients, in the module of robots.
 void bindDecisions(py::module_& module);
 
 }  // namespace fcl_prob::python

@@ -132,7 +132,10 @@ struct GroupQuery::Implementation {
     a.validate(poses_a);
     b.validate(poses_b);
     detail::validateVelocities(velocities, a.members().size());
-    detail::validateGradient(displacement, request);
+    detail::validateGradient(request);
+    if (displacement.rank() == 0) {
+      throw InvalidRequest("a displacement of rank 0 has no gradient: P is 0 or 1");
+    }
     if (a.isEmpty() || b.isEmpty()) return detail::withoutGradient(velocities[0].cols());
     detail::PlacedGroup placed_a(a, poses_a, request.contact);
     detail::PlacedGroup placed_b(b, poses_b, request.contact);

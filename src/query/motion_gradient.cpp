@@ -37,11 +37,7 @@ void validateVelocities(const MemberVelocities& velocities, std::size_t members)
   }
 }
 
-void validateGradient(const GaussianDisplacement& displacement,
-                      const MotionGradientRequest& request) {
-  if (displacement.rank() == 0) {
-    throw InvalidRequest("a displacement of rank 0 has no gradient: P is 0 or 1");
-  }
+void validateGradient(const MotionGradientRequest& request) {
   if (request.lines < 2) {
     throw InvalidRequest("a gradient takes 2 lines at least, not " + std::to_string(request.lines));
   }

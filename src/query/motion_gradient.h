@@ -10,8 +10,7 @@ namespace fcl_prob::detail {
 
 /// \throws InvalidRequest
 void validateVelocities(const MemberVelocities& velocities, std::size_t members);
-void validateGradient(const GaussianDisplacement& displacement,
-                      const MotionGradientRequest& request);
+void validateGradient(const MotionGradientRequest& request);
 
 /// Its clock runs from here on.
 LineDraws drawsOf(const MotionGradientRequest& request);

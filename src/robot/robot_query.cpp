@@ -10,10 +10,12 @@
 #include "gaussian/number_text.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
+#include "query/motion_gradient.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
+#include "robot/obstacle_gradient.h"
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
 #include "robot/swept_motion.h"
@@ -24,6 +26,12 @@ namespace {
 using detail::Ball;
 using detail::FarBodies;
 using detail::PlacedBody;
+
+// A body that is no likelier to touch an obstacle has no part in a gradient.
+constexpr double kNoGradient = 1e-12;
+
+// Between the seeds of obstacles: 2⁶⁴ over the golden ratio.
+constexpr std::uint64_t kSeedsApart = 0x9e3779b97f4a7c15;
 
 void addUp(const std::vector<FarBodies>& far, RobotResult& result) {
   for (const FarBodies& of_one : far) {
@@ -209,6 +217,45 @@ struct RobotQuery::Implementation {
     return detail::probablyAny(scenes, geometries, balls, threshold, chance, request);
   }
 
+  /// The bodies that may touch an obstacle, relative to where that is by then.
+  std::vector<detail::WaypointBody> nearBodies(const std::vector<Eigen::VectorXd>& waypoints,
+                                               std::size_t index) const {
+    const Obstacle& obstacle = obstacles[index];
+    const ObstacleState state = detail::stateAt(obstacle, 0);
+    const detail::Ball around = obstacle_balls[index].placed(state.pose);
+    const auto offsets = detail::offsetsSinceFirst(obstacle, waypoints.size());
+    std::vector<detail::WaypointBody> near;
+    for (std::size_t k = 0; k < waypoints.size(); ++k) {
+      for (PlacedBody one : placed(waypoints[k])) {
+        if (!meets(one.body, index)) continue;
+        one.pose.translation() -= offsets[k];
+        const detail::Ball ball = balls[one.body].placed(one.pose);
+        if (detail::farContactUpper(ball, around, state.displacement) <= kNoGradient) continue;
+        near.push_back({k, one.body, one.pose, -offsets[k]});
+      }
+    }
+    return near;
+  }
+
+  JointGradient gradient(const std::vector<Eigen::VectorXd>& waypoints,
+                         const MotionGradientRequest& request) const {
+    const Eigen::Index joints = waypoints[0].size();
+    const auto count = static_cast<Eigen::Index>(waypoints.size());
+    std::vector<MotionGradient> parts;
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      const auto near = nearBodies(waypoints, i);
+      if (near.empty()) continue;
+      MotionGradientRequest of_one = request;
+      of_one.seed += i * kSeedsApart;
+      if (request.time_limit) {
+        of_one.time_limit = *request.time_limit / static_cast<double>(obstacles.size());
+      }
+      parts.push_back(detail::obstacleGradient(robot, waypoints, near, obstacles[i].geometry,
+                                               detail::stateAt(obstacles[i], 0), of_one));
+    }
+    return detail::anyOfGradients(parts, joints, count);
+  }
+
   /// Errors that are not: each obstacle at each waypoint.
   RobotResult ofWaypoints(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
                           const ProbabilityRequest& request) const {
@@ -314,6 +361,13 @@ ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& wa
     throw InvalidRequest("a probable decision has its own method, not " + toString(request.method));
   }
   return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error, request);
+}
+
+JointGradient RobotQuery::gradient(const std::vector<Eigen::VectorXd>& waypoints,
+                                   const MotionGradientRequest& request) const {
+  implementation_->validate(waypoints, ProbabilityRequest());
+  detail::validateGradient(request);
+  return implementation_->gradient(waypoints, request);
 }
 
 std::vector<RobotResult> RobotQuery::byBody(const std::vector<Eigen::VectorXd>& waypoints,

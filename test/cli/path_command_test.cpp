@@ -43,6 +43,24 @@ TEST_CASE("path answers the motion that the project ships", "[cli]") {
   CHECK(any.at("worst").at("lower").get<double>() <= any.at("upper").get<double>());
 }
 
+TEST_CASE("path tells how P changes with the joints", "[cli]") {
+  const json answered = answerOf({"--threshold", "0.9999", "--gradient"});
+  const json& gradient = answered.at("gradient");
+  CHECK(gradient.at("lines").get<int>() >= 4096);
+  const double p = gradient.at("probability").get<double>();
+  const double doubt = 5.0 * gradient.at("standard_error").get<double>();
+  CHECK(p + doubt >= answered.at("lower").get<double>());
+  CHECK(p - doubt <= answered.at("upper").get<double>());
+  for (const json& joint : gradient.at("joints")) {
+    CHECK(joint.at("gradient").size() == answered.at("waypoints").get<std::size_t>());
+    CHECK(joint.at("standard_error").size() == joint.at("gradient").size());
+  }
+  const TemporaryFolder folder;
+  const CommandResult swept =
+      runCommand({"path", "--scene", dataFile("arm_path.json"), "--between", "--gradient"}, folder);
+  CHECK(swept.refused());
+}
+
 TEST_CASE("path answers for the time between waypoints", "[cli]") {
   const json some = answerOf({"--threshold", "0.9999"});
   CHECK(some.at("between").is_null());

@@ -219,6 +219,25 @@ def test_probable_decisions_are_told_from_certain_ones():
 
 
 @needs_robot
+def test_gradients_for_joints_go_with_differences():
+    query, waypoints = fcl_prob.load_robot_scene(DATA / "arm_path.json")
+    waypoints = np.array(waypoints)
+    found = query.gradient(waypoints, lines=20000, seed=2)
+    assert found.gradient.shape == found.gradient_standard_error.shape == waypoints.shape
+    assert found.lines >= 20000
+    # All waypoints moved at once, along the joint that matters most.
+    joint = int(np.argmax(abs(found.gradient.sum(axis=0))))
+    step = np.zeros(waypoints.shape[1])
+    step[joint] = 2e-3
+    behind, before = (query.motion(w, relative_tolerance=1e-3) for w in (waypoints + step, waypoints - step))
+    slope = (float(behind) - float(before)) / 4e-3
+    error = np.linalg.norm(found.gradient_standard_error[:, joint])
+    assert abs(found.gradient[:, joint].sum() - slope) < 5 * error + 0.05 * abs(slope)
+    with pytest.raises(fcl_prob.InvalidRequest, match="lines"):
+        query.gradient(waypoints, lines=1)
+
+
+@needs_robot
 def test_attached_objects_and_self_collision():
     robot = fcl_prob.Robot(DATA / "arm.urdf")
     rod = fcl_prob.Cylinder(0.01, 0.3)

@@ -54,6 +54,7 @@ from ._errors import (
 if TYPE_CHECKING:
     from ._io import load_mesh
     from ._robot import (
+        JointGradient,
         ProbableResult,
         Robot,
         RobotQuery,
@@ -81,6 +82,7 @@ __all__ = [
     "InvalidGeometry",
     "InvalidPose",
     "InvalidRequest",
+    "JointGradient",
     "Mesh",
     "OpenMesh",
     "Plane",
@@ -105,6 +107,7 @@ __all__ = [
 # Each in an extension module of its own, with libraries of its own.
 _LATER = {
     "load_mesh": "_io",
+    "JointGradient": "_robot",
     "ProbableResult": "_robot",
     "Robot": "_robot",
     "RobotQuery": "_robot",

@@ -135,6 +135,27 @@ class RobotQuery:
         seed: int = 1,
         on_progress: Optional[QueryProgress] = None,
     ) -> ProbableResult: ...
+    def gradient(
+        self,
+        waypoints: Union[Numbers, Sequence[Values]],
+        *,
+        lines: int = 4096,
+        seed: int = 1,
+        threads: int = 1,
+        time_limit: Optional[float] = None,
+    ) -> JointGradient: ...
+
+class JointGradient:
+    @property
+    def probability(self) -> float: ...
+    @property
+    def standard_error(self) -> float: ...
+    @property
+    def gradient(self) -> FloatArray: ...
+    @property
+    def gradient_standard_error(self) -> FloatArray: ...
+    @property
+    def lines(self) -> int: ...
 
 class ProbableResult:
     @property

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Gradients for joints against central differences of certified answers.
+#include "arm_motions.h"
+#include "fcl_prob/exceptions.h"
+#include "mesh_shapes.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob_test;
+
+namespace {
+
+using Waypoints = std::vector<Eigen::VectorXd>;
+
+double certified(const RobotQuery& query, const Waypoints& waypoints) {
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::interval;
+  request.relative_tolerance = 0.0;
+  request.absolute_tolerance = 1e-4;
+  return query.motion(waypoints, ErrorsOverTime::persistent, request).any.middle();
+}
+
+void checkDifferences(const RobotQuery& query, const Waypoints& waypoints, double step) {
+  MotionGradientRequest request;
+  request.lines = 20'000;
+  const JointGradient found = query.gradient(waypoints, request);
+  const double p = certified(query, waypoints);
+  CAPTURE(found.probability, found.standard_error, p);
+  CHECK(std::fabs(found.probability - p) < 5.0 * found.standard_error + 1e-4);
+  CHECK(p > 0.01);
+  const double largest = found.gradient.cwiseAbs().maxCoeff();
+  CHECK(largest > 0.1);
+  for (Eigen::Index k = 0; k < found.gradient.cols(); ++k) {
+    for (Eigen::Index joint = 0; joint < found.gradient.rows(); ++joint) {
+      Waypoints before = waypoints;
+      Waypoints behind = waypoints;
+      before[static_cast<std::size_t>(k)][joint] -= step;
+      behind[static_cast<std::size_t>(k)][joint] += step;
+      const double slope = (certified(query, behind) - certified(query, before)) / (2.0 * step);
+      CAPTURE(k, joint, slope, found.gradient(joint, k), found.gradient_standard_error(joint, k));
+      CHECK(std::fabs(found.gradient(joint, k) - slope) <
+            5.0 * found.gradient_standard_error(joint, k) + 1e-4 / step + 0.02 * largest);
+    }
+  }
+}
+
+Eigen::VectorXd near(const Robot& arm, double turn) {
+  return arm.values(
+      {{"turn", turn}, {"shoulder", 0.25}, {"elbow", 0.2}, {"roll", 0.4}, {"grip", 0.02}});
+}
+
+}  // namespace
+
+TEST_CASE("joint gradients of a state and of waypoints agree with central differences", "[slow]") {
+  const Robot arm = shippedArm();
+  const RobotQuery query(arm, ballAndBox());
+  checkDifferences(query, {near(arm, 0.6)}, 5e-3);
+  checkDifferences(query, {near(arm, 0.8), near(arm, -0.25)}, 5e-3);
+}
+
+TEST_CASE("joint gradients with a mixture, an obstacle that moves and one that is certain") {
+  const Robot arm = shippedArm();
+  std::vector<Obstacle> obstacles = ballAndBox();
+  obstacles[0].displacement = GaussianMixture(
+      {{0.3, sigma(0.03, 0.02, 0.04)}, {0.7, sigma(0.02, 0.03, 0.02).withMean({0.05, 0.0, 0.02})}});
+  obstacles[1].over_time = {{at(0.5, -0.45, 0.2), sigma(0.02, 0.05, 0.01)},
+                            {at(0.45, -0.35, 0.22), sigma(0.02, 0.05, 0.01)}};
+  obstacles.push_back(
+      {"far", std::make_shared<fcl::Boxd>(0.1, 0.1, 0.1), at(5.0, 0.0, 0.0), sigma(0, 0, 0)});
+  const RobotQuery query(arm, obstacles);
+  checkDifferences(query, {near(arm, 0.5), near(arm, -0.4)}, 5e-3);
+}
+
+TEST_CASE("joint gradients of a robot far from everything are zero") {
+  const Robot arm = shippedArm();
+  std::vector<Obstacle> obstacles = ballAndBox();
+  for (Obstacle& obstacle : obstacles) obstacle.pose.translation().x() += 10.0;
+  const RobotQuery query(arm, obstacles);
+  const JointGradient found = query.gradient({near(arm, 0.3), near(arm, 0.2)});
+  CHECK(found.probability == 0.0);
+  CHECK(found.lines == 0);
+  CHECK(found.gradient.rows() == static_cast<Eigen::Index>(arm.joints().size()));
+  CHECK(found.gradient.cols() == 2);
+  CHECK(found.gradient.isZero(0.0));
+}
+
+TEST_CASE("joint gradients refuse what has none") {
+  const Robot arm = shippedArm();
+  std::vector<Obstacle> obstacles = ballAndBox();
+  const Eigen::VectorXd values = near(arm, 0.35);
+  MotionGradientRequest none;
+  none.lines = 0;
+  CHECK_THROWS_AS(RobotQuery(arm, obstacles).gradient({values}, none), InvalidRequest);
+  CHECK_THROWS_AS(RobotQuery(arm, obstacles).gradient({}), InvalidRequest);
+  CHECK_THROWS_AS(RobotQuery(arm, obstacles).gradient({Eigen::VectorXd(values.head(2))}),
+                  InvalidRequest);
+  obstacles[0].displacement = TruncatedGaussian(sigma(0.03, 0.02, 0.04), 3.0);
+  CHECK_THROWS_AS(RobotQuery(arm, obstacles).gradient({values}), InvalidRequest);
+}
