@@ -20,6 +20,10 @@ struct CertifiedPlanningRequest {
   /// in (0, 1]; not set: it may be anything.
   std::optional<double> motion_threshold;
 
+  /// Where a path is not below that, its waypoints are moved along the gradient of P (NLopt) before
+  /// another path is looked for.
+  bool descend = true;
+
   PlanningRequest planning;
 };
 
@@ -29,6 +33,9 @@ struct CertifiedPlan {
   /// What every state of the path is below: the threshold of the request, halved for each attempt
   /// whose whole motion was not below `motion_threshold`.
   double state_threshold = 0.0;
+
+  /// The path was moved along the gradient of P to get there.
+  bool descended = false;
 
   /// Unless solved, these are empty. All are of the states of
   /// interpolated(path.waypoints, largest_step), certified.

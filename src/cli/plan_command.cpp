@@ -24,6 +24,7 @@ struct PlanArguments {
   std::optional<std::size_t> max_states;
   std::optional<std::uint64_t> seed;
   bool not_shortened = false;
+  bool no_descent = false;
   bool json = false;
   std::string output;
   std::string csv;
@@ -63,6 +64,7 @@ CertifiedPlanningRequest requestOf(const RobotScene& scene, const PlanArguments&
   if (scene.plan->max_states) request.planning.max_states = *scene.plan->max_states;
   request.planning.time_limit = arguments.time_limit;
   request.planning.shorten = !arguments.not_shortened;
+  request.descend = !arguments.no_descent;
   return request;
 }
 
@@ -118,6 +120,8 @@ void addPlanCommand(CLI::App& app, int& exit_code) {
   command.add_option("--seed", arguments->seed, "The same seed gives the same path");
   command.add_option("--max-states", arguments->max_states, "States to ask for at most");
   command.add_option("--time-limit", arguments->time_limit, "Seconds, of the whole plan");
+  command.add_flag("--no-descent", arguments->no_descent,
+                   "Do not move a path along the gradient of P for --motion-threshold");
   command.add_flag("--not-shortened", arguments->not_shortened, "The path as it is found");
   command.add_flag("--json", arguments->json, "One JSON object, which path reads, instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");

@@ -29,6 +29,7 @@ ordered_json planJson(const CertifiedPlan& plan, const Robot& robot) {
   json["length"] = plan.path.length;
   json["planned_length"] = plan.path.planned_length;
   json["shortened"] = plan.path.shortened;
+  json["descended"] = plan.descended;
   json["largest"] = {
       {"lower", plan.largest.lower}, {"upper", plan.largest.upper}, {"state", plan.likeliest}};
   json["motion"] = {{"lower", plan.motion.lower}, {"upper", plan.motion.upper}};
@@ -59,6 +60,7 @@ std::string planText(const CertifiedPlan& plan, const Robot& robot) {
   text += std::to_string(plan.path.waypoints.size()) + " waypoints, length " +
           numberText(plan.path.length, 6) + " in joint space, " +
           numberText(plan.path.planned_length, 6) + " before it was shortened\n";
+  if (plan.descended) text += "moved along the gradient of P to get below its threshold\n";
   text += "largest P of a state: certainly in " + intervalText(plan.largest) + "\n";
   text += "P of the whole motion, the same errors all along: certainly in " +
           intervalText(plan.motion) + "\n";

@@ -24,6 +24,7 @@ const std::vector<LineStretch>& LineCrossings::on(const Eigen::Vector3d& origin,
   origin_ = origin;
   direction_ = direction;
   stretches_.clear();
+  curved_.clear();
   if (pair_.a.tree->isEmpty() || pair_.b.tree->isEmpty()) return stretches_;
   stack_.assign(1, {0, 0});
   while (!stack_.empty()) {
@@ -32,12 +33,35 @@ const std::vector<LineStretch>& LineCrossings::on(const Eigen::Vector3d& origin,
     const auto in_box = clipped(obstacleBox(pair_, nodes));
     if (!in_box || isKnown(*in_box)) continue;
     if (areLeaves(pair_, nodes)) {
-      if (const auto stretch = clipped(nodes)) add(*stretch);
+      clip(nodes);
       continue;
     }
     for (const NodePair& child : childrenOf(pair_, nodes)) stack_.push_back(child);
   }
+  clipCurved();
   return stretches_;
+}
+
+void LineCrossings::clip(NodePair leaves) {
+  const SlabArrays slabs = obstacles_.slabsOnce(leaves);
+  const auto stretch = clippedBySlabs(slabs, leaves);
+  if (!stretch) return;
+  if (slabs.outer_only) {
+    curved_.push_back(*stretch);
+  } else {
+    add(*stretch);
+  }
+}
+
+// The longest first: of the others, which take long to clip, most are then within known stretches.
+void LineCrossings::clipCurved() {
+  std::sort(curved_.begin(), curved_.end(), [](const LineStretch& x, const LineStretch& y) {
+    return x.to.at - x.from.at > y.to.at - y.from.at;
+  });
+  for (const LineStretch& within : curved_) {
+    if (isKnown(within)) continue;
+    if (const auto stretch = clippedBySupport(within)) add(*stretch);
+  }
 }
 
 std::optional<LineStretch> LineCrossings::clipped(const NodeBox& box) const {
@@ -55,12 +79,6 @@ std::optional<LineStretch> LineCrossings::clipped(const NodeBox& box) const {
   }
   if (!(lo <= hi)) return std::nullopt;
   return LineStretch{{lo}, {hi}};
-}
-
-std::optional<LineStretch> LineCrossings::clipped(NodePair leaves) {
-  const SlabArrays slabs = obstacles_.slabsOnce(leaves);
-  const auto stretch = clippedBySlabs(slabs, leaves);
-  return stretch && slabs.outer_only ? clippedBySupport(*stretch) : stretch;
 }
 
 std::optional<LineStretch> LineCrossings::clippedBySlabs(const SlabArrays& slabs,

@@ -39,7 +39,8 @@ class LineCrossings {
 
  private:
   std::optional<LineStretch> clipped(const NodeBox& box) const;
-  std::optional<LineStretch> clipped(NodePair leaves);
+  void clip(NodePair leaves);
+  void clipCurved();
   std::optional<LineStretch> clippedBySlabs(const SlabArrays& slabs, NodePair leaves) const;
   std::optional<LineStretch> clippedBySupport(LineStretch within) const;
   std::optional<double> placeInside(const SupportObstacle& obstacle, double lo, double hi) const;
@@ -54,6 +55,7 @@ class LineCrossings {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_ = Eigen::Vector3d::UnitX();
   std::vector<LineStretch> stretches_;
+  std::vector<LineStretch> curved_;  ///< around what curved C-obstacles may have of the line
   std::vector<NodePair> stack_;
 };
 

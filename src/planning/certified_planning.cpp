@@ -8,6 +8,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
+#include "planning/motion_descent.h"
 #include "planning/state_screen.h"
 #include "request/refuse_band.h"
 
@@ -76,10 +77,11 @@ class CertifiedPlanner {
       plan.path = planMotion(query_.robot(), testOf(state), start, goal, remaining(states));
       states = plan.path.states += states;
       if (plan.path.status != PlanningStatus::solved) return plan;
-      if (certifyMotion(plan)) {
+      if (certifyMotion(plan) || descend(plan, state)) {
         certifyStates(plan);
         return plan;
       }
+      states = plan.path.states;
       *state.threshold *= 0.5;
       if (states >= request_.planning.max_states) break;
     }
@@ -140,6 +142,51 @@ class CertifiedPlanner {
     motion.max_cells *= kCellsOfMotion;
     plan.motion = query_.motion(states, ErrorsOverTime::persistent, motion).any;
     return !request_.motion_threshold || plan.motion.upper < *request_.motion_threshold;
+  }
+
+  /// Moves the path until P of the whole motion is below its threshold, if its states allow that.
+  bool descend(CertifiedPlan& plan, const ProbabilityRequest& state) const {
+    if (!request_.descend) return false;
+    detail::DescentRequest descent;
+    descent.threshold = *request_.motion_threshold;
+    descent.largest_step = request_.planning.largest_step;
+    descent.moving = movingJoints();
+    descent.seed = request_.planning.seed;
+    descent.go_on = [this, &plan] { return mayGoOn(plan.path.states); };
+    const auto moved = detail::descended(query_, plan.path.waypoints, descent);
+    if (!moved) return false;
+    const StateTest allowed = testOf(state);
+    for (const Eigen::VectorXd& values : interpolated(*moved, request_.planning.largest_step)) {
+      if (plan.path.states >= request_.planning.max_states || !mayGoOn(plan.path.states)) {
+        return false;
+      }
+      ++plan.path.states;
+      if (!allowed(values)) return false;
+    }
+    plan.path.waypoints = *moved;
+    plan.path.length = jointLength(*moved);
+    plan.descended = true;
+    return certifyMotion(plan);
+  }
+
+  std::vector<Eigen::Index> movingJoints() const {
+    const auto& names = request_.planning.joints;
+    const auto& joints = query_.robot().joints();
+    std::vector<Eigen::Index> moving;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      if (names.empty() || std::find(names.begin(), names.end(), joints[i].name) != names.end()) {
+        moving.push_back(static_cast<Eigen::Index>(i));
+      }
+    }
+    return moving;
+  }
+
+  bool mayGoOn(std::size_t states) const {
+    if (request_.planning.time_limit && secondsPassed() >= *request_.planning.time_limit) {
+      return false;
+    }
+    return !request_.planning.on_progress ||
+           request_.planning.on_progress({states, secondsPassed(), true});
   }
 
   void certifyStates(CertifiedPlan& plan) const {

@@ -162,9 +162,11 @@ TEST_CASE("a whole motion stays below a threshold of its own, or there is no pla
   request.planning.max_states = 4'000;
   const double without = scene.plan(request).motion.upper;
   request.motion_threshold = 0.8 * without;
+  request.descend = false;
   const CertifiedPlan plan = scene.plan(request);
   REQUIRE(plan.path.status == PlanningStatus::solved);
   CHECK(plan.motion.upper < 0.8 * without);
+  CHECK_FALSE(plan.descended);
   CHECK(plan.state_threshold < 0.05);
   CHECK(plan.largest.upper <= plan.state_threshold);
   request.motion_threshold = 1e-12;
@@ -172,6 +174,33 @@ TEST_CASE("a whole motion stays below a threshold of its own, or there is no pla
   const CertifiedPlan none = scene.plan(request);
   CHECK(none.path.status != PlanningStatus::solved);
   CHECK(none.path.waypoints.empty());
+}
+
+TEST_CASE("a path is moved along the gradient until its motion is below the threshold", "[slow]") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(1);
+  const CertifiedPlan before = scene.plan(request);
+  REQUIRE(before.path.status == PlanningStatus::solved);
+  request.motion_threshold = 0.5 * before.motion.lower;
+  const CertifiedPlan plan = scene.plan(request);
+  REQUIRE(plan.path.status == PlanningStatus::solved);
+  CAPTURE(before.motion.lower, plan.motion.upper, before.path.length, plan.path.length);
+  CHECK(plan.descended);
+  CHECK(plan.state_threshold == 0.05);
+  CHECK(plan.motion.upper < *request.motion_threshold);
+  CHECK(plan.largest.upper < 0.05);
+  CHECK(plan.path.waypoints.front() == scene.start);
+  CHECK(plan.path.waypoints.back() == scene.goal);
+  CHECK(plan.path.length == jointLength(plan.path.waypoints));
+  // Not far round: the same path, a little farther out.
+  CHECK(plan.path.length < 1.2 * before.path.length);
+  for (const Eigen::VectorXd& values : plan.path.waypoints) {
+    CHECK(scene.query.robot().isWithinLimits(values));
+  }
+  const auto states = interpolated(plan.path.waypoints, request.planning.largest_step);
+  const Counted counted = countHits(scene.query, states, 2'000);
+  const double p = plan.motion.middle();
+  CHECK(std::fabs(counted.any / 2'000.0 - p) < 5.0 * std::sqrt(p / 2'000.0) + plan.motion.width());
 }
 
 TEST_CASE("certified plans refuse what makes no sense") {

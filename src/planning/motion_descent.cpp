@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "planning/motion_descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlopt.hpp>
+#include <stdexcept>
+
+#include "fcl_prob/motion_planning.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+using Waypoints = std::vector<Eigen::VectorXd>;
+
+// The path is divided into so many edges at least.
+constexpr double kLeastEdges = 8.0;
+
+// Of the threshold: what the estimate is to come to, and below which it is no longer told apart.
+constexpr double kAim = 0.8;
+constexpr double kNoDifference = 1e-3;
+
+constexpr std::size_t kLines = 512;
+constexpr int kMostDescentSteps = 30;
+constexpr double kLittleDescent = 1e-3;
+
+/// A state of the motion: on the edge behind waypoint `from`, at `part` of it.
+struct StateOnPath {
+  std::size_t from;
+  double part;
+};
+
+class MotionDescent {
+ public:
+  MotionDescent(const RobotQuery& query, const Waypoints& path, const DescentRequest& request)
+      : query_(query), request_(request), path_(divided(path)) {
+    for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+      const double far = (path_[i + 1] - path_[i]).cwiseAbs().maxCoeff();
+      const double steps = std::max(1.0, std::ceil(far / request.largest_step));
+      for (double k = 0.0; k < steps; k += 1.0) states_.push_back({i, k / steps});
+    }
+  }
+
+  std::optional<Waypoints> run() {
+    if (path_.size() < 3 || request_.moving.empty()) return std::nullopt;
+    const auto count = static_cast<unsigned>(variables());
+    nlopt::opt optimiser(nlopt::LD_MMA, count);
+    setLimits(optimiser);
+    optimiser.set_min_objective(&MotionDescent::length, this);
+    optimiser.add_inequality_constraint(&MotionDescent::excess, this, 0.0);
+    optimiser.set_maxeval(kMostDescentSteps);
+    optimiser.set_ftol_rel(kLittleDescent);
+    std::vector<double> x(count);
+    write(path_, x);
+    try {
+      double least = 0.0;
+      optimiser.optimize(x, least);
+    } catch (const nlopt::forced_stop&) {
+    } catch (const nlopt::roundoff_limited&) {
+    } catch (const std::runtime_error&) {  // of the optimiser: what was found so far counts
+    }
+    return best_;
+  }
+
+ private:
+  Waypoints divided(const Waypoints& path) const {
+    const double longest = jointLength(path) / kLeastEdges;
+    if (!(longest > 0.0)) return path;
+    Waypoints finer{path.front()};
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Eigen::VectorXd along = path[i] - path[i - 1];
+      const double pieces = std::max(1.0, std::ceil(along.norm() / longest - 1e-9));
+      for (double k = 1.0; k < pieces; k += 1.0) finer.push_back(path[i - 1] + k / pieces * along);
+      finer.push_back(path[i]);
+    }
+    return finer;
+  }
+
+  std::size_t variables() const { return (path_.size() - 2) * request_.moving.size(); }
+
+  void setLimits(nlopt::opt& optimiser) const {
+    std::vector<double> lower, upper;
+    for (std::size_t i = 1; i + 1 < path_.size(); ++i) {
+      for (const Eigen::Index joint : request_.moving) {
+        const RobotJoint& limits = query_.robot().joints()[static_cast<std::size_t>(joint)];
+        lower.push_back(limits.lower);
+        upper.push_back(limits.upper);
+      }
+    }
+    optimiser.set_lower_bounds(lower);
+    optimiser.set_upper_bounds(upper);
+  }
+
+  void write(const Waypoints& path, std::vector<double>& x) const {
+    auto next = x.begin();
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+      for (const Eigen::Index joint : request_.moving) *next++ = path[i][joint];
+    }
+  }
+
+  Waypoints pathOf(const std::vector<double>& x) const {
+    Waypoints path = path_;
+    auto next = x.begin();
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+      for (const Eigen::Index joint : request_.moving) path[i][joint] = *next++;
+    }
+    return path;
+  }
+
+  void writeGradient(const Waypoints& slopes, std::vector<double>& gradient) const {
+    if (!gradient.empty()) write(slopes, gradient);
+  }
+
+  /// The sum of the squares of the edges.
+  static double length(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
+    const auto& self = *static_cast<const MotionDescent*>(data);
+    const Waypoints path = self.pathOf(x);
+    Waypoints slopes(path.size(), Eigen::VectorXd::Zero(path[0].size()));
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Eigen::VectorXd edge = path[i + 1] - path[i];
+      sum += edge.squaredNorm();
+      slopes[i] -= 2.0 * edge;
+      slopes[i + 1] += 2.0 * edge;
+    }
+    self.writeGradient(slopes, gradient);
+    return sum;
+  }
+
+  /// The logarithm of P over what it is to come to; nothing allows more than 0.
+  static double excess(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
+    auto& self = *static_cast<MotionDescent*>(data);
+    if (self.request_.go_on && !self.request_.go_on()) throw nlopt::forced_stop();
+    const Waypoints path = self.pathOf(x);
+    Waypoints states;
+    for (const StateOnPath& state : self.states_) {
+      states.push_back(path[state.from] + state.part * (path[state.from + 1] - path[state.from]));
+    }
+    states.push_back(path.back());
+    MotionGradientRequest lines;
+    lines.lines = kLines;
+    lines.seed = self.request_.seed;
+    const JointGradient found = self.query_.gradient(states, lines);
+    const double aim = kAim * self.request_.threshold;
+    const double p = found.probability + kNoDifference * aim;
+    self.note(path, p);
+    Waypoints slopes(path.size(), Eigen::VectorXd::Zero(path[0].size()));
+    for (std::size_t k = 0; k < self.states_.size(); ++k) {
+      const StateOnPath& state = self.states_[k];
+      const Eigen::VectorXd slope = found.gradient.col(static_cast<Eigen::Index>(k)) / p;
+      slopes[state.from] += (1.0 - state.part) * slope;
+      slopes[state.from + 1] += state.part * slope;
+    }
+    self.writeGradient(slopes, gradient);
+    return std::log(p / aim);
+  }
+
+  /// The shortest path that came to what was aimed at.
+  void note(const Waypoints& path, double probability) {
+    if (probability > kAim * request_.threshold) return;
+    if (best_ && jointLength(*best_) <= jointLength(path)) return;
+    best_ = path;
+  }
+
+  const RobotQuery& query_;
+  const DescentRequest& request_;
+  Waypoints path_;
+  std::vector<StateOnPath> states_;
+  std::optional<Waypoints> best_;
+};
+
+}  // namespace
+
+std::optional<Waypoints> descended(const RobotQuery& query, const Waypoints& path,
+                                   const DescentRequest& request) {
+  return MotionDescent(query, path, request).run();
+}
+
+}  // namespace fcl_prob::detail
