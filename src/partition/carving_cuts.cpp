@@ -95,8 +95,27 @@ void CarvingEngine::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
   split(cell, list);
 }
 
-// An obstacle that meets a cell in no more than the layer between its inner and outer planes.
+// Whether anything of a body is within all outer planes of an obstacle. None of them need be beyond
+// the body, as one has to be for refine() to see that.
+bool CarvingEngine::mayMeet(const CellPolytope& body, const List& list, std::size_t entry) {
+  const List::Entry& planes = list.entries[entry];
+  allowSlivers(body, planes.last - planes.first);
+  CellPolytope rest = body;
+  for (std::size_t p = planes.first; p < planes.last; ++p) {
+    const ObstaclePlane& plane = list.planes[p];
+    cutter_.cut(rest, plane.n, plane.outer + 2 * CellPolytope::kCutLayer, &rest, nullptr);
+    if (rest.empty()) return false;
+  }
+  return true;
+}
+
+// An obstacle that does not meet a cell, or in no more than the layer between its inner and outer
+// planes. Of a cell with such layers no point tells whether the solids overlap.
 void CarvingEngine::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
+  if (!mayMeet(cell.body, list, entry)) {
+    list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
+    return;
+  }
   CellPolytope rest = cell.body;
   CarvedCell outside;
   for (std::size_t p = list.entries[entry].first; p < list.entries[entry].last; ++p) {

@@ -33,10 +33,6 @@ constexpr double kSettledFloor = 1e-4;
 constexpr double kLittleShare = 0.1;
 constexpr double kLayerAccuracy = 0.3;
 
-// A cut of a polytope whose vertices are within kSnap of its planes moves no more than a layer as
-// thick as this along its faces.
-constexpr double kCutLayer = 16 * CellPolytope::kSnap;
-
 bool hasSmallerGap(const CarvedCell& x, const CarvedCell& y) { return x.gap() < y.gap(); }
 
 double settledAccuracy(const ProbabilityRequest& request) {
@@ -52,7 +48,7 @@ std::size_t memoryOf(const CarvedCell& cell) {
 
 bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {
   for (; layers; layers = layers->before.get()) {
-    if (!(layers->n.dot(point) > layers->outer + kCutLayer)) return false;
+    if (!(layers->n.dot(point) > layers->outer + CellPolytope::kCutLayer)) return false;
   }
   return true;
 }
@@ -206,7 +202,7 @@ Bounds CarvingEngine::openMass(const CellPolytope& body, double parent) const {
 void CarvingEngine::allowSlivers(const CellPolytope& body, std::size_t cuts) {
   const double size = body.diameter();
   const double nearest = body.nearest();
-  slivers_ += static_cast<double>(cuts) * kCutLayer * 4 * size * size * 0.07 *
+  slivers_ += static_cast<double>(cuts) * CellPolytope::kCutLayer * 4 * size * size * 0.07 *
               std::exp(-0.5 * nearest * nearest);
 }
 

@@ -116,6 +116,7 @@ class CarvingEngine {
   void cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list, const ObstaclePlane& plane,
               Rest& rest);
   bool clip(const CellPolytope& body, const List& list, std::size_t entry, CellPolytope& inside);
+  bool mayMeet(const CellPolytope& body, const List& list, std::size_t entry);
   void dropEntry(CarvedCell& cell, List& list, std::size_t entry);
   void split(CarvedCell& cell, const std::shared_ptr<List>& list);
   void settle(const Bounds& mass);

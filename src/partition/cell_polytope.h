@@ -18,6 +18,10 @@ class CellPolytope {
   /// Vertices closer to a plane than this count as in it.
   static constexpr double kSnap = 1e-13;
 
+  /// A cut of a polytope whose vertices are within kSnap of its planes moves no more than a layer
+  /// as thick as this along its faces.
+  static constexpr double kCutLayer = 16 * kSnap;
+
   /// A face has a plane if it is wider.
   static constexpr double kThinFace = 1e-6;
 

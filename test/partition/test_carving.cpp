@@ -303,6 +303,32 @@ TEST_CASE("carved intervals hold sampled probabilities on 5,000 scenes",
   checkScenes(5'000, 3'000, 12);
 }
 
+// A link that fits into an arm: what touches nothing may be contained, and a point of each such
+// cell has to tell.
+TEST_CASE("carved cells of solids are hardly more than those of surfaces", "[carving]") {
+  RandomBodies random(21);
+  for (int i = 0; i < 12; ++i) {
+    const TriangleMesh link = hullMesh(random.onSphere(60, 0.12));
+    PartitionQuery query(link, bumpyMesh(0.5, 24, 32, static_cast<std::uint64_t>(i)));
+    query.pose_a.linear() = random.rotation();
+    query.pose_b.linear() = random.rotation();
+    query.pose_b.translation() = random.uniform(0.6, 0.8) * random.direction();
+    const auto displacement = fcl_prob::GaussianDisplacement::fromStandardDeviations(
+        {random.uniform(0.05, 0.2), random.uniform(0.05, 0.2), random.uniform(0.05, 0.2)},
+        random.quaternion());
+    const fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
+    const ProbabilityResult surfaces = query.run(displacement, request);
+    query.makeSolid();
+    const ProbabilityResult solids = query.run(displacement, request);
+    CAPTURE(i, surfaces.statistics.cells, solids.statistics.cells, *surfaces.lower, *solids.upper);
+    CHECK(isCarved(surfaces));
+    CHECK(isCarved(solids));
+    CHECK(solids.status == fcl_prob::ProbabilityStatus::converged);
+    CHECK(solids.statistics.cells <= 2 * surfaces.statistics.cells);
+    CHECK(*solids.upper >= *surfaces.lower);
+  }
+}
+
 namespace {
 
 // A triangle in three, with a point of its middle pushed inwards.
