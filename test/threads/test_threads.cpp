@@ -3,12 +3,14 @@
 // All that may be called from several threads at once, in one small executable for ThreadSanitizer.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
 
 #include <thread>
 
 #include "catch.h"
 #include "fcl_prob/batch.h"
 #include "fcl_prob/group.h"
+#include "fcl_prob/pose_probability.h"
 #include "mesh_shapes.h"
 #include "random_bodies.h"
 #ifdef FCL_PROB_HAS_IO
@@ -122,6 +124,30 @@ TEST_CASE("threads share a group", "[threads]") {
   ProbabilityResult reference;
   ask(reference);
   for (const ProbabilityResult& result : results) CHECK(result.upper == reference.upper);
+}
+
+TEST_CASE("lines and evenly spread samples on two threads", "[threads]") {
+  const auto body = makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 4, 6, 1));
+  const auto ring = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5));
+  const GroupQuery group({body, std::make_shared<fcl::Sphered>(0.2)}, {ring});
+  MotionGradientRequest lines;
+  lines.lines = 600;
+  const auto gradient = [&] {
+    return group.motionGradient({at(0.7), at(-0.8)}, {at(0.0)}, displacement(), rigidMotions(2),
+                                lines);
+  };
+  const MotionGradient alone = gradient();
+  lines.threads = 2;
+  CHECK(gradient().gradient == alone.gradient);
+  const PreparedPoseQuery pose(body, ring);
+  const auto error = PoseError::fromIndependent(displacement(), 0.3 * Eigen::Matrix3d::Identity());
+  const auto estimate = [&](unsigned threads) {
+    ProbabilityResult result;
+    pose.collisionProbability(at(0.7), at(0.0), error,
+                              requestOf(ProbabilityMethod::estimate, threads), result);
+    return *result.estimate;
+  };
+  CHECK(estimate(2) == estimate(1));
 }
 
 #ifdef FCL_PROB_HAS_IO
