@@ -123,8 +123,8 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
   constexpr int kMostTimesDrawnAgain = 2;
   constexpr double kReserve = 1.1;
   std::optional<ProbabilityStatus> interrupted;
-  if (status == ProbabilityStatus::cancelled) interrupted = status;  // and not asked again
   const auto draw = [&](double count) {
+    if (status == ProbabilityStatus::cancelled) interrupted = status;  // and not asked again
     return sampler.sample(engine.openCells(), count, [&] {
       if (!interrupted) interrupted = engine.interruption();
       return interrupted.has_value();

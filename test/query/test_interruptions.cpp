@@ -4,6 +4,7 @@
 // come through, and then nothing was written.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 
@@ -317,6 +318,39 @@ TEST_CASE("a batch passes an exception of on_progress on", "[query][threads]") {
       CHECK_THROWS_AS(collisionProbabilities(query, waypoints, request), Thrown);
     }
   }
+}
+
+// Far out, where one round of samples is not enough and cells are divided again.
+TEST_CASE("an estimate that is cancelled between rounds asks no more") {
+  const fcl::Sphered ball(0.1875);
+  const fcl::Capsuled rod(0.09375, 0.1875);
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.translation() = Eigen::Vector3d(-0.5, -0.375, 0.375);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.0625, 0.1875, 0.0625});
+  int cancelled = 0;
+  for (int seed = 700; seed < 720; ++seed) {
+    for (int most = 0; most < 6; ++most) {
+      ProbabilityRequest request;
+      request.method = ProbabilityMethod::estimate;
+      request.relative_tolerance = 0.1;
+      request.absolute_tolerance = 1e-12;
+      request.max_cells = 100;
+      request.seed = static_cast<std::uint64_t>(seed);
+      int calls = 0;
+      int calls_after = 0;
+      request.on_progress = [&](const ProbabilityProgress&) {
+        calls_after += calls > most;
+        return ++calls <= most;
+      };
+      ProbabilityResult result;
+      collisionProbability(&ball, pose, &rod, fcl::Transform3d::Identity(), displacement, request,
+                           result);
+      cancelled += result.status == ProbabilityStatus::cancelled;
+      CAPTURE(seed, most, calls);
+      CHECK(calls_after == 0);
+    }
+  }
+  CHECK(cancelled > 20);
 }
 
 TEST_CASE("an interrupted query of a manager is valid, or leaves the result alone", "[query]") {
