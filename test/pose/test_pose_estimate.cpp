@@ -245,7 +245,7 @@ TEST_CASE("estimates that count are calibrated, and take less than counting at r
     request.seed = 1000;
     const auto reference = answer(query, kIdentity, pose_b, error, request);
     const double truth = *reference.estimate;
-    constexpr int kSeeds = 60;
+    constexpr int kSeeds = 40;
     double squares = 0.0, gain = 0.0;
     for (int seed = 1; seed <= kSeeds; ++seed) {
       request = poseRequest(Method::estimate, 0.005);

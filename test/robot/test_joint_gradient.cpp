@@ -20,7 +20,9 @@ double certified(const RobotQuery& query, const Waypoints& waypoints) {
   return query.motion(waypoints, ErrorsOverTime::persistent, request).any.middle();
 }
 
-void checkDifferences(const RobotQuery& query, const Waypoints& waypoints, double step) {
+/// Of the waypoints from `first` on.
+void checkDifferences(const RobotQuery& query, const Waypoints& waypoints, double step,
+                      Eigen::Index first = 0) {
   MotionGradientRequest request;
   request.lines = 20'000;
   const JointGradient found = query.gradient(waypoints, request);
@@ -30,7 +32,7 @@ void checkDifferences(const RobotQuery& query, const Waypoints& waypoints, doubl
   CHECK(p > 0.01);
   const double largest = found.gradient.cwiseAbs().maxCoeff();
   CHECK(largest > 0.1);
-  for (Eigen::Index k = 0; k < found.gradient.cols(); ++k) {
+  for (Eigen::Index k = first; k < found.gradient.cols(); ++k) {
     for (Eigen::Index joint = 0; joint < found.gradient.rows(); ++joint) {
       Waypoints before = waypoints;
       Waypoints behind = waypoints;
@@ -68,7 +70,7 @@ TEST_CASE("joint gradients with a mixture, an obstacle that moves and one that i
   obstacles.push_back(
       {"far", std::make_shared<fcl::Boxd>(0.1, 0.1, 0.1), at(5.0, 0.0, 0.0), sigma(0, 0, 0)});
   const RobotQuery query(arm, obstacles);
-  checkDifferences(query, {near(arm, 0.5), near(arm, -0.4)}, 5e-3);
+  checkDifferences(query, {near(arm, 0.5), near(arm, -0.4)}, 5e-3, 1);
 }
 
 TEST_CASE("joint gradients of a robot far from everything are zero") {
