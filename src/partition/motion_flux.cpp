@@ -62,9 +62,7 @@ class FluxScene {
         velocities_(velocities),
         origin_(a.parts[0].pose * a.tree->parts[0].origin),
         pair_(whiten(a, b, whitening_)) {
-    const auto has_solid = [](const PlacedPart& part) { return part.solid != nullptr; };
-    if (std::any_of(a.parts.begin(), a.parts.end(), has_solid) ||
-        std::any_of(b.parts.begin(), b.parts.end(), has_solid)) {
+    if (a.hasSolid() || b.hasSolid()) {
       solids_ = std::make_unique<const SolidContact>(a, b, whitening_, pair_);
     }
   }

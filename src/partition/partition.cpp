@@ -166,11 +166,6 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
   return sampled;
 }
 
-bool hasSolids(const PartitionObject& object) {
-  return std::any_of(object.parts.begin(), object.parts.end(),
-                     [](const PlacedPart& part) { return part.solid != nullptr; });
-}
-
 // Polytope cells, within what is left of the limits. The interval is that of all so far.
 bool carveInTime(const PartitionObject& a, const PartitionObject& b,
                  const GaussianDisplacement& displacement, const ProbabilityRequest& whole_request,
@@ -218,7 +213,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   }
   const QueryFrame frame = queryFrame(a, b, displacement, request);
   std::unique_ptr<SolidContact> solids;
-  if (hasSolids(a) || hasSolids(b)) {
+  if (a.hasSolid() || b.hasSolid()) {
     solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);
   }
   if (claim_observer) claim_observer->frame(frame.whitening, displacement);

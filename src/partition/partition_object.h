@@ -36,6 +36,12 @@ struct PartitionObject {
   /// no estimate may then be asked for.
   const PointMotion* motion = nullptr;
 
+  /// Whether any part is a closed mesh that counts as solid.
+  bool hasSolid() const {
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const PlacedPart& part) { return part.solid != nullptr; });
+  }
+
   bool isSwept() const {
     return std::any_of(parts.begin(), parts.end(),
                        [](const PlacedPart& part) { return part.sweep != nullptr; });

@@ -53,11 +53,6 @@ double uncountedOf(const OpenCell& open) {
   return mass.upper - mass.lower;
 }
 
-bool hasSolid(const PartitionObject& object) {
-  return std::any_of(object.parts.begin(), object.parts.end(),
-                     [](const PlacedPart& part) { return part.solid != nullptr; });
-}
-
 }  // namespace
 
 ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionObject& b,
@@ -70,7 +65,7 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
   request_.relative_tolerance = 0.0;
   request_.absolute_tolerance = 1e-15;
   request_.max_cells = std::min(most_cells_, kFirstCells);
-  if (hasSolid(a) || hasSolid(b)) {
+  if (a.hasSolid() || b.hasSolid()) {
     solids_ = std::make_unique<SolidContact>(a, b, frame_.whitening, frame_.pair);
   }
   engine_ = std::make_unique<PartitionEngine>(frame_.pair, frame_.whitening.rank(), solids_.get(),

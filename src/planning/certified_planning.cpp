@@ -9,6 +9,7 @@
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
 #include "planning/motion_descent.h"
+#include "planning/moving_joints.h"
 #include "planning/state_screen.h"
 #include "request/refuse_band.h"
 
@@ -150,7 +151,7 @@ class CertifiedPlanner {
     detail::DescentRequest descent;
     descent.threshold = *request_.motion_threshold;
     descent.largest_step = request_.planning.largest_step;
-    descent.moving = movingJoints();
+    descent.moving = detail::movingJoints(query_.robot(), request_.planning.joints);
     descent.seed = request_.planning.seed;
     descent.go_on = [this, &plan] { return mayGoOn(plan.path.states); };
     const auto moved = detail::descended(query_, plan.path.waypoints, descent);
@@ -167,18 +168,6 @@ class CertifiedPlanner {
     plan.path.length = jointLength(*moved);
     plan.descended = true;
     return certifyMotion(plan);
-  }
-
-  std::vector<Eigen::Index> movingJoints() const {
-    const auto& names = request_.planning.joints;
-    const auto& joints = query_.robot().joints();
-    std::vector<Eigen::Index> moving;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-      if (names.empty() || std::find(names.begin(), names.end(), joints[i].name) != names.end()) {
-        moving.push_back(static_cast<Eigen::Index>(i));
-      }
-    }
-    return moving;
   }
 
   bool mayGoOn(std::size_t states) const {

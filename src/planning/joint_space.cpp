@@ -10,6 +10,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
+#include "planning/moving_joints.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -98,14 +99,11 @@ void JointSpace::chooseJoints(const Robot& robot, const Eigen::VectorXd& goal) {
       throw InvalidRequest(robot.name() + " has no joint " + name + " that moves by itself");
     }
   }
+  indices_ = movingJoints(robot, request_.joints);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const auto index = static_cast<Eigen::Index>(i);
-    const auto& named = request_.joints;
-    const bool may_move =
-        named.empty() || std::find(named.begin(), named.end(), joints[i].name) != named.end();
-    if (may_move && joints[i].lower < joints[i].upper) {
-      indices_.push_back(index);
-    } else if (start_[index] != goal[index]) {
+    const bool moves = std::binary_search(indices_.begin(), indices_.end(), index);
+    if (!moves && start_[index] != goal[index]) {
       throw InvalidRequest("joint " + joints[i].name + " may not move, but is " +
                            numberText(start_[index]) + " at the start and " +
                            numberText(goal[index]) + " at the goal");

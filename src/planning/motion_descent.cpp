@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fcl_prob/motion_planning.h"
+#include "robot/waypoint_steps.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -25,22 +26,13 @@ constexpr std::size_t kLines = 512;
 constexpr int kMostDescentSteps = 30;
 constexpr double kLittleDescent = 1e-3;
 
-/// A state of the motion: on the edge behind waypoint `from`, at `part` of it.
-struct StateOnPath {
-  std::size_t from;
-  double part;
-};
-
 class MotionDescent {
  public:
   MotionDescent(const RobotQuery& query, const Waypoints& path, const DescentRequest& request)
-      : query_(query), request_(request), path_(divided(path)) {
-    for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
-      const double far = (path_[i + 1] - path_[i]).cwiseAbs().maxCoeff();
-      const double steps = std::max(1.0, std::ceil(far / request.largest_step));
-      for (double k = 0.0; k < steps; k += 1.0) states_.push_back({i, k / steps});
-    }
-  }
+      : query_(query),
+        request_(request),
+        path_(divided(path)),
+        steps_(stepsBetween(path_, request.largest_step)) {}
 
   std::optional<Waypoints> run() {
     if (path_.size() < 3 || request_.moving.empty()) return std::nullopt;
@@ -134,10 +126,11 @@ class MotionDescent {
     if (self.request_.go_on && !self.request_.go_on()) throw nlopt::forced_stop();
     const Waypoints path = self.pathOf(x);
     Waypoints states;
-    for (const StateOnPath& state : self.states_) {
-      states.push_back(path[state.from] + state.part * (path[state.from + 1] - path[state.from]));
+    for (const WaypointStep& step : self.steps_) {
+      states.push_back(path[step.from]);
+      if (step.fraction == 0.0) continue;
+      states.back() += step.fraction * (path[step.from + 1] - path[step.from]);
     }
-    states.push_back(path.back());
     MotionGradientRequest lines;
     lines.lines = kLines;
     lines.seed = self.request_.seed;
@@ -146,11 +139,11 @@ class MotionDescent {
     const double p = found.probability + kNoDifference * aim;
     self.note(path, p);
     Waypoints slopes(path.size(), Eigen::VectorXd::Zero(path[0].size()));
-    for (std::size_t k = 0; k < self.states_.size(); ++k) {
-      const StateOnPath& state = self.states_[k];
+    for (std::size_t k = 0; k < self.steps_.size(); ++k) {
+      const WaypointStep& step = self.steps_[k];
       const Eigen::VectorXd slope = found.gradient.col(static_cast<Eigen::Index>(k)) / p;
-      slopes[state.from] += (1.0 - state.part) * slope;
-      slopes[state.from + 1] += state.part * slope;
+      slopes[step.from] += (1.0 - step.fraction) * slope;
+      if (step.fraction > 0.0) slopes[step.from + 1] += step.fraction * slope;
     }
     self.writeGradient(slopes, gradient);
     return std::log(p / aim);
@@ -166,7 +159,7 @@ class MotionDescent {
   const RobotQuery& query_;
   const DescentRequest& request_;
   Waypoints path_;
-  std::vector<StateOnPath> states_;
+  std::vector<WaypointStep> steps_;  ///< as many of each edge as at first
   std::optional<Waypoints> best_;
 };
 

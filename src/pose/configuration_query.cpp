@@ -13,6 +13,7 @@
 #include "montecarlo/random_samples.h"
 #include "montecarlo/sample_loop.h"
 #include "pose/configuration_estimate.h"
+#include "pose/sampled_configuration.h"
 #include "query/single_collide.h"
 #include "request/refuse_band.h"
 
@@ -106,15 +107,9 @@ struct ConfigurationQuery::Implementation {
       const double uniform =
           detail::uniformFrom(detail::randomWords({request.seed, kChoices}, index)[0]);
       const RandomConfiguration& configuration = chosen.at(uniform);
-      PlacedConfiguration placed =
-          configuration.at(normalsOf(request.seed, index, configuration.dimension()));
-      const Eigen::Vector3d y =
-          detail::standardNormalFrom(detail::randomWords({request.seed}, index, 0));
-      const GaussianDisplacement& left = placed.displacement;
-      const Eigen::Vector3d displacement =
-          left.mean() + left.axes() * left.standardDeviations().cwiseProduct(y);
-      for (fcl::Transform3d& pose : placed.poses_a) pose.translation() += displacement;
-      return detail::SampledPlacement{std::move(placed.poses_a), std::move(placed.poses_b)};
+      return detail::sampledAt(
+          configuration, normalsOf(request.seed, index, configuration.dimension()),
+          detail::standardNormalFrom(detail::randomWords({request.seed}, index, 0)));
     };
     return detail::placementMonteCarlo(a, b, sampler, request);
   }

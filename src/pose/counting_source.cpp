@@ -11,6 +11,7 @@
 #include "gaussian/constants.h"
 #include "montecarlo/random_samples.h"
 #include "pose/query_costs.h"
+#include "pose/sampled_configuration.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -72,16 +73,6 @@ bool CountingSource::isFor(const RandomConfiguration& configuration, const Geome
   });
 }
 
-SampledPlacement CountingSource::placementAt(const Eigen::VectorXd& normals) const {
-  PlacedConfiguration placed = configuration_.at(normals.tail(configuration_.dimension()));
-  const GaussianDisplacement& left = placed.displacement;
-  const Eigen::Vector3d displacement =
-      left.mean() +
-      left.axes() * left.standardDeviations().cwiseProduct(normals.head<kTranslation>());
-  for (fcl::Transform3d& pose : placed.poses_a) pose.translation() += displacement;
-  return {std::move(placed.poses_a), std::move(placed.poses_b)};
-}
-
 CountingSource::Hits CountingSource::hitsAt(std::size_t point) const {
   boost::random::sobol sequence = sequence_;
   sequence.seed(point);
@@ -93,7 +84,9 @@ CountingSource::Hits CountingSource::hitsAt(std::size_t point) const {
     for (std::size_t k = 0; k < words.size(); ++k) {
       normals[static_cast<Eigen::Index>(k)] = quantileAt(words[k] ^ shifts_[k][shift]);
     }
-    if (collider_->collides(placementAt(normals))) hits |= Hits{1} << shift;
+    const SampledPlacement placement = sampledAt(
+        configuration_, normals.tail(configuration_.dimension()), normals.head<kTranslation>());
+    if (collider_->collides(placement)) hits |= Hits{1} << shift;
   }
   return hits;
 }

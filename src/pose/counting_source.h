@@ -44,7 +44,6 @@ class CountingSource : public EstimateSource {
 
   std::size_t pointsTo(double standard_error) const;
   Hits hitsAt(std::size_t point) const;
-  SampledPlacement placementAt(const Eigen::VectorXd& normals) const;
   void takeMean();
 
   const RandomConfiguration& configuration_;

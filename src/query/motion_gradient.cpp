@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/motion_gradient.h"
 
-#include <chrono>
 #include <string>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
+#include "montecarlo/sample_loop.h"
 
 namespace fcl_prob {
 
@@ -50,10 +50,8 @@ void validateGradient(const MotionGradientRequest& request) {
 LineDraws drawsOf(const MotionGradientRequest& request) {
   LineDraws draws{request.lines, request.seed, request.threads, {}};
   if (!request.time_limit) return draws;
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  draws.go_on = [start, limit = *request.time_limit] {
-    return std::chrono::duration<double>(Clock::now() - start).count() < limit;
+  draws.go_on = [watch = Stopwatch(), limit = *request.time_limit] {
+    return watch.seconds() < limit;
   };
   return draws;
 }

@@ -218,15 +218,15 @@ struct RobotQuery::Implementation {
   }
 
   /// The bodies that may touch an obstacle, relative to where that is by then.
-  std::vector<detail::WaypointBody> nearBodies(const std::vector<Eigen::VectorXd>& waypoints,
+  std::vector<detail::WaypointBody> nearBodies(const std::vector<std::vector<PlacedBody>>& all,
                                                std::size_t index) const {
     const Obstacle& obstacle = obstacles[index];
     const ObstacleState state = detail::stateAt(obstacle, 0);
     const detail::Ball around = obstacle_balls[index].placed(state.pose);
-    const auto offsets = detail::offsetsSinceFirst(obstacle, waypoints.size());
+    const auto offsets = detail::offsetsSinceFirst(obstacle, all.size());
     std::vector<detail::WaypointBody> near;
-    for (std::size_t k = 0; k < waypoints.size(); ++k) {
-      for (PlacedBody one : placed(waypoints[k])) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      for (PlacedBody one : all[k]) {
         if (!meets(one.body, index)) continue;
         one.pose.translation() -= offsets[k];
         const detail::Ball ball = balls[one.body].placed(one.pose);
@@ -241,9 +241,10 @@ struct RobotQuery::Implementation {
                          const MotionGradientRequest& request) const {
     const Eigen::Index joints = waypoints[0].size();
     const auto count = static_cast<Eigen::Index>(waypoints.size());
+    const auto all = placedAll(waypoints);
     std::vector<MotionGradient> parts;
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      const auto near = nearBodies(waypoints, i);
+      const auto near = nearBodies(all, i);
       if (near.empty()) continue;
       MotionGradientRequest of_one = request;
       of_one.seed += i * kSeedsApart;
