@@ -231,6 +231,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
       request.max_cells < whole_request.max_cells) {
     known = engine.interval();
     if (carved()) return result;
+    if (claim_observer) claim_observer->frame(frame.whitening, displacement);
     request.max_cells = whole_request.max_cells;
     result.status = engine.run(estimate);
     clock.finish("partition");
