@@ -17,24 +17,55 @@ constexpr double kLeastTolerance = 1e-4;
 // A fan's arcs are those of its cones as long as whitening stretches it no more than this.
 constexpr double kMostAnisotropic = 100.0;
 
-bool isSingleMesh(const PartitionObject& object) {
-  return object.parts.size() == 1 && object.tree->isMesh() && !object.tree->isEmpty();
+bool isMesh(const PartitionObject& object) {
+  return object.tree->isMesh() && !object.tree->isEmpty();
+}
+
+bool isConvex(const PartitionObject& object) {
+  const auto& parts = object.tree->parts;
+  return std::all_of(parts.begin(), parts.end(),
+                     [](const PieceTree::Part& part) { return part.fan != nullptr; });
 }
 
 // The larger of two, so that there are fewer triangles beside it.
 bool isFanOfA(const PartitionObject& a, const PartitionObject& b) {
-  if (!b.tree->fan) return true;
-  return a.tree->fan && a.tree->triangles.size() >= b.tree->triangles.size();
+  if (!isConvex(b)) return true;
+  return isConvex(a) && a.tree->triangles.size() >= b.tree->triangles.size();
+}
+
+// Where surfaces count, what is within a convex one would be taken for touching it.
+bool mayBeWithin(const PartitionObject& body, const PartitionObject& mesh,
+                 const FatMembers& obstacles) {
+  for (std::size_t i = 0; i < body.parts.size(); ++i) {
+    if (body.parts[i].solid) continue;
+    for (const PieceTree::Part& part : mesh.tree->parts) {
+      if (!obstacles.of(static_cast<int>(i)).isTooSmallFor(part.spans)) return true;
+    }
+  }
+  return false;
+}
+
+std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
+  const std::string name = fan_is_a ? "A" : "B";
+  const std::string triangles = std::to_string(body.tree->triangles.size());
+  const std::string faces = std::to_string(obstacles.faceCount());
+  if (obstacles.count() == 1) {
+    return "object " + name + " is convex: one piece of " + faces + " faces, no tree of its " +
+           triangles + " triangles";
+  }
+  return "the " + std::to_string(obstacles.count()) + " members of " + name +
+         " are convex: a piece each, of " + faces + " faces together, no tree of their " +
+         triangles + " triangles";
 }
 
 }  // namespace
 
 bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
                  const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
-  if (!isSingleMesh(a) || !isSingleMesh(b)) return false;
-  if (!a.tree->fan && !b.tree->fan) return false;
+  if (!isMesh(a) || !isMesh(b)) return false;
+  if (!isConvex(a) && !isConvex(b)) return false;
   if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
-  if (a.motion || b.motion || a.parts[0].sweep || b.parts[0].sweep) return false;
+  if (a.motion || b.motion || a.isSwept() || b.isSwept()) return false;
   if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   return displacement.rank() == 3 && sigma[0] <= kMostAnisotropic * sigma[2];
@@ -49,12 +80,11 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening whitening(displacement, unit);
   const WhitenedPair pair = whiten(a, b, whitening);
-  FatObstacles obstacles(pair, *body.tree->fan, fan_is_a,
-                         whitening.matrix() * body.parts[0].pose.linear());
+  FatMembers obstacles(pair, body, fan_is_a, whitening.matrix());
   if (!obstacles.usable()) return false;
   std::optional<SolidContact> solids;
-  if (a.parts[0].solid || b.parts[0].solid) solids.emplace(a, b, whitening, pair);
-  if (!body.parts[0].solid && !obstacles.isTooSmallFor(mesh.tree->spans)) return false;
+  if (a.hasSolid() || b.hasSolid()) solids.emplace(a, b, whitening, pair);
+  if (mayBeWithin(body, mesh, obstacles)) return false;
   if (claim_observer) claim_observer->frame(whitening, displacement);
   CarvingEngine engine(obstacles, solids ? &*solids : nullptr, request, result.statistics);
   result.method = ProbabilityMethod::interval;
@@ -64,10 +94,7 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   result.lower = interval.lower;
   result.upper = interval.upper;
   if (result.status == ProbabilityStatus::resolution_limit) return false;
-  result.plan.push_back("object " + std::string(fan_is_a ? "A" : "B") +
-                        " is convex: one piece of " + std::to_string(obstacles.faceCount()) +
-                        " faces, no tree of its " + std::to_string(body.tree->triangles.size()) +
-                        " triangles");
+  result.plan.push_back(convexNote(body, obstacles, fan_is_a));
   result.plan.push_back("partition of the displacement space along the C-obstacles' own planes: " +
                         std::to_string(result.statistics.cells) + " cells, " +
                         std::to_string(result.statistics.leaf_pairs) + " C-obstacles");

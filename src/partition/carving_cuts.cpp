@@ -143,7 +143,7 @@ void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list,
     return split(cell, list);
   }
   const List::Entry entry = list->entries[best];
-  Rest rest{cell.body, {}, cell.mass.upper, entry.triangle};
+  Rest rest{cell.body, {}, cell.mass.upper, entry.obstacle};
   rest.planes.assign(list->planes.begin() + static_cast<std::ptrdiff_t>(entry.first),
                      list->planes.begin() + static_cast<std::ptrdiff_t>(entry.last));
   allowSlivers(cell.body, entry.last - entry.first);  // the same cuts in another order
@@ -154,7 +154,6 @@ void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list,
       kept.mass = {0.0, std::max(rest.mass, inner.upper)};
       kept.inner = inner.lower;
       kept.inner_error = inner.width();
-      kept.best = entry.triangle;
       kept.list = list;
       kept.body = std::move(rest.body);
       kept.layers = cell.layers;

@@ -55,7 +55,7 @@ bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {
 
 }  // namespace
 
-CarvingEngine::CarvingEngine(FatObstacles& obstacles, const SolidContact* solids,
+CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
                              const ProbabilityRequest& request, ProbabilityStatistics& statistics)
     : obstacles_(obstacles),
       solids_(solids),
@@ -66,7 +66,9 @@ CarvingEngine::CarvingEngine(FatObstacles& obstacles, const SolidContact* solids
   CarvedCell root;
   root.box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
   root.mass = {0.0, 1.0};
-  root.nodes = std::make_shared<const std::vector<int>>(1, 0);
+  std::vector<FatNode> roots;
+  for (int member = 0; member < obstacles.count(); ++member) roots.push_back({member, 0});
+  root.nodes = std::make_shared<const std::vector<FatNode>>(std::move(roots));
   push(std::move(root));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The partition for one convex object beside a mesh: cells are convex polytopes that are divided
+// The partition for convex objects beside a mesh: cells are convex polytopes that are divided
 // along the planes of the C-obstacles themselves.
 #pragma once
 
@@ -14,7 +14,7 @@
 #include "partition/claim_observer.h"
 #include "partition/containment.h"
 #include "partition/engine_limits.h"
-#include "partition/fat_obstacles.h"
+#include "partition/fat_members.h"
 
 namespace fcl_prob::detail {
 
@@ -22,7 +22,7 @@ namespace fcl_prob::detail {
 /// the cell sticks out.
 struct ObstacleList {
   struct Entry {
-    int triangle;
+    FatObstacle obstacle;
     std::size_t first;  ///< of its planes
     std::size_t last;   ///< one behind the last
   };
@@ -53,16 +53,15 @@ struct CarvedCell {
   /// Of the cell that it was cut from, or a box's nodes of the mesh's tree.
   std::shared_ptr<const ObstacleList> list;
   std::optional<Cell> box;
-  std::shared_ptr<const std::vector<int>> nodes;
+  std::shared_ptr<const std::vector<FatNode>> nodes;
 
-  /// The cell lies behind this plane of obstacle `outside_of`: -1 if there is none.
+  /// The cell lies behind this plane of an obstacle, if there is one.
   Eigen::Vector3d behind = Eigen::Vector3d::Zero();
-  int outside_of = -1;
+  FatObstacle outside_of;
 
   std::shared_ptr<const CarvedLayer> layers;
   bool dropped = false;  ///< it may also meet such obstacles elsewhere
 
-  int best = -1;             ///< the obstacle of that part; -1: there is none
   double inner_error = 0.0;  ///< how much more that part may weigh
 
   double gap() const { return mass.upper - inner; }
@@ -73,7 +72,7 @@ struct CarvedCell {
 class CarvingEngine {
  public:
   /// Keeps references to all arguments.
-  CarvingEngine(FatObstacles& obstacles, const SolidContact* solids,
+  CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
                 const ProbabilityRequest& request, ProbabilityStatistics& statistics);
 
   /// Divides cells until the request is satisfied or a limit is reached; says which.
@@ -92,11 +91,12 @@ class CarvingEngine {
   void push(CarvedCell&& cell);
   void divideLargest();
   void divideBox(CarvedCell&& cell);
-  void gatherNodes(const Cell& box, const std::vector<int>& from, bool to_leaves,
-                   std::vector<int>& into) const;
+  void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
+                   std::vector<FatNode>& into) const;
   void resolve(CarvedCell&& cell);
-  Relation listBox(const CarvedCell& cell, const std::vector<int>& triangles, List& into);
-  Relation addFromBox(const CellBox& box, int triangle, List& into);
+  Relation listBox(const CarvedCell& cell, const std::vector<FatObstacle>& obstacles, List& into);
+  void rangeFaces(const CellBox& box, int member);
+  Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
   Relation refine(const CarvedCell& cell, List& into);
   Relation examine(const CarvedCell& cell, List& into);
   std::size_t bestEntry(const CarvedCell& cell, const List& list);
@@ -110,7 +110,7 @@ class CarvingEngine {
     CellPolytope body;
     std::vector<ObstaclePlane> planes;  ///< along which it was not cut yet
     double mass;                        ///< no less than its own
-    int obstacle;
+    FatObstacle obstacle;
   };
   static std::optional<ObstaclePlane> nextPlane(Rest& rest);
   void cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list, const ObstaclePlane& plane,
@@ -134,7 +134,7 @@ class CarvingEngine {
   std::size_t memory() const { return obstacles_.memory() + cell_memory_ + list_memory_; }
 
   ClaimObserver* const observer_ = claim_observer;
-  FatObstacles& obstacles_;
+  FatMembers& obstacles_;
   const SolidContact* solids_;
   const ProbabilityRequest& request_;
   ProbabilityStatistics& statistics_;
@@ -152,8 +152,9 @@ class CarvingEngine {
   CellPolytope layer_;
   std::vector<Eigen::Vector3d> samples_;  // of a cell, and what they stand for
   std::vector<double> weights_;
-  std::vector<double> face_lo_;  // of a box, along the normals of P
+  std::vector<double> face_lo_;  // of a box, along the normals of each P
   std::vector<double> face_hi_;
+  std::vector<bool> ranged_;  // by member: those of its faces are known
 };
 
 }  // namespace fcl_prob::detail

@@ -3,6 +3,7 @@
 // Which obstacles may meet a cell, and over which of their planes it sticks out.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "partition/carving_engine.h"
 #include "partition/cell_split.h"
@@ -24,84 +25,102 @@ void CarvingEngine::divideBox(CarvedCell&& cell) {
     half.box = cell.box;
     (upper ? half.box->lo : half.box->hi)[at.axis] = at.at;
     half.mass = cellMass(*half.box);
-    std::vector<int> nodes;
+    std::vector<FatNode> nodes;
     gatherNodes(*half.box, *cell.nodes, false, nodes);
     if (nodes.empty()) {
       half.body = CellPolytope(*half.box);
       settleFree(half);
       continue;
     }
-    half.nodes = std::make_shared<const std::vector<int>>(std::move(nodes));
+    half.nodes = std::make_shared<const std::vector<FatNode>>(std::move(nodes));
     push(std::move(half));
   }
 }
 
-void CarvingEngine::gatherNodes(const Cell& box, const std::vector<int>& from, bool to_leaves,
-                                std::vector<int>& into) const {
+void CarvingEngine::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
+                                std::vector<FatNode>& into) const {
   const WhitenedTree& mesh = obstacles_.mesh();
   const double size = (box.hi - box.lo).sum();
-  std::vector<int> stack(from.rbegin(), from.rend());
+  std::vector<FatNode> stack(from.rbegin(), from.rend());
   while (!stack.empty()) {
-    const int node = stack.back();
+    const auto [member, node] = stack.back();
     stack.pop_back();
     ++statistics_.pairs_tested;
-    if (isClearOf(obstacles_.obstacleBox(node), box.lo.data(), box.hi.data())) continue;
+    const NodeBox around = obstacles_.of(member).obstacleBox(node);
+    if (isClearOf(around, box.lo.data(), box.hi.data())) continue;
     const PieceTree::Node& in_tree = mesh.tree->nodes[node];
     if (in_tree.isLeaf() || (!to_leaves && mesh.boxes[node].size() < kOpenRatio * size)) {
-      into.push_back(node);
+      into.push_back({member, node});
     } else {
-      stack.push_back(in_tree.right);
-      stack.push_back(in_tree.left);
+      stack.push_back({member, in_tree.right});
+      stack.push_back({member, in_tree.left});
     }
   }
 }
 
 CarvingEngine::Relation CarvingEngine::examine(const CarvedCell& cell, List& into) {
   if (!cell.box) return refine(cell, into);
-  std::vector<int> leaves;
+  std::vector<FatNode> leaves;
   gatherNodes(*cell.box, *cell.nodes, true, leaves);
-  std::vector<int> triangles;
-  for (const int leaf : leaves) triangles.push_back(obstacles_.mesh().tree->nodes[leaf].piece);
-  return listBox(cell, triangles, into);
+  std::vector<FatObstacle> obstacles;
+  for (const auto& [member, leaf] : leaves) {
+    obstacles.push_back({member, obstacles_.mesh().tree->nodes[leaf].piece});
+  }
+  return listBox(cell, obstacles, into);
 }
 
 // The most central obstacles first: one of them may cover the box.
 CarvingEngine::Relation CarvingEngine::listBox(const CarvedCell& cell,
-                                               const std::vector<int>& triangles, List& into) {
-  const int faces = obstacles_.faceCount();
+                                               const std::vector<FatObstacle>& obstacles,
+                                               List& into) {
   const CellBox box = cell.box->box();
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
-  const Eigen::Map<const Eigen::Vector3d> half(box.half);
-  face_lo_.resize(faces);
-  face_hi_.resize(faces);
-  for (int f = 0; f < faces; ++f) {
-    const Eigen::Vector3d& n = obstacles_.faceNormal(f);
-    const double at = n.dot(middle);
-    const double radius = n.cwiseAbs().dot(half);
-    face_lo_[f] = at - radius;
-    face_hi_[f] = at + radius;
-  }
-  std::vector<std::pair<double, int>> order;
-  for (const int t : triangles) {
-    order.emplace_back((obstacles_.middle(t) - middle).squaredNorm(), t);
+  face_lo_.resize(obstacles_.faceCount());
+  face_hi_.resize(obstacles_.faceCount());
+  ranged_.assign(obstacles_.count(), false);
+  std::vector<std::tuple<double, int, int>> order;
+  for (const auto& [member, t] : obstacles) {
+    order.emplace_back((obstacles_.of(member).middle(t) - middle).squaredNorm(), member, t);
   }
   std::sort(order.begin(), order.end());
-  for (const auto& [unused, t] : order) {
-    if (addFromBox(box, t, into) == Relation::covered) return Relation::covered;
+  for (const auto& [unused, member, t] : order) {
+    if (addFromBox(box, {member, t}, into) == Relation::covered) return Relation::covered;
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
 }
 
-CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, int triangle, List& into) {
-  ++statistics_.pairs_tested;
-  const std::vector<double>& offsets = obstacles_.faceOffsets(triangle);
-  const double padding = obstacles_.padding(Eigen::Vector3d::Ones());
-  const int faces = obstacles_.faceCount();
-  for (int f = 0; f < faces; ++f) {
-    if (face_lo_[f] > offsets[f] + padding) return Relation::free;
+// What the box reaches along the normals of a member.
+void CarvingEngine::rangeFaces(const CellBox& box, int member) {
+  if (ranged_[member]) return;
+  ranged_[member] = true;
+  const FatObstacles& body = obstacles_.of(member);
+  const Eigen::Map<const Eigen::Vector3d> middle(box.center);
+  const Eigen::Map<const Eigen::Vector3d> half(box.half);
+  const int first = obstacles_.firstFace(member);
+  for (int f = 0; f < body.faceCount(); ++f) {
+    const Eigen::Vector3d& n = body.faceNormal(f);
+    const double at = n.dot(middle);
+    const double radius = n.cwiseAbs().dot(half);
+    face_lo_[first + f] = at - radius;
+    face_hi_[first + f] = at + radius;
   }
-  const std::vector<ObstaclePlane>& others = obstacles_.otherPlanes(triangle);
-  const double margin = obstacles_.mostMargin(triangle);
+}
+
+CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, FatObstacle obstacle,
+                                                  List& into) {
+  ++statistics_.pairs_tested;
+  rangeFaces(box, obstacle.member);
+  FatObstacles& body = obstacles_.of(obstacle.member);
+  const double* const face_lo = &face_lo_[obstacles_.firstFace(obstacle.member)];
+  const double* const face_hi = &face_hi_[obstacles_.firstFace(obstacle.member)];
+  const std::vector<double>& offsets = body.faceOffsets(obstacle.triangle);
+  const double padding = body.padding(Eigen::Vector3d::Ones());
+  const int faces = body.faceCount();
+  for (int f = 0; f < faces; ++f) {
+    if (face_lo[f] > offsets[f] + padding) return Relation::free;
+  }
+  const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.triangle);
+  const double margin = body.mostMargin(obstacle.triangle);
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   const Eigen::Map<const Eigen::Vector3d> half(box.half);
   const std::size_t first = into.planes.size();
@@ -115,23 +134,26 @@ CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, int triang
     if (at + radius > plane.inner()) into.planes.push_back(plane);
   }
   for (int f = 0; f < faces; ++f) {
-    if (face_hi_[f] <= offsets[f] - margin) continue;
-    const ObstaclePlane plane = obstacles_.facePlane(triangle, f);
-    if (face_hi_[f] > plane.inner()) into.planes.push_back(plane);
+    if (face_hi[f] <= offsets[f] - margin) continue;
+    const ObstaclePlane plane = body.facePlane(obstacle.triangle, f);
+    if (face_hi[f] > plane.inner()) into.planes.push_back(plane);
   }
   if (into.planes.size() == first) return Relation::covered;
-  into.entries.push_back({triangle, first, into.planes.size()});
+  into.entries.push_back({obstacle, first, into.planes.size()});
   return Relation::cut;
 }
 
-// Obstacles that reach no farther than the one that the cell is outside of do not meet the cell but
-// in the layer that was allowed for when it was cut off.
+// Obstacles of the same member that reach no farther than the one that the cell is outside of do
+// not meet the cell but in the layer that was allowed for when it was cut off.
 CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into) {
   const List& from = *cell.list;
-  const double reach = cell.outside_of < 0 ? 0.0 : obstacles_.extent(cell.outside_of, cell.behind);
+  const auto [member, triangle] = cell.outside_of;
+  const FatObstacles* const body = member < 0 ? nullptr : &obstacles_.of(member);
+  const double reach = body ? body->extent(triangle, cell.behind) : 0.0;
   for (const List::Entry& entry : from.entries) {
     ++statistics_.pairs_tested;
-    if (cell.outside_of >= 0 && obstacles_.extent(entry.triangle, cell.behind) <= reach) continue;
+    const bool may_be_behind = body && entry.obstacle.member == member;
+    if (may_be_behind && body->extent(entry.obstacle.triangle, cell.behind) <= reach) continue;
     const std::size_t first = into.planes.size();
     bool meets = true;
     for (std::size_t i = entry.first; i < entry.last && meets; ++i) {
@@ -145,7 +167,7 @@ CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into
       continue;
     }
     if (into.planes.size() == first) return Relation::covered;
-    into.entries.push_back({entry.triangle, first, into.planes.size()});
+    into.entries.push_back({entry.obstacle, first, into.planes.size()});
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
 }

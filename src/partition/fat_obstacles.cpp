@@ -31,9 +31,9 @@ constexpr double kNever = 1e300;
 
 }  // namespace
 
-FatObstacles::FatObstacles(const WhitenedPair& pair, const ConvexFan& fan, bool fan_is_a,
+FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
                            const Eigen::Matrix3d& linear)
-    : mesh_(fan_is_a ? pair.b : pair.a), sign_(fan_is_a ? 1.0 : -1.0), arcs_(fan.arcs) {
+    : mesh_(fan_is_a ? pair.b : pair.a), sign_(fan_is_a ? 1.0 : -1.0), arcs_(part.fan->arcs) {
   const WhitenedTree& body = fan_is_a ? pair.a : pair.b;
   Eigen::Vector3d largest = Eigen::Vector3d::Constant(kReach);
   for (const WhitenedTree* tree : {&body, &mesh_}) {
@@ -44,17 +44,17 @@ FatObstacles::FatObstacles(const WhitenedPair& pair, const ConvexFan& fan, bool 
   }
   reach_ = 2 * largest.norm();
   pad_ = 4 * (body.error + mesh_.error) + 64 * kEpsilon * largest;
-  moveFan(body, fan, linear);
+  moveFan(body, part, linear);
   details_.resize(mesh_.tree->triangles.size());
 }
 
 // In the whitened frame a normal n of the fan has the direction m with Lᵀm ∥ n; however m was
 // rounded, the offset follows from how far Lᵀm is off n.
-void FatObstacles::moveFan(const WhitenedTree& body, const ConvexFan& fan,
+void FatObstacles::moveFan(const WhitenedTree& body, const PieceTree::Part& part,
                            const Eigen::Matrix3d& linear) {
-  const PieceTree& tree = *body.tree;
-  const Eigen::Vector3d anchor = tree.vertices.front();
-  centre_ = body.vertices.front() + linear * (fan.centre - anchor);
+  const ConvexFan& fan = *part.fan;
+  const int anchor = part.vertices.begin;
+  centre_ = body.vertices[anchor] + linear * (fan.centre - body.tree->vertices[anchor]);
   for (int k = 0; k < 3; ++k) {
     box_.lo[k] = kInfinity;
     box_.hi[k] = -kInfinity;

@@ -29,10 +29,10 @@ struct ObstaclePlane {
 /// for. All is relative to the centre of P, which is within P.
 class FatObstacles {
  public:
-  /// \param fan       of the convex object's tree
-  /// \param fan_is_a  whether A is the convex object, and B the mesh
-  /// \param linear    from the frame of the fan to the whitened one, as the tree was moved
-  FatObstacles(const WhitenedPair& pair, const ConvexFan& fan, bool fan_is_a,
+  /// \param part      of the tree of the object whose members are convex; has a fan
+  /// \param fan_is_a  whether A is that object, and B the mesh
+  /// \param linear    from the frame of the part to the whitened one, as the tree was moved
+  FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
                const Eigen::Matrix3d& linear);
 
   /// Whether everything was accurate enough to be certified.
@@ -95,7 +95,8 @@ class FatObstacles {
     double loss = 0.0;  ///< added to all margins
   };
 
-  void moveFan(const WhitenedTree& body, const ConvexFan& fan, const Eigen::Matrix3d& linear);
+  void moveFan(const WhitenedTree& body, const PieceTree::Part& part,
+               const Eigen::Matrix3d& linear);
   Eigen::Matrix3d corners(int triangle) const;
   Details& details(int triangle);
   void buildPlanes(int triangle, Details& into);

@@ -78,6 +78,11 @@ class TreeJoiner {
     move(part.vertices, at.vertices);
     move(part.bodies, at.bodies);
     move(part.shapes, at.shapes);
+    for (auto& [from, to] : part.spans) {
+      if (from < 0) continue;
+      from += at.vertices;
+      to += at.vertices;
+    }
     return part;
   }
 

@@ -210,8 +210,9 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
   makePart(error, *tree);
   if (kindOf(geometry) == GeometryKind::mesh) {
     const MeshView view = meshView(geometry);
-    tree->fan = convexFanOf(view, tree->vertices, tree->parts[0].origin);
-    tree->spans = spansOf(view);
+    PieceTree::Part& part = tree->parts[0];
+    part.fan = convexFanOf(view, tree->vertices, part.origin);
+    part.spans = spansOf(view);
   }
   return tree;
 }

@@ -70,6 +70,11 @@ struct PieceTree {
     Range vertices;
     Range bodies;
     Range shapes;
+
+    /// Of a mesh that is convex, relative to `origin`; else null.
+    std::shared_ptr<const ConvexFan> fan;
+    /// Of a mesh, indices into the tree's vertices: see spansOf().
+    std::vector<std::pair<int, int>> spans;
   };
 
   std::vector<Node> nodes;  ///< nodes[0] is the root
@@ -82,10 +87,6 @@ struct PieceTree {
 
   /// Of an octree: a cell is both occupied and free.
   bool any_cell_also_free = false;
-  /// Of a single mesh that is convex, relative to the origin of its part; else null.
-  std::shared_ptr<const ConvexFan> fan;
-  /// Of a single mesh: see spansOf().
-  std::vector<std::pair<int, int>> spans;
 
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }

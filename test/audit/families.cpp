@@ -46,6 +46,23 @@ MeshStructure wildMesh() {
   return wild;
 }
 
+/// What polytope cells are for, and what only looks like it.
+void mostlyConvexMeshes(Traits& t) {
+  t.solid = 0.4;
+  t.smaller = 0.3;
+  t.ranks = {3, 3, 3, 3, 3, 3, 3, 2, 1};
+  t.mesh.convex = 0.7;
+  t.mesh.dented = 0.3;
+  t.mesh.most_shells = 2;
+  t.mesh.nested = 0.5;
+  t.mesh.stray_point = 0.1;
+  t.mesh.degenerate = 0.25;
+  t.mesh.stray_far = 0.1;
+  t.mesh.open = 0.1;
+  t.mesh.thin = 0.1;
+  t.on_grid = 0.0;
+}
+
 std::vector<Family> shapeFamilies() {
   return {family("convex pairs", of(kConvex, kConvex), [](Traits&) {}),
           family("boxes along the axes", of({Kind::box}, {Kind::box}),
@@ -65,22 +82,7 @@ std::vector<Family> shapeFamilies() {
                    t.mesh.thin = 0.2;
                    t.mesh.flat = 0.3;
                  }),
-          family("convex meshes", of(kMesh, kMesh),
-                 [](Traits& t) {
-                   t.solid = 0.4;
-                   t.smaller = 0.3;
-                   t.ranks = {3, 3, 3, 3, 3, 3, 3, 2, 1};
-                   t.mesh.convex = 0.7;
-                   t.mesh.dented = 0.3;
-                   t.mesh.most_shells = 2;
-                   t.mesh.nested = 0.5;
-                   t.mesh.stray_point = 0.1;
-                   t.mesh.degenerate = 0.25;
-                   t.mesh.stray_far = 0.1;
-                   t.mesh.open = 0.1;
-                   t.mesh.thin = 0.1;
-                   t.on_grid = 0.0;
-                 }),
+          family("convex meshes", of(kMesh, kMesh), mostlyConvexMeshes),
           family("solids of several shells", of(kMesh, kBounded),
                  [](Traits& t) {
                    t.solid = 1.0;
@@ -159,6 +161,7 @@ std::vector<Family> questionFamilies() {
   };
   add(family("groups", of(kBounded, kPieces), [](Traits& t) { t.mesh.most_shells = 2; }),
       Question::group);
+  add(family("groups of convex meshes", of(kMesh, kMesh), mostlyConvexMeshes), Question::group);
   add(family("managers",
              of({Kind::box, Kind::sphere, Kind::mesh, Kind::convex},
                 {Kind::box, Kind::sphere, Kind::mesh, Kind::box, Kind::halfspace}),

@@ -28,6 +28,7 @@ using fcl_prob::TriangleMesh;
 using namespace fcl_prob::detail;
 using fcl_prob_test::boxMesh;
 using fcl_prob_test::bumpyMesh;
+using fcl_prob_test::hullMesh;
 using fcl_prob_test::PartitionQuery;
 using fcl_prob_test::RandomBodies;
 using fcl_prob_test::sphereMesh;
@@ -35,20 +36,7 @@ using fcl_prob_test::WhitenedMeshes;
 
 std::shared_ptr<const ConvexFan> fanOf(const TriangleMesh& mesh) {
   const auto model = fcl_prob_test::makeModel<fcl::OBBRSSd>(mesh);
-  return buildPieceTree(*model)->fan;
-}
-
-// The hull of points as a mesh: every face a fan of triangles.
-TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points) {
-  const ConvexPolytope hull = fcl_prob::convexHull(points);
-  TriangleMesh mesh;
-  for (const Eigen::Vector3d& v : hull.vertices) mesh.vertices.push_back(v);
-  for (const ConvexPolytope::Face& face : hull.faces) {
-    for (std::size_t i = 2; i < face.vertices.size(); ++i) {
-      mesh.triangles.emplace_back(face.vertices[0], face.vertices[i - 1], face.vertices[i]);
-    }
-  }
-  return mesh;
+  return buildPieceTree(*model)->parts[0].fan;
 }
 
 TriangleMesh inSinglePrecision(TriangleMesh mesh) {
@@ -139,9 +127,9 @@ TEST_CASE("the planes of P ⊕ T hold it, and what is within their margins", "[c
     for (const bool body_is_a : {true, false}) {
       const WhitenedMeshes scene_meshes(body_is_a ? body : one, body_is_a ? one : body);
       const auto& tree = body_is_a ? scene_meshes.tree_a : scene_meshes.tree_b;
-      REQUIRE(tree->fan);
+      REQUIRE(tree->parts[0].fan);
       const Eigen::Matrix3d linear = scene_meshes.whitening.matrix();
-      FatObstacles obstacles(scene_meshes.pair, *tree->fan, body_is_a, linear);
+      FatObstacles obstacles(scene_meshes.pair, tree->parts[0], body_is_a, linear);
       REQUIRE(obstacles.usable());
       std::vector<ObstaclePlane> planes = obstacles.otherPlanes(0);
       obstacles.faceOffsets(0);

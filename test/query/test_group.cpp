@@ -102,6 +102,33 @@ Geometries::value_type randomMember(RandomBodies& random) {
   }
 }
 
+/// Links of an arm beside something that is not convex, or beside a few.
+GroupScene convexScene(RandomBodies& random) {
+  GroupScene scene;
+  for (int i = random.integer(2, 5); i > 0; --i) {
+    const TriangleMesh hull = hullMesh(random.onSphere(random.integer(6, 40), 0.2));
+    add(scene.a, scene.poses_a, makeModel<fcl::OBBRSSd>(hull), random.pose(0.7));
+  }
+  const fcl::Transform3d away = at(random.uniform(0.3, 0.9), 0.2, -0.1);
+  for (int i = random.integer(1, 2); i > 0; --i) {
+    const auto seed = static_cast<std::uint64_t>(random.integer(0, 99));
+    add(scene.b, scene.poses_b, makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 8, 12, seed)),
+        away * random.pose(0.6));
+  }
+  scene.displacement = randomDisplacement(random, 0.1, 0.3).withMean(0.05 * random.direction());
+  return scene;
+}
+
+GroupScene swapped(const GroupScene& scene) {
+  return {scene.b, scene.a, scene.poses_b, scene.poses_a, scene.displacement.reversed()};
+}
+
+bool mentions(const ProbabilityResult& result, const std::string& words) {
+  return std::any_of(result.plan.begin(), result.plan.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
 GroupScene randomScene(RandomBodies& random) {
   GroupScene scene;
   for (int i = random.integer(1, 4); i > 0; --i) {
@@ -143,6 +170,36 @@ TEST_CASE("random groups hold what FCL counts, and lie between largest pair and 
   }
   CHECK(representative > 5);
   CHECK(below_sum > 2);
+}
+
+TEST_CASE("groups of convex meshes are taken whole and hold what FCL counts") {
+  RandomBodies random(7);
+  constexpr int kSamples = 1'000;
+  int whole = 0, representative = 0;
+  for (int i = 0; i < 24; ++i) {
+    const GroupScene scene = i % 2 == 0 ? convexScene(random) : swapped(convexScene(random));
+    ProbabilityRequest request;
+    request.relative_tolerance = 0.01;
+    request.contact = i % 3 == 0 ? ContactMeaning::solid : ContactMeaning::fcl;
+    const ProbabilityResult result = scene.answer(request);
+    const int hits = scene.hits(kSamples, request.contact, random);
+    const auto deviation = [](double p) { return 5 * std::sqrt(p * (1 - p) * kSamples) + 5; };
+    CAPTURE(i, *result.lower, *result.upper, hits);
+    CHECK(result.status == ProbabilityStatus::converged);
+    CHECK(hits >= *result.lower * kSamples - deviation(*result.lower));
+    CHECK(hits <= *result.upper * kSamples + deviation(*result.upper));
+    whole += mentions(result, "are convex: a piece each");
+    representative += hits > 10 && hits < kSamples - 10;
+    // A gradient needs the other partition, whose cells are boxes.
+    request.gradient = true;
+    request.relative_tolerance = 0.1;
+    const ProbabilityResult boxes = scene.answer(request);
+    CHECK_FALSE(mentions(boxes, "are convex: a piece each"));
+    CHECK(*boxes.lower <= *result.upper);
+    CHECK(*boxes.upper >= *result.lower);
+  }
+  CHECK(whole > 12);
+  CHECK(representative > 10);
 }
 
 TEST_CASE("two boxes apart along one axis: the mass of the union of their slabs") {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "fcl_prob/convex_polytope.h"
+
 namespace fcl_prob_test {
 namespace {
 
@@ -109,6 +111,18 @@ TriangleMesh transformed(TriangleMesh mesh, const Eigen::Isometry3d& pose) {
 
 TriangleMesh reversed(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) t = fcl::Triangle(t[0], t[2], t[1]);
+  return mesh;
+}
+
+TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points) {
+  const fcl_prob::ConvexPolytope hull = fcl_prob::convexHull(points);
+  TriangleMesh mesh;
+  for (const Eigen::Vector3d& v : hull.vertices) mesh.vertices.push_back(v);
+  for (const fcl_prob::ConvexPolytope::Face& face : hull.faces) {
+    for (std::size_t i = 2; i < face.vertices.size(); ++i) {
+      mesh.triangles.emplace_back(face.vertices[0], face.vertices[i - 1], face.vertices[i]);
+    }
+  }
   return mesh;
 }
 

@@ -26,6 +26,9 @@ TriangleMesh torusMesh(double radius, double tube_radius, int segments, int tube
 /// A bumpy closed ball: a sphere whose radius varies by +-30 %, reproducible by `seed`. Not convex.
 TriangleMesh bumpyMesh(double radius, int rings, int segments, std::uint64_t seed);
 
+/// The convex hull of points: every face a fan of triangles.
+TriangleMesh hullMesh(const std::vector<Eigen::Vector3d>& points);
+
 /// Both meshes in one.
 TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b);
 
