@@ -85,7 +85,9 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
   command.add_option("NAME", arguments->name, "Which; without it they are listed");
   command.add_option("--models", arguments->options.models_folder,
                      "Folder of the benchmark models; default $FCL_PROB_MODELS");
-  command.add_option("--only", arguments->options.only, "Only scenes whose name contains this");
+  command.add_option(
+      "--only", arguments->options.only,
+      "Only scenes whose name contains this; table2: also of a scene, a comma and a row");
   command.add_option("--seed", arguments->options.seed, "Fixes all samples")
       ->check(CLI::NonNegativeNumber);
   command

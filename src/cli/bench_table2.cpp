@@ -69,7 +69,7 @@ class Table2Run {
       : scene_(scene), options_(options) {}
 
   int seeds() const { return options_.quick ? 3 : 10; }
-  double limit() const { return options_.quick ? 10.0 : 60.0; }  // seconds
+  double limit() const { return options_.quick ? 10.0 : 20.0; }  // seconds
 
   void runSeed(const Table2Method& method, int k, MethodRuns& runs) const {
     double query_ms = 0.0;
@@ -168,7 +168,7 @@ class Table2Report {
                    "whole motion", "paper: P / %", "paper: ms"});
     report_.notes =
         "RRT-Connect, short cuts and an elastic band, " +
-        std::string(options.quick ? "3 seeds and 10 s" : "10 seeds and 60 s") +
+        std::string(options.quick ? "3 seeds and 10 s" : "10 seeds and 20 s") +
         " a path, shortening and self-collision included, the\n"
         "same for every row; medians over the seeds, of paths over those that were found. `length` "
         "is in\n"
@@ -266,16 +266,17 @@ BenchReport benchTable2(const BenchOptions& options, const BenchProgress& progre
   Table2Report report(options);
   const std::vector<Table2Scene> scenes = table2Scenes(options.models_folder);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    if (scenes[s].name.find(options.only) == std::string::npos) continue;
     const Table2Run run(scenes[s], options);
     const auto methods = table2Methods(scenes[s], kMostProbable, options.seed);
     for (std::size_t m = 0; m < methods.size(); ++m) {
+      const std::string row = scenes[s].name + ", " + methods[m].name;
+      if (row.find(options.only) == std::string::npos) continue;
       MethodRuns runs;
       for (int k = 0; k < run.seeds(); ++k) {
         const auto done = static_cast<double>(m) + k / static_cast<double>(run.seeds());
         const double part = (static_cast<double>(s) + done / static_cast<double>(methods.size())) /
                             static_cast<double>(scenes.size());
-        if (!progress(part, scenes[s].name + ", " + methods[m].name)) return report.take();
+        if (!progress(part, row)) return report.take();
         run.runSeed(methods[m], k, runs);
       }
       if (!runs.found.empty()) runs.motion = run.motionOf(runs.found.front());

@@ -36,6 +36,8 @@ const std::vector<Benchmark>& benchmarks() {
       {"table1", "the paper's Table I on six scenes, with all of its rows and more", true,
        benchTable1},
 #ifdef FCL_PROB_HAS_PLANNING
+      {"states", "decisions on the states of a Fetch arm along paths past a human arm", true,
+       benchStates},
       {"table2",
        "the paper's Table II: paths of an arm in two scenes, by eleven ways to test a state", true,
        benchTable2, true},

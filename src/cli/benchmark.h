@@ -56,6 +56,7 @@ BenchReport benchRobot(const BenchOptions& options, const BenchProgress& progres
 BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
 #ifdef FCL_PROB_HAS_PLANNING
+BenchReport benchStates(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable2(const BenchOptions& options, const BenchProgress& progress);
 #endif
 

@@ -221,8 +221,6 @@ class CertifiedRow {
   double operator()(const Eigen::VectorXd& values, double enough) const {
     if (screen_->isBelow(values, enough)) return 0.0;
     if (screen_->isHardlyBelow(values, enough)) return 1.0;
-    const Decision by_pairs = screen_->decide(values, request_);
-    if (by_pairs != Decision::undecided) return by_pairs == Decision::below ? 0.0 : 1.0;
     return scene_.query.state(values, request_).decision == Decision::below ? 0.0 : 1.0;
   }
 

@@ -52,6 +52,9 @@ GaussianDisplacement spread(double x, double y, double z) {
   return GaussianDisplacement::fromStandardDeviations({x, y, z});
 }
 
+// Of the arm that waves, one a second.
+constexpr int kPredictions = 4;
+
 class Table2Models {
  public:
   explicit Table2Models(const std::string& folder) : models_(folder) {
@@ -95,23 +98,36 @@ class Table2Models {
 
   Table2Scene waving() const {
     std::vector<Obstacle> obstacles;
-    for (int k = 0; k < 4; ++k) {
-      const double sigma = 0.01 * (k + 1);  // metres
-      obstacles.push_back({"human arm at " + std::to_string(k) + " s", human_arm_,
-                           armFrom({1.36, 0.03, 1.0}, 0.45 - 0.3 * k),
-                           spread(sigma, sigma, 0.5 * sigma)});
+    for (int k = 0; k < kPredictions; ++k) obstacles.push_back(predicted(k));
+    return pastArms("waving", std::move(obstacles));
+  }
+
+  std::vector<Table2Scene> singleArms() const {
+    std::vector<Table2Scene> scenes;
+    for (int k = 0; k < kPredictions; ++k) {
+      scenes.push_back(pastArms("arm at " + std::to_string(k) + " s", {predicted(k)}));
     }
-    return {"waving",
-            RobotQuery(*arm_, std::move(obstacles)),
-            SelfCollision(*whole_, allowed_),
-            state({-0.304, -0.794, -0.016, 1.898, 0.664, -1.186, -0.272}),
-            state({-0.132, 0.786, -0.835, -1.871, 0.423, 0.755, 0.261}),
-            armJoints()};
+    return scenes;
   }
 
  private:
   TriangleMesh load(const std::string& file) const {
     return loadMeshIsolated((models_ / file).string());
+  }
+
+  Obstacle predicted(int second) const {
+    const double sigma = 0.01 * (second + 1);  // metres
+    return {"human arm at " + std::to_string(second) + " s", human_arm_,
+            armFrom({1.36, 0.03, 1.0}, 0.45 - 0.3 * second), spread(sigma, sigma, 0.5 * sigma)};
+  }
+
+  Table2Scene pastArms(const std::string& name, std::vector<Obstacle> obstacles) const {
+    return {name,
+            RobotQuery(*arm_, std::move(obstacles)),
+            SelfCollision(*whole_, allowed_),
+            state({-0.304, -0.794, -0.016, 1.898, 0.664, -1.186, -0.272}),
+            state({-0.132, 0.786, -0.835, -1.871, 0.423, 0.755, 0.261}),
+            armJoints()};
   }
 
   /// The human's arm stretched out towards the robot; `down`: its slope, radians.
@@ -148,6 +164,10 @@ std::vector<Table2Scene> table2Scenes(const std::string& models_folder) {
   scenes.push_back(models.cans());
   scenes.push_back(models.waving());
   return scenes;
+}
+
+std::vector<Table2Scene> singleArmScenes(const std::string& models_folder) {
+  return Table2Models(models_folder).singleArms();
 }
 
 }  // namespace fcl_prob::cli

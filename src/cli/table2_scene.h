@@ -26,4 +26,7 @@ struct Table2Scene {
 /// \param models_folder  holds fetch_robot/, human/ and objects/
 std::vector<Table2Scene> table2Scenes(const std::string& models_folder);
 
+/// The poses of the arm that waves one at a time, each with its covariance.
+std::vector<Table2Scene> singleArmScenes(const std::string& models_folder);
+
 }  // namespace fcl_prob::cli

@@ -18,4 +18,9 @@ ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, c
                           const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                           const Interruption& interruption);
 
+/// Certainly not below P that two bodies meet: the mass of one half-space around their C-obstacle,
+/// in microseconds whatever their faces. 1 where GJK proposes none, and for ranks below 3.
+double halfSpaceUpper(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                      const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
+
 }  // namespace fcl_prob::detail

@@ -3,10 +3,19 @@
 #include "fcl_prob/convex_pcd.h"
 
 #include "cobstacle/convex_body_data.h"
+#include "cobstacle/nearest.h"
+#include "fcl_prob/normal_mass.h"
+#include "gaussian/constants.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/pair_bounds.h"
 
 namespace fcl_prob {
+namespace {
+
+// More than what a mass and the length of a unit vector are rounded by.
+constexpr double kHalfSpaceRounding = 1e-9;
+
+}  // namespace
 
 ConvexPcdBounds detail::convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a,
                                   const ConvexBody& b, const fcl::Transform3d& pose_b,
@@ -16,6 +25,19 @@ ConvexPcdBounds detail::convexPcd(const ConvexBody& a, const fcl::Transform3d& p
   PairBounds pair;
   pair.setInterruption(interruption);
   return pair.bounds(*PairObstacle(frame, a.data(), b.data()));
+}
+
+double detail::halfSpaceUpper(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                              const ConvexBody& b, const fcl::Transform3d& pose_b,
+                              const GaussianDisplacement& displacement) {
+  const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
+  if (frame.rank < 3 || !frame.fits) return 1.0;
+  const PairObstacle obstacle(frame, a.data(), b.data());
+  const Eigen::Vector3d towards = gjkDirection(*obstacle);
+  if (!(towards.squaredNorm() > 0.5)) return 1.0;
+  const double offset = -obstacle->support(-towards) * (1.0 - kHalfSpaceRounding);
+  if (!(offset > 0.0)) return 1.0;
+  return normalTailMass(offset) * (1.0 + kHalfSpaceRounding) + kUnderflow;
 }
 
 ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,

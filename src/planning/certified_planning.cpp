@@ -99,8 +99,6 @@ class CertifiedPlanner {
       if (self_.collides(values)) return false;
       if (screen_.isBelow(values, *state.threshold)) return true;
       if (screen_.isHardlyBelow(values, *state.threshold)) return false;
-      const Decision by_pairs = screen_.decide(values, state);
-      if (by_pairs != Decision::undecided) return by_pairs == Decision::below;
       return query_.state(values, state).decision == Decision::below;
     };
   }

@@ -5,22 +5,17 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
-#include "cobstacle/convex_body_data.h"
-#include "cobstacle/nearest.h"
 #include "fcl_prob/monte_carlo.h"
-#include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
-#include "geometry/geometry_kind.h"
-#include "geometry/mesh_visitor.h"
 #include "montecarlo/random_samples.h"
+#include "narrowphase/convex_pair_mass.h"
+#include "query/prepared_geometry.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// More than what masses, their sum and the length of a unit vector are rounded by.
+// More than what a sum of masses is rounded by.
 constexpr double kMassRounding = 1e-9;
 
 /// Of the threshold: a bound by balls that is smaller is not looked at more closely.
@@ -35,21 +30,8 @@ constexpr int kDraws = 160;
 constexpr double kTimesAsOften = 1.6;
 constexpr double kMoreHits = 5.0;
 
-/// Of the threshold: how well P of a pair is to be known, to be added up.
+/// Of the threshold: displaced obstacles of a pair that is less likely are not tried.
 constexpr double kShareOfPair = 0.05;
-
-ConvexBody hullOfMesh(const fcl::CollisionGeometryd& geometry) {
-  const MeshView mesh = meshView(geometry);
-  return ConvexBody(std::vector<Eigen::Vector3d>(mesh.vertices, mesh.vertices + mesh.vertex_count));
-}
-
-double upperByHalfSpace(const CObstacle& obstacle) {
-  const Eigen::Vector3d towards = gjkDirection(obstacle);
-  if (!(towards.squaredNorm() > 0.5)) return 1.0;
-  const double offset = -obstacle.support(-towards) * (1.0 - kMassRounding);
-  if (!(offset > 0.0)) return 1.0;
-  return normalTailMass(offset) * (1.0 + kMassRounding) + kUnderflow;
-}
 
 }  // namespace
 
@@ -64,11 +46,6 @@ StateScreen::StateScreen(const RobotQuery& query) : query_(query) {
   }
   if (!is_usable_) return;
   for (std::size_t j = 0; j < query.obstacles().size(); ++j) draw(query.obstacles()[j], j);
-  for (const RobotBody& body : query.robot().bodies()) {
-    for (const Obstacle& obstacle : query.obstacles()) {
-      queries_.emplace_back(body.geometry, obstacle.geometry);
-    }
-  }
 }
 
 void StateScreen::add(const std::shared_ptr<const fcl::CollisionGeometryd>& geometry,
@@ -78,8 +55,7 @@ void StateScreen::add(const std::shared_ptr<const fcl::CollisionGeometryd>& geom
     is_usable_ = false;
     return;
   }
-  const bool is_mesh = kindOf(*geometry) == GeometryKind::mesh;
-  to.push_back({is_mesh ? hullOfMesh(*geometry) : prepared.rootBody(), ballAround(prepared)});
+  to.push_back({prepared.hull(), ballAround(prepared)});
 }
 
 void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
@@ -123,15 +99,6 @@ bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold)
   return false;
 }
 
-double StateScreen::upperOfPair(const Hull& hull, const fcl::Transform3d& pose,
-                                std::size_t obstacle) const {
-  const Hull& other = obstacles_[obstacle];
-  const PairFrame frame = pairFrame(hull.body, pose, other.body, query_.obstacles()[obstacle].pose,
-                                    displacements_[obstacle]);
-  if (frame.rank < 3 || !frame.fits) return 1.0;
-  return upperByHalfSpace(*PairObstacle(frame, hull.body.data(), other.body.data()));
-}
-
 std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
     const std::vector<fcl::Transform3d>& poses, double negligible, double enough) const {
   std::vector<Pair> pairs;
@@ -142,7 +109,10 @@ std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
       const Obstacle& obstacle = query_.obstacles()[j];
       double upper =
           farContactUpper(ball, obstacles_[j].ball.placed(obstacle.pose), obstacle.displacement);
-      if (upper > negligible) upper = std::min(upper, upperOfPair(bodies_[i], poses[i], j));
+      if (upper > negligible) {
+        upper = std::min(upper, halfSpaceUpper(bodies_[i].body, poses[i], obstacles_[j].body,
+                                               obstacle.pose, displacements_[j]));
+      }
       pairs.push_back({i, j, upper});
       sum += upper;
       if (!(sum * (1.0 + kMassRounding) < enough)) return std::nullopt;
@@ -155,44 +125,6 @@ bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const
   if (!is_usable_) return false;
   const auto poses = query_.robot().poses(values);
   return pairsBelow(poses, kNegligible * threshold, threshold).has_value();
-}
-
-Bounds StateScreen::ask(const Pair& pair, const fcl::Transform3d& pose,
-                        const ProbabilityRequest& request) const {
-  ProbabilityResult result;
-  queries_[pair.body * obstacles_.size() + pair.obstacle].collisionProbability(
-      pose, query_.obstacles()[pair.obstacle].pose, displacements_[pair.obstacle], request, result);
-  return {result.lower.value_or(0.0), std::min(pair.upper, result.upper.value_or(1.0))};
-}
-
-Decision StateScreen::decide(const Eigen::VectorXd& values,
-                             const ProbabilityRequest& request) const {
-  if (!is_usable_) return Decision::undecided;
-  const double threshold = *request.threshold;
-  const std::vector<fcl::Transform3d> poses = query_.robot().poses(values);
-  std::vector<Pair> pairs =
-      *pairsBelow(poses, kNegligible * threshold, std::numeric_limits<double>::infinity());
-  const auto likeliestFirst = [](const Pair& x, const Pair& y) { return x.upper > y.upper; };
-  const auto isSumBelow = [&] {
-    double sum = 0.0;
-    for (const Pair& pair : pairs) sum += pair.upper;
-    return sum * (1.0 + kMassRounding) < threshold;
-  };
-  ProbabilityRequest interval = request;
-  interval.threshold.reset();
-  interval.absolute_tolerance = std::max(request.absolute_tolerance, kShareOfPair * threshold);
-  // First what a decision costs, then what is needed to add up.
-  for (const ProbabilityRequest& of_pair : {std::cref(request), std::cref(interval)}) {
-    std::stable_sort(pairs.begin(), pairs.end(), likeliestFirst);
-    for (Pair& pair : pairs) {
-      if (isSumBelow()) return Decision::below;
-      if (pair.upper < kShareOfPair * threshold) break;
-      const Bounds bounds = ask(pair, poses[pair.body], of_pair);
-      if (bounds.lower > threshold) return Decision::above;
-      pair.upper = bounds.upper;
-    }
-  }
-  return isSumBelow() ? Decision::below : Decision::undecided;
 }
 
 }  // namespace fcl_prob::detail

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Most states of a plan are told from what little is near: bounds in microseconds, then pairs.
+// Most states of a plan are told from what little is near, in microseconds.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "fcl_prob/collision_probability.h"
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/robot_query.h"
 #include "robot/body_balls.h"
 
 namespace fcl_prob::detail {
 
-/// Half-spaces between the hulls of bodies and obstacles, whose masses are added up; then P of
-/// single pairs, whose trees are kept.
+/// Half-spaces between the hulls of bodies and obstacles, whose masses are added up; and a few
+/// displaced obstacles.
 class StateScreen {
  public:
   /// \param query  must outlive this
@@ -28,11 +27,6 @@ class StateScreen {
   /// no proof, but where only what is below is wanted a proof of the opposite is not needed. The
   /// same displacements every time. \param values  valid ones
   bool isHardlyBelow(const Eigen::VectorXd& values, double threshold) const;
-
-  /// Whether P is certainly below the threshold of the request, or certainly above since that of a
-  /// single pair is; undecided: the sum over the pairs does not tell.
-  /// \param values  valid ones
-  Decision decide(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
 
  private:
   /// What is around one body or obstacle.
@@ -53,16 +47,11 @@ class StateScreen {
   std::optional<std::vector<Pair>> pairsBelow(const std::vector<fcl::Transform3d>& poses,
                                               double negligible, double enough) const;
   void draw(const Obstacle& obstacle, std::uint64_t stream);
-  double upperOfPair(const Hull& hull, const fcl::Transform3d& pose, std::size_t obstacle) const;
-  Bounds ask(const Pair& pair, const fcl::Transform3d& pose,
-             const ProbabilityRequest& request) const;
 
   const RobotQuery& query_;
   std::vector<Hull> bodies_;
   std::vector<Hull> obstacles_;
   std::vector<GaussianDisplacement> displacements_;  ///< of the bodies relative to each obstacle
-  std::vector<PreparedQuery> queries_;               ///< by body, and for each by obstacle
-
   std::vector<std::vector<Eigen::Vector3d>> moved_;  ///< draws of every obstacle's displacement
 
   /// All have bounded hulls, and all displacements are Gaussian.

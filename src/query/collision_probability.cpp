@@ -4,7 +4,6 @@
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/mixture.h"
-#include "query/mixture_query.h"
 #include "query/pair_query.h"
 
 namespace fcl_prob {
@@ -45,17 +44,7 @@ double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& 
 double collisionProbability(const PreparedQuery& query, const fcl::Transform3d& pose_a,
                             const fcl::Transform3d& pose_b, const GaussianMixture& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result) {
-  validateRequest(request);
-  const detail::PairQuery& pair = query.implementation_->pair;
-  if (request.method == ProbabilityMethod::monte_carlo) {
-    result = pair.sampled(pose_a, pose_b, displacement, request);
-  } else {
-    result = detail::mixtureProbability(
-        displacement, request,
-        [&](const GaussianDisplacement& component, const ProbabilityRequest& of_component) {
-          return pair.answer(pose_a, pose_b, component, of_component);
-        });
-  }
+  result = query.implementation_->pair.answer(pose_a, pose_b, displacement, request);
   return result.probability();
 }
 

@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <deque>
-#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/exceptions.h"
-#include "fcl_prob/group.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
 #include "query/bounded_part.h"
@@ -25,31 +24,27 @@ namespace fcl_prob::detail {
 /// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
 class MemberGroup {
  public:
-  MemberGroup(const GroupQuery::Geometries& geometries, const std::string& name) : name_(name) {
-    if (geometries.empty()) throw InvalidGeometry(name + " has no members");
-    // A geometry that is in the group many times, as a link at many waypoints, is prepared once.
-    std::map<const fcl::CollisionGeometryd*, const PreparedGeometry*> known;
-    for (std::size_t i = 0; i < geometries.size(); ++i) {
-      const PreparedGeometry*& prepared = known[geometries[i].get()];
-      if (prepared == nullptr) {
-        prepared =
-            &distinct_.emplace_back(geometries[i], "member " + std::to_string(i) + " of " + name);
-      }
-      members_.push_back(prepared);
-      if (isLeftOut(*geometries[i])) continue;
-      (prepared->hasPieces() ? bounded_ : unbounded_).push_back(i);
+  MemberGroup(PreparedGeometries members, const std::string& name)
+      : name_(name), members_(std::move(members)) {
+    if (members_.empty()) throw InvalidGeometry(name + " has no members");
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (isLeftOut(members_[i]->geometry())) continue;
+      (members_[i]->hasPieces() ? bounded_ : unbounded_).push_back(i);
     }
-    std::vector<const PieceTree*> trees;
-    for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
-    tree_ = joinPieceTrees(trees);
   }
 
-  // Members point into it.
-  MemberGroup(const MemberGroup&) = delete;
-  MemberGroup& operator=(const MemberGroup&) = delete;
+  const PreparedGeometries& members() const { return members_; }
 
-  const std::vector<const PreparedGeometry*>& members() const { return members_; }
-  const PieceTree& tree() const { return *tree_; }
+  /// Of the bounded members, made when it is first needed.
+  const PieceTree& tree() const {
+    std::call_once(tree_once_, [this] {
+      std::vector<const PieceTree*> trees;
+      for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
+      tree_ = joinPieceTrees(trees);
+    });
+    return *tree_;
+  }
+
   const std::vector<std::size_t>& bounded() const { return bounded_; }
   const std::vector<std::size_t>& unbounded() const { return unbounded_; }
   bool anyUnbounded() const { return !unbounded_.empty(); }
@@ -58,7 +53,7 @@ class MemberGroup {
 
   bool haveRootBodies() const {
     return std::all_of(members_.begin(), members_.end(),
-                       [](const PreparedGeometry* member) { return member->hasRootBody(); });
+                       [](const auto& member) { return member->hasRootBody(); });
   }
 
   bool isConvexInOnePlace(const std::vector<fcl::Transform3d>& poses) const {
@@ -67,13 +62,13 @@ class MemberGroup {
     };
     return std::all_of(poses.begin(), poses.end(), same) &&
            std::all_of(members_.begin(), members_.end(),
-                       [](const PreparedGeometry* member) { return member->isConvex(); });
+                       [](const auto& member) { return member->isConvex(); });
   }
 
   /// Of convex members.
   std::vector<ConvexBody> bodies() const {
     std::vector<ConvexBody> bodies;
-    for (const PreparedGeometry* member : members_) bodies.push_back(member->rootBody());
+    for (const auto& member : members_) bodies.push_back(member->rootBody());
     return bodies;
   }
 
@@ -89,7 +84,7 @@ class MemberGroup {
 
   /// The bounded members, placed. \throws OpenMesh
   PartitionObject placed(const std::vector<fcl::Transform3d>& poses, ContactMeaning contact) const {
-    PartitionObject object{tree_.get(), {}};
+    PartitionObject object{&tree(), {}};
     for (const std::size_t i : bounded_) {
       object.parts.push_back({poses[i], members_[i]->solid(contact)});
     }
@@ -97,7 +92,7 @@ class MemberGroup {
   }
 
   bool hasOcTree() const {
-    return std::any_of(members_.begin(), members_.end(), [](const PreparedGeometry* member) {
+    return std::any_of(members_.begin(), members_.end(), [](const auto& member) {
       return member->geometry().getNodeType() == fcl::GEOM_OCTREE;
     });
   }
@@ -108,11 +103,11 @@ class MemberGroup {
   }
 
   std::string name_;
-  std::deque<PreparedGeometry> distinct_;
-  std::vector<const PreparedGeometry*> members_;  ///< into distinct_
+  PreparedGeometries members_;
   std::vector<std::size_t> bounded_;
   std::vector<std::size_t> unbounded_;
-  std::shared_ptr<const PieceTree> tree_;
+  mutable std::once_flag tree_once_;
+  mutable std::shared_ptr<const PieceTree> tree_;
 };
 
 /// A group with what the displacement can reach of its unbounded members.

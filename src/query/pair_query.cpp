@@ -10,6 +10,7 @@
 #include "partition/without_contact.h"
 #include "query/call_budget.h"
 #include "query/exact_mass.h"
+#include "query/mixture_query.h"
 #include "query/octree_cells.h"
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
@@ -33,13 +34,21 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
   return result;
 }
 
-ProbabilityResult PairQuery::sampled(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
-                                     const GaussianMixture& displacement,
-                                     const ProbabilityRequest& request) const {
-  ProbabilityResult result =
-      monteCarloProbability(a_->geometry(), pose_a, b_->geometry(), pose_b, displacement, request);
-  noteTolerance(request, result);
-  return result;
+ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                    const GaussianMixture& displacement,
+                                    const ProbabilityRequest& request) const {
+  validateRequest(request);
+  if (request.method == ProbabilityMethod::monte_carlo) {
+    ProbabilityResult result = monteCarloProbability(a_->geometry(), pose_a, b_->geometry(), pose_b,
+                                                     displacement, request);
+    noteTolerance(request, result);
+    return result;
+  }
+  return mixtureProbability(
+      displacement, request,
+      [&](const GaussianDisplacement& component, const ProbabilityRequest& of_component) {
+        return answer(pose_a, pose_b, component, of_component);
+      });
 }
 
 ProbabilityResult PairQuery::answerOfGaussian(const fcl::Transform3d& pose_a,

@@ -28,10 +28,10 @@ class PairQuery {
                            const TruncatedGaussian& displacement,
                            const ProbabilityRequest& request) const;
 
-  /// The same for a mixture, by Monte Carlo of the whole of it.
-  ProbabilityResult sampled(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
-                            const GaussianMixture& displacement,
-                            const ProbabilityRequest& request) const;
+  /// The same for a mixture.
+  ProbabilityResult answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                           const GaussianMixture& displacement,
+                           const ProbabilityRequest& request) const;
 
  private:
   ProbabilityResult answerOfGaussian(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,

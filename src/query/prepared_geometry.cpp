@@ -63,6 +63,16 @@ const ConvexBody& PreparedGeometry::rootBody() const {
   return *root_body_;
 }
 
+const ConvexBody& PreparedGeometry::hull() const {
+  if (isConvex()) return rootBody();
+  std::call_once(hull_once_, [this] {
+    const MeshView mesh = meshView(*geometry_);
+    hull_ = std::make_unique<const ConvexBody>(
+        std::vector<Eigen::Vector3d>(mesh.vertices, mesh.vertices + mesh.vertex_count));
+  });
+  return *hull_;
+}
+
 Eigen::AlignedBox3d PreparedGeometry::localBox() const {
   switch (kindOf(*geometry_)) {
     case GeometryKind::mesh:

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/probability_request.h"
@@ -35,6 +36,10 @@ class PreparedGeometry {
   bool hasRootBody() const;
   const ConvexBody& rootBody() const;
 
+  /// Of what has a root body: itself, or the convex hull of a mesh, which is within its root
+  /// volume.
+  const ConvexBody& hull() const;
+
   /// Whether it is a bounded convex shape, which rootBody() then is.
   bool isConvex() const;
 
@@ -54,8 +59,13 @@ class PreparedGeometry {
   mutable std::shared_ptr<const PieceTree> pieces_;
   mutable std::once_flag root_once_;
   mutable std::unique_ptr<const ConvexBody> root_body_;
+  mutable std::once_flag hull_once_;
+  mutable std::unique_ptr<const ConvexBody> hull_;
   mutable std::once_flag solid_once_;
   mutable std::unique_ptr<const ClosedMesh> solid_;
 };
+
+/// Shared, so that an object of many queries is prepared once.
+using PreparedGeometries = std::vector<std::shared_ptr<const PreparedGeometry>>;
 
 }  // namespace fcl_prob::detail

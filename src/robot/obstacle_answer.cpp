@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "fcl_prob/combined_bounds.h"
 #include "query/call_budget.h"
@@ -16,12 +18,13 @@ class EventAnswers {
  public:
   /// \param combine  null: the events are independent
   EventAnswers(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask,
-               const CombineEvents* combine)
+               const CombineEvents* combine, std::vector<Bounds> known = {})
       : request_(request),
         ask_(ask),
         combine_(combine),
         budget_(request),
-        bounds_(count, Bounds{0.0, 1.0}) {
+        bounds_(std::move(known)) {
+    bounds_.resize(count, Bounds{0.0, 1.0});
     result_.parts.resize(count);
   }
 
@@ -29,7 +32,8 @@ class EventAnswers {
     if (request_.threshold && bounds_.size() > 1) {
       ProbabilityRequest share = request_;
       share.threshold = *request_.threshold / static_cast<double>(bounds_.size());
-      askAll(share, [this](std::size_t i) { return !result_.parts[i].upper; });
+      askAll(share, [&](std::size_t i) { return !(bounds_[i].upper < *share.threshold); });
+      if (!combine_) askForWhatIsLeft();
     }
     ProbabilityRequest fine = request_;
     fine.absolute_tolerance /= static_cast<double>(bounds_.size());
@@ -47,23 +51,57 @@ class EventAnswers {
   }
 
   template <typename Needed>
-  void askAll(ProbabilityRequest part, const Needed& is_needed) {
+  void askAll(const ProbabilityRequest& part, const Needed& is_needed) {
     std::size_t left = 0;
     for (std::size_t i = 0; i < bounds_.size(); ++i) left += is_needed(i);
-    for (std::size_t i = 0; i < bounds_.size() && !isDecided(); ++i) {
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
       if (!is_needed(i)) continue;
-      if (stopped_) return;
-      if ((stopped_ = budget_.exhausted())) return;
-      ProbabilityRequest of_one = part;
-      budget_.share(left--, of_one);
-      ProbabilityResult answer;
-      ask_(i, of_one, answer);
-      budget_.spend(answer.statistics);
-      bounds_[i] = {std::max(bounds_[i].lower, answer.lower.value_or(0.0)),
-                    std::min(bounds_[i].upper, answer.upper.value_or(1.0))};
-      if (isStopped(answer.status)) stopped_ = answer.status;
-      result_.parts[i] = std::move(answer);
+      if (isDecided() || isOut()) return;
+      askOne(i, part, left--);
     }
+  }
+
+  bool isOut() {
+    if (!stopped_) stopped_ = budget_.exhausted();
+    return stopped_.has_value();
+  }
+
+  /// \param left  events that are still to be asked for, this one included
+  void askOne(std::size_t i, ProbabilityRequest request, std::size_t left) {
+    budget_.share(left, request);
+    ProbabilityResult answer;
+    ask_(i, request, answer);
+    budget_.spend(answer.statistics);
+    bounds_[i] = {std::max(bounds_[i].lower, answer.lower.value_or(0.0)),
+                  std::min(bounds_[i].upper, answer.upper.value_or(1.0))};
+    if (isStopped(answer.status)) stopped_ = answer.status;
+    result_.parts[i] = std::move(answer);
+  }
+
+  /// Of independent events: each against what the upper bounds of the others leave of the
+  /// threshold. Where one event has most of it, that decides.
+  void askForWhatIsLeft() {
+    std::vector<std::size_t> order(bounds_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [this](std::size_t x, std::size_t y) {
+      return bounds_[x].width() > bounds_[y].width();
+    });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const std::size_t i = order[k];
+      ProbabilityRequest part = request_;
+      *part.threshold = leftTo(i);
+      const bool may_tell =
+          *part.threshold > bounds_[i].lower && *part.threshold < bounds_[i].upper;
+      if (!may_tell) continue;
+      if (isDecided() || isOut()) return;
+      askOne(i, part, order.size() - k);
+    }
+  }
+
+  double leftTo(std::size_t i) const {
+    double free = 1.0;
+    for (std::size_t j = 0; j < bounds_.size(); ++j) free *= j == i ? 1.0 : 1.0 - bounds_[j].upper;
+    return free > 0.0 ? 1.0 - (1.0 - *request_.threshold) / free : 0.0;
   }
 
   static bool isStopped(ProbabilityStatus status) {
@@ -138,8 +176,9 @@ class EventAnswers {
 
 }  // namespace
 
-RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask) {
-  return EventAnswers(count, request, ask, nullptr).run();
+RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask,
+                       std::vector<Bounds> known) {
+  return EventAnswers(count, request, ask, nullptr, std::move(known)).run();
 }
 
 RobotResult anyOfDependent(std::size_t count, const ProbabilityRequest& request,

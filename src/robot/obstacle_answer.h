@@ -18,7 +18,9 @@ using AskEvent =
 /// P(any of `count` independent events). A threshold is tried first by the cheapest that can decide
 /// it: each event against its share. The tolerance of each is that of the whole: with intervals
 /// that are narrow relative to P so is that of 1 - Π(1 - P).
-RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask);
+/// \param known  certified bounds of the events, if any; these may decide a threshold by themselves
+RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask,
+                       std::vector<Bounds> known = {});
 
 /// What the intervals of single events say of any of them.
 using CombineEvents = std::function<Bounds(const std::vector<Bounds>& events)>;

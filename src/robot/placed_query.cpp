@@ -5,26 +5,21 @@
 #include <algorithm>
 #include <utility>
 
-#include "fcl_prob/group.h"
+#include "query/call_budget.h"
+#include "query/groups_query.h"
+#include "query/single_collide.h"
+#include "robot/body_bounds.h"
 #include "robot/reversed.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-using Poses = std::vector<fcl::Transform3d>;
+/// What bodies that balls around them show to be far may add up to in a first bound.
+constexpr double kClearlyFar = 1e-6;
 
-void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
-         const GaussianDisplacement& displacement, const ProbabilityRequest& request,
-         ProbabilityResult& result) {
-  query.collisionProbability(bodies, obstacle, displacement, request, result);
-}
-
-template <typename Other>
-void ask(const GroupQuery& query, const Poses& bodies, const Poses& obstacle,
-         const Other& displacement, const ProbabilityRequest& request, ProbabilityResult& result) {
-  collisionProbability(query, bodies, obstacle, displacement, request, result);
-}
+/// Of the threshold: what bodies that are left out of a decision as unlikely may add up to.
+constexpr double kShareOfThreshold = 0.02;
 
 ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
   ProbabilityResult result;
@@ -36,6 +31,73 @@ ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
   }
   result.plan.push_back("all bodies are far from it: bounded by balls around them");
   return result;
+}
+
+ProbabilityResult ofGroup(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                          const std::vector<PlacedBody>& bodies,
+                          const ProbabilityRequest& request) {
+  PreparedGeometries geometries;
+  std::vector<fcl::Transform3d> poses;
+  for (const PlacedBody& body : bodies) {
+    geometries.push_back(scene.bodies[body.body]);
+    poses.push_back(body.pose);
+  }
+  const GroupsQuery query(std::move(geometries), {scene.obstacle});
+  return std::visit(
+      [&](const auto& displacement) {
+        return query.answer(poses, {state.pose}, reversed(displacement), request);
+      },
+      state.displacement);
+}
+
+/// Far apart as far as half-spaces tell.
+ProbabilityResult allUnlikely(double upper) {
+  ProbabilityResult result;
+  result.lower = 0.0;
+  result.upper = upper;
+  result.status = ProbabilityStatus::decided;
+  result.decision = Decision::below;
+  result.plan.push_back("below the threshold by half-spaces between the bodies and it");
+  return result;
+}
+
+bool isLimit(ProbabilityStatus status) {
+  return status != ProbabilityStatus::decided && status != ProbabilityStatus::converged &&
+         status != ProbabilityStatus::exact && status != ProbabilityStatus::resolution_limit;
+}
+
+/// Without the bodies that hardly matter for the threshold; nothing where all are needed after all,
+/// for which the request then has what is left of the limits. \param far  of what is left out
+std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scene,
+                                                 const ObstacleState& state,
+                                                 const std::vector<PlacedBody>& bodies, double far,
+                                                 ProbabilityRequest& request) {
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
+  if (!request.threshold || request.method == ProbabilityMethod::estimate || !gaussian) {
+    return std::nullopt;
+  }
+  const CallBudget budget(request);
+  const BodyBounds bounds(scene.bodies, bodies, *scene.obstacle, state.pose, gaussian->reversed());
+  const double threshold = *request.threshold;
+  if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
+  double left_out = 0.0;
+  const auto likelier = bounds.likelier(kShareOfThreshold * threshold, left_out);
+  const double left = threshold - sumAbove(left_out, far);
+  if (likelier.size() == bodies.size() || !(left > 0.0)) return std::nullopt;
+  ProbabilityRequest of_likelier = request;
+  of_likelier.threshold = left;
+  ProbabilityResult result = ofGroup(scene, state, likelier, of_likelier);
+  const double upper = std::min(1.0, sumAbove(*result.upper, left_out));
+  result.upper = upper;
+  result.decision = decisionOf({*result.lower, std::min(1.0, sumAbove(upper, far))}, request);
+  result.plan.push_back(std::to_string(bodies.size() - likelier.size()) +
+                        " bodies left out of the decision: unlikely to touch it by half-spaces");
+  const bool decided = result.decision == Decision::below || result.decision == Decision::above;
+  if (decided || isLimit(result.status)) return result;
+  CallBudget spent(budget);
+  spent.spend(result.statistics);
+  spent.share(1, request);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -62,6 +124,15 @@ double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const Obs
   return sum;
 }
 
+double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                     std::vector<PlacedBody> bodies) {
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
+  if (!gaussian) return 1.0;
+  const double far = leaveOutFar(scene.balls, scene.around, state, kClearlyFar, bodies);
+  const BodyBounds bounds(scene.bodies, bodies, *scene.obstacle, state.pose, gaussian->reversed());
+  return std::min(1.0, sumAbove(bounds.sum(), far));
+}
+
 ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
                                     std::vector<PlacedBody> bodies,
                                     const ProbabilityRequest& request, FarBodies& left_out) {
@@ -70,25 +141,14 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
                                  kShareOfFar * request.absolute_tolerance, bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
-  GroupQuery::Geometries geometries;
-  Poses poses;
-  for (const PlacedBody& body : bodies) {
-    geometries.push_back(scene.robot.bodies()[body.body].geometry);
-    poses.push_back(body.pose);
-  }
   // What is left out widens the interval, too.
   ProbabilityRequest of_near = request;
   if (far > 0.0) {
     of_near.absolute_tolerance *= 1.0 - kShareOfFar;
     of_near.relative_tolerance *= 1.0 - kShareOfFar;
   }
-  const GroupQuery query(std::move(geometries), {scene.obstacle});
-  ProbabilityResult result;
-  std::visit(
-      [&](const auto& displacement) {
-        ask(query, poses, {state.pose}, reversed(displacement), of_near, result);
-      },
-      state.displacement);
+  const auto decided = withoutUnlikely(scene, state, bodies, far, of_near);
+  ProbabilityResult result = decided ? *decided : ofGroup(scene, state, bodies, of_near);
   if (far > 0.0 && result.upper) {
     result.upper = std::min(1.0, sumAbove(*result.upper, far));
   }

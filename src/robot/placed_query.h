@@ -7,17 +7,12 @@
 
 #include "fcl_prob/robot_query.h"
 #include "robot/body_balls.h"
+#include "robot/placed_body.h"
 
 namespace fcl_prob::detail {
 
 /// Of the absolute tolerance: what all bodies that are left out may add up to.
 inline constexpr double kShareOfFar = 0.05;
-
-/// A body of the robot at one of the waypoints.
-struct PlacedBody {
-  std::size_t body;
-  fcl::Transform3d pose;
-};
 
 /// What was left out of one query.
 struct FarBodies {
@@ -35,14 +30,20 @@ double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const Obs
 
 /// An obstacle with what is known of its geometry and of those of the robot's bodies.
 struct ObstacleAmongBodies {
-  const Robot& robot;
-  const std::vector<Ball>& balls;  ///< of its bodies, in their frames
-  const std::shared_ptr<const fcl::CollisionGeometryd>& obstacle;
+  const PreparedGeometries& bodies;  ///< of the robot
+  const std::vector<Ball>& balls;    ///< of its bodies, in their frames
+  const std::shared_ptr<const PreparedGeometry>& obstacle;
   const Ball& around;  ///< the obstacle, in its frame
 };
 
+/// Certainly not below P that any of the placed bodies touches the obstacle, in microseconds a
+/// body: by half-spaces. 1 for errors that are not Gaussian.
+double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                     std::vector<PlacedBody> bodies);
+
 /// P that any of the placed bodies touches an obstacle in some state: one group query, without
-/// those that are too far away to matter. \throws as GroupQuery
+/// those that are too far away to matter; for a threshold also without those that half-spaces say
+/// are unlikely to. \throws as GroupQuery
 ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
                                     std::vector<PlacedBody> bodies,
                                     const ProbabilityRequest& request, FarBodies& left_out);

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "fcl_prob/combined_bounds.h"
-#include "narrowphase/convex_pair_mass.h"
 #include "partition/probable_partition.h"
 #include "query/call_budget.h"
+#include "robot/body_bounds.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
@@ -18,10 +18,13 @@ namespace {
 /// Of the threshold: what bodies that are far may add up to, over all obstacles.
 constexpr double kFarOfThreshold = 1e-3;
 
+/// Of the threshold: what other bodies that samples are not drawn for may add up to.
+constexpr double kUnlikelyOfThreshold = 0.01;
+
 /// Bodies against one obstacle, as far as they have been looked at.
 class ObstacleSampling {
  public:
-  ObstacleSampling(const ProbableScene& scene, const std::deque<PreparedGeometry>& geometries,
+  ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
                    const std::vector<Ball>& balls, double most_far)
       : scene_(scene), geometries_(geometries), displacement_(gaussian(scene).reversed()) {
     far_ = leaveOutFar(balls, *scene.around, scene.state, most_far, scene_.bodies);
@@ -35,23 +38,17 @@ class ObstacleSampling {
   std::size_t cells() const { return partition_ ? partition_->statistics().cells : 0; }
   std::size_t samples() const { return partition_ ? partition_->statistics().samples : 0; }
 
-  /// The sum of the bounds of the volumes around all pairs, by support values: what needs their
-  /// masses takes longer than samples. \param useful  a larger sum is not
-  void boundByRoots(double useful) {
-    const auto at_once = [] { return true; };
-    double sum = far_;
-    const PreparedGeometry& obstacle = *scene_.obstacle;
-    if (!obstacle.hasRootBody()) return;
-    for (const PlacedBody& body : scene_.bodies) {
-      const PreparedGeometry& geometry = geometries_[body.body];
-      if (!geometry.hasRootBody()) return;
-      sum = sumAbove(sum, convexPcd(geometry.rootBody(), body.pose, obstacle.rootBody(),
-                                    scene_.state.pose, displacement_, at_once)
-                              .least);
-      if (sum >= useful) return;
-    }
-    certified_.upper = std::min(certified_.upper, sum);
-    probable_.upper = std::min(probable_.upper, sum);
+  /// Half-spaces between bodies and obstacle; those that hardly matter need no samples.
+  /// \param most_left_out  what they may add up to
+  void boundByHalfSpaces(double most_left_out) {
+    if (scene_.bodies.empty()) return;
+    const BodyBounds bounds(geometries_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
+                            displacement_);
+    double left_out = 0.0;
+    scene_.bodies = bounds.likelier(most_left_out, left_out);
+    certified_.upper = std::min(certified_.upper, sumAbove(bounds.sum(), far_));
+    probable_.upper = std::min(probable_.upper, certified_.upper);
+    far_ = sumAbove(far_, left_out);
   }
 
   /// \return  why it stopped, if that is a limit
@@ -75,7 +72,7 @@ class ObstacleSampling {
   void begin(const ProbabilityRequest& request, double chance) {
     std::vector<const PieceTree*> trees;
     for (const PlacedBody& body : scene_.bodies) {
-      const PreparedGeometry& geometry = geometries_[body.body];
+      const PreparedGeometry& geometry = *geometries_[body.body];
       trees.push_back(&geometry.pieces());
       bodies_.parts.push_back({body.pose, geometry.solid(request.contact)});
     }
@@ -94,7 +91,7 @@ class ObstacleSampling {
   }
 
   ProbableScene scene_;
-  const std::deque<PreparedGeometry>& geometries_;
+  const PreparedGeometries& geometries_;
   GaussianDisplacement displacement_;  ///< of the bodies
   double far_ = 0.0;
   std::shared_ptr<const PieceTree> tree_;
@@ -108,9 +105,9 @@ class ObstacleSampling {
 
 class AnyProbably {
  public:
-  AnyProbably(const std::vector<ProbableScene>& scenes,
-              const std::deque<PreparedGeometry>& geometries, const std::vector<Ball>& balls,
-              double threshold, double chance, const ProbabilityRequest& request)
+  AnyProbably(const std::vector<ProbableScene>& scenes, const PreparedGeometries& geometries,
+              const std::vector<Ball>& balls, double threshold, double chance,
+              const ProbabilityRequest& request)
       : threshold_(threshold), chance_(chance), request_(request), budget_(request_) {
     const double far = kFarOfThreshold * threshold / static_cast<double>(scenes.size());
     for (const ProbableScene& scene : scenes) {
@@ -122,7 +119,9 @@ class AnyProbably {
 
   ProbableResult run() {
     if (decide()) return finished(ProbabilityStatus::decided);
-    for (const auto& obstacle : obstacles_) obstacle->boundByRoots(threshold_);
+    const double unlikely =
+        kUnlikelyOfThreshold * threshold_ / static_cast<double>(obstacles_.size());
+    for (const auto& obstacle : obstacles_) obstacle->boundByHalfSpaces(unlikely);
     const double share = chance_ / static_cast<double>(obstacles_.size());
     while (!decide()) {
       ObstacleSampling* next = widest();
@@ -207,9 +206,8 @@ bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state) 
 }
 
 ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
-                           const std::deque<PreparedGeometry>& geometries,
-                           const std::vector<Ball>& balls, double threshold, double chance,
-                           const ProbabilityRequest& request) {
+                           const PreparedGeometries& geometries, const std::vector<Ball>& balls,
+                           double threshold, double chance, const ProbabilityRequest& request) {
   return AnyProbably(scenes, geometries, balls, threshold, chance, request).run();
 }
 

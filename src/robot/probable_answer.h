@@ -3,7 +3,6 @@
 // On which side of a threshold the probability of any of several obstacles is, with samples.
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "fcl_prob/probable_decision.h"
@@ -26,8 +25,7 @@ bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state);
 /// \param geometries, balls  of the robot's bodies, in their frames
 /// \param chance             of a wrong decision, in (0, 1)
 ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
-                           const std::deque<PreparedGeometry>& geometries,
-                           const std::vector<Ball>& balls, double threshold, double chance,
-                           const ProbabilityRequest& request);
+                           const PreparedGeometries& geometries, const std::vector<Ball>& balls,
+                           double threshold, double chance, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

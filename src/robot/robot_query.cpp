@@ -3,13 +3,13 @@
 #include "fcl_prob/robot_query.h"
 
 #include <algorithm>
-#include <deque>
 
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
+#include "query/call_budget.h"
 #include "query/motion_gradient.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
@@ -29,6 +29,10 @@ using detail::PlacedBody;
 
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
+
+// A probable decision that needs more cells is tried to be proven, with no more cells than those.
+constexpr std::size_t kCellsBeforeProof = 64;
+constexpr std::size_t kCellsOfProof = 4'000;
 
 // Between the seeds of obstacles: 2⁶⁴ over the golden ratio.
 constexpr std::uint64_t kSeedsApart = 0x9e3779b97f4a7c15;
@@ -102,16 +106,18 @@ struct RobotQuery::Implementation {
       : robot(the_robot), obstacles(std::move(the_obstacles)) {
     if (obstacles.empty()) throw InvalidRequest("a robot query needs an obstacle");
     for (const RobotBody& body : robot.bodies()) {
-      geometries.emplace_back(body.geometry, "a body of " + body.name());
-      balls.push_back(detail::ballAround(geometries.back()));
+      geometries.push_back(std::make_shared<const detail::PreparedGeometry>(
+          body.geometry, "a body of " + body.name()));
+      balls.push_back(detail::ballAround(*geometries.back()));
     }
     for (const Obstacle& obstacle : obstacles) {
       detail::validatePose(obstacle.pose, "obstacle " + obstacle.name);
       for (const ObstacleState& state : obstacle.over_time) {
         detail::validatePose(state.pose, "obstacle " + obstacle.name);
       }
-      obstacle_geometries.emplace_back(obstacle.geometry, "obstacle " + obstacle.name);
-      obstacle_balls.push_back(detail::ballAround(obstacle_geometries.back()));
+      obstacle_geometries.push_back(std::make_shared<const detail::PreparedGeometry>(
+          obstacle.geometry, "obstacle " + obstacle.name));
+      obstacle_balls.push_back(detail::ballAround(*obstacle_geometries.back()));
     }
   }
 
@@ -125,12 +131,16 @@ struct RobotQuery::Implementation {
     if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
     for (const Eigen::VectorXd& values : waypoints) robot.validate(values);
     for (const Obstacle& obstacle : obstacles) detail::requireStates(obstacle, waypoints.size());
+    // Open meshes are refused wherever they are.
+    for (const auto* all : {&geometries, &obstacle_geometries}) {
+      for (const auto& geometry : *all) geometry->solid(request.contact);
+    }
   }
 
   /// Not what fcl::collide leaves out.
   bool meets(std::size_t body, std::size_t obstacle) const {
-    return !detail::whyNeverInContact(geometries[body].geometry(),
-                                      obstacle_geometries[obstacle].geometry());
+    return !detail::whyNeverInContact(geometries[body]->geometry(),
+                                      obstacle_geometries[obstacle]->geometry());
   }
 
   std::vector<PlacedBody> placed(const Eigen::VectorXd& values) const {
@@ -150,9 +160,11 @@ struct RobotQuery::Implementation {
   ProbabilityResult askObstacle(std::size_t index, const ObstacleState& state,
                                 std::vector<PlacedBody> bodies, const ProbabilityRequest& request,
                                 FarBodies& left_out) const {
-    return detail::placedProbability(
-        {robot, balls, obstacles[index].geometry, obstacle_balls[index]}, state, std::move(bodies),
-        request, left_out);
+    return detail::placedProbability(sceneOf(index), state, std::move(bodies), request, left_out);
+  }
+
+  detail::ObstacleAmongBodies sceneOf(std::size_t obstacle) const {
+    return {geometries, balls, obstacle_geometries[obstacle], obstacle_balls[obstacle]};
   }
 
   /// Errors that are the same all along: an obstacle that has shifted is where it was at first, and
@@ -180,11 +192,19 @@ struct RobotQuery::Implementation {
                       const ProbabilityRequest& request) const {
     const auto relative = relativeTo(waypoints, body);
     std::vector<FarBodies> far(obstacles.size());
+    // A decision for a single obstacle begins with those bounds itself.
+    std::vector<Bounds> known;
+    const bool is_sum = request.threshold && request.method != ProbabilityMethod::estimate;
+    for (std::size_t i = 0; i < obstacles.size() && is_sum && obstacles.size() > 1; ++i) {
+      known.push_back(
+          {0.0, detail::unlikelyUpper(sceneOf(i), detail::stateAt(obstacles[i], 0), relative[i])});
+    }
     RobotResult result = detail::anyOfAsked(
         obstacles.size(), request,
         [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
           answer = askObstacle(i, detail::stateAt(obstacles[i], 0), relative[i], of_one, far[i]);
-        });
+        },
+        std::move(known));
     addUp(far, result);
     return result;
   }
@@ -197,24 +217,42 @@ struct RobotQuery::Implementation {
     std::vector<detail::ProbableScene> scenes;
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       const ObstacleState state = detail::stateAt(obstacles[i], 0);
-      if (!detail::canBeSampled(obstacle_geometries[i], state)) return {};
+      if (!detail::canBeSampled(*obstacle_geometries[i], state)) return {};
       std::vector<PlacedBody> bodies;
       for (const PlacedBody& one : relative[i]) {
         if (!meets(one.body, i)) continue;
-        if (!geometries[one.body].hasPieces()) return {};
+        if (!geometries[one.body]->hasPieces()) return {};
         bodies.push_back(one);
       }
       if (bodies.empty()) continue;
-      scenes.push_back({&obstacle_geometries[i], &obstacle_balls[i], state, std::move(bodies)});
+      scenes.push_back(
+          {obstacle_geometries[i].get(), &obstacle_balls[i], state, std::move(bodies)});
     }
     return scenes;
   }
 
+  /// Where P is close to the threshold a proof takes less than samples do: it is tried before more
+  /// of them are drawn.
   ProbableResult ofUnionProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
                                  double chance, const ProbabilityRequest& request) const {
     const std::vector<detail::ProbableScene> scenes = probableScenes(waypoints);
     if (scenes.empty()) return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
-    return detail::probablyAny(scenes, geometries, balls, threshold, chance, request);
+    const detail::CallBudget budget(request);
+    const auto sampled = [&](std::size_t most_cells) {
+      ProbabilityRequest part = detail::withTimeLeft(request, budget);
+      part.max_cells = std::min(request.max_cells, most_cells);
+      return detail::probablyAny(scenes, geometries, balls, threshold, chance, part);
+    };
+    const ProbableResult soon = sampled(kCellsBeforeProof);
+    const bool is_limited = soon.status == ProbabilityStatus::cell_limit;
+    if (!is_limited || request.max_cells <= kCellsBeforeProof) return soon;
+    ProbabilityRequest proof = detail::withTimeLeft(request, budget);
+    proof.max_cells = std::min(request.max_cells, kCellsOfProof);
+    const RobotResult proven = ofUnion(waypoints, -1, withThreshold(proof, threshold));
+    const bool is_cut_off = proven.status == ProbabilityStatus::cancelled ||
+                            proven.status == ProbabilityStatus::time_limit;
+    if (proven.status == ProbabilityStatus::decided) return certainly(proven);
+    return is_cut_off ? soon : sampled(request.max_cells);
   }
 
   /// The bodies that may touch an obstacle, relative to where that is by then.
@@ -295,10 +333,10 @@ struct RobotQuery::Implementation {
         obstacles.size(), request,
         [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
           const ObstacleState state = detail::stateAt(obstacles[i], 0);
-          answers[i] = detail::sweptMotion(paths[i], geometries,
-                                           {obstacle_geometries[i], state.pose, state.displacement},
-                                           obstacle_balls[i].placed(state.pose),
-                                           detail::kShareOfFar * of_one.absolute_tolerance, of_one);
+          answers[i] = detail::sweptMotion(
+              paths[i], geometries, {*obstacle_geometries[i], state.pose, state.displacement},
+              obstacle_balls[i].placed(state.pose), detail::kShareOfFar * of_one.absolute_tolerance,
+              of_one);
           answer = answers[i].result;
         });
     result.swept_band = 0.0;
@@ -313,8 +351,8 @@ struct RobotQuery::Implementation {
 
   Robot robot;
   std::vector<Obstacle> obstacles;
-  std::deque<detail::PreparedGeometry> geometries;  ///< of the robot's bodies
-  std::deque<detail::PreparedGeometry> obstacle_geometries;
+  detail::PreparedGeometries geometries;  ///< of the robot's bodies
+  detail::PreparedGeometries obstacle_geometries;
   std::vector<Ball> balls;           ///< of the robot's bodies, in their frames
   std::vector<Ball> obstacle_balls;  ///< in their frames
 };

@@ -55,7 +55,7 @@ double deviationOf(const GaussianMixture& displacement) {
 
 class SweptMotion {
  public:
-  SweptMotion(const SweptPath& path, const std::deque<PreparedGeometry>& geometries,
+  SweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
               const PlacedObstacle& obstacle, const Ball& around_obstacle, double most_far,
               const ProbabilityRequest& request)
       : path_(path),
@@ -222,7 +222,7 @@ class SweptMotion {
   }
 
   const SweptPath& path_;
-  const std::deque<PreparedGeometry>& geometries_;
+  const PreparedGeometries& geometries_;
   const PlacedObstacle& obstacle_;
   const Ball& around_obstacle_;
   double most_far_;
@@ -236,7 +236,7 @@ class SweptMotion {
 
 }  // namespace
 
-SweptAnswer sweptMotion(const SweptPath& path, const std::deque<PreparedGeometry>& geometries,
+SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
                         const PlacedObstacle& obstacle, const Ball& around_obstacle,
                         double most_far, const ProbabilityRequest& request) {
   return SweptMotion(path, geometries, obstacle, around_obstacle, most_far, request).run();

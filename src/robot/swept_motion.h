@@ -22,7 +22,7 @@ struct SweptAnswer {
 /// answers for all of them. Where the interval is too wide the distance is made smaller. Every
 /// answer holds, and so do the best bounds of all.
 /// \param most_far  what may be left out
-SweptAnswer sweptMotion(const SweptPath& path, const std::deque<PreparedGeometry>& geometries,
+SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
                         const PlacedObstacle& obstacle, const Ball& around_obstacle,
                         double most_far, const ProbabilityRequest& request);
 

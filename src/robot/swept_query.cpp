@@ -23,12 +23,12 @@ constexpr std::size_t kVertexBytes = 150;
 
 class SweptBodies {
  public:
-  SweptBodies(const std::vector<SweptBody>& bodies, const std::deque<PreparedGeometry>& geometries,
+  SweptBodies(const std::vector<SweptBody>& bodies, const PreparedGeometries& geometries,
               const PlacedObstacle& obstacle, ContactMeaning contact)
       : bodies_(bodies), geometries_(geometries), obstacle_(obstacle), contact_(contact) {
     std::vector<const PieceTree*> trees;
     for (const SweptBody& body : bodies) {
-      const PreparedGeometry& geometry = geometries[body.body];
+      const PreparedGeometry& geometry = *geometries[body.body];
       trees.push_back(&geometry.pieces());
       const BodySweep& sweep = body.sweep;
       object_.parts.push_back(
@@ -47,7 +47,7 @@ class SweptBodies {
     // A partition of a single point may not tell what fcl::collide does.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       ProbabilityResult one =
-          singleCollide(geometries_[bodies_[i].body].geometry(), object_.parts[i].pose,
+          singleCollide(geometries_[bodies_[i].body]->geometry(), object_.parts[i].pose,
                         obstacle_.geometry.geometry(), obstacle_.pose, of_bodies.mean(), request);
       if (*one.lower > 0.0) return one;
     }
@@ -73,7 +73,7 @@ class SweptBodies {
   }
 
   const std::vector<SweptBody>& bodies_;
-  const std::deque<PreparedGeometry>& geometries_;
+  const PreparedGeometries& geometries_;
   const PlacedObstacle& obstacle_;
   ContactMeaning contact_;
   std::shared_ptr<const PieceTree> tree_;
@@ -111,7 +111,7 @@ ProbabilityResult askSwept(const SweptBodies& bodies, const TruncatedGaussian& o
 }  // namespace
 
 ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
-                                   const std::deque<PreparedGeometry>& geometries,
+                                   const PreparedGeometries& geometries,
                                    const PlacedObstacle& obstacle,
                                    const ProbabilityRequest& request) {
   const SweptBodies swept(bodies, geometries, obstacle, request.contact);
@@ -122,11 +122,10 @@ ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
   return result;
 }
 
-std::size_t memoryOf(const std::vector<SweptBody>& bodies,
-                     const std::deque<PreparedGeometry>& geometries) {
+std::size_t memoryOf(const std::vector<SweptBody>& bodies, const PreparedGeometries& geometries) {
   std::size_t bytes = 0;
   for (const SweptBody& body : bodies) {
-    const PieceTree& tree = geometries[body.body].pieces();
+    const PieceTree& tree = geometries[body.body]->pieces();
     bytes += tree.nodes.size() * kNodeBytes + tree.vertices.size() * kVertexBytes;
   }
   return bytes;

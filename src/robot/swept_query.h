@@ -3,7 +3,6 @@
 // Swept bodies against one obstacle: one partition for all of them.
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "fcl_prob/robot_query.h"
@@ -25,12 +24,11 @@ struct PlacedObstacle {
 /// \param geometries  of the robot's bodies
 /// \throws UnsupportedGeometry, OpenMesh
 ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
-                                   const std::deque<PreparedGeometry>& geometries,
+                                   const PreparedGeometries& geometries,
                                    const PlacedObstacle& obstacle,
                                    const ProbabilityRequest& request);
 
 /// Bytes that such a query takes before its first cell, roughly.
-std::size_t memoryOf(const std::vector<SweptBody>& bodies,
-                     const std::deque<PreparedGeometry>& geometries);
+std::size_t memoryOf(const std::vector<SweptBody>& bodies, const PreparedGeometries& geometries);
 
 }  // namespace fcl_prob::detail

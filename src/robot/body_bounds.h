@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What half-spaces between the hulls of bodies and an obstacle say of P, in microseconds a body.
+#pragma once
+
+#include <vector>
+
+#include "query/prepared_geometry.h"
+#include "robot/placed_body.h"
+
+namespace fcl_prob::detail {
+
+/// The bodies of one query, each with a bound on P that it touches the obstacle. Their sum bounds P
+/// that any of them does.
+class BodyBounds {
+ public:
+  /// \param geometries  of the robot's bodies
+  /// \param pose        of the obstacle
+  /// \param of_bodies   their displacement relative to it
+  BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
+             const PreparedGeometry& obstacle, const fcl::Transform3d& pose,
+             const GaussianDisplacement& of_bodies);
+
+  /// Certainly not below P that any of them touches it.
+  double sum() const;
+
+  /// The bodies but for those that are least likely to touch it.
+  /// \param most      what those left out may add up to
+  /// \param left_out  what they do
+  std::vector<PlacedBody> likelier(double most, double& left_out) const;
+
+ private:
+  struct Bound {
+    PlacedBody body;
+    double upper;
+  };
+
+  std::vector<Bound> bounds_;  ///< the likeliest first
+};
+
+}  // namespace fcl_prob::detail
