@@ -53,8 +53,10 @@ std::size_t CarvingEngine::bestEntry(const CarvedCell& cell, const List& list) {
     double score = 0.0;
     double nearest = kInfinity;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
+      // Beyond that it neither counts nor is the nearest.
+      const double enough = most >= 0.0 ? 0.0 : -most;
       double excess = -kInfinity;
-      for (std::size_t p = entry.first; p < entry.last; ++p) {
+      for (std::size_t p = entry.first; p < entry.last && !(excess > enough); ++p) {
         const ObstaclePlane& plane = list.planes[p];
         excess = std::max(excess, plane.n.dot(samples_[i]) - plane.inner());
       }

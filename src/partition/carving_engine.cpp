@@ -18,6 +18,12 @@ namespace {
 // Boxes wider than this are halved before obstacles are looked at one by one.
 constexpr double kWidestBox = 1.5;
 
+// For an interval a box with more obstacles than this is halved once more: their lists are what
+// takes time. A decision looks closely at few boxes, and was slower with more of them (bench
+// states).
+constexpr double kWidestCrowdedBox = 1.0;
+constexpr std::size_t kCrowd = 64;
+
 // Accuracy of the masses of cells that stay open, and of those settled: that as a share of the
 // tolerance.
 constexpr double kOpenMassAccuracy = 0.03;
@@ -80,6 +86,15 @@ void CarvingEngine::push(CarvedCell&& cell) {
   std::push_heap(queue_.begin(), queue_.end(), hasSmallerGap);
 }
 
+bool CarvingEngine::isTooLarge(const CarvedCell& cell) const {
+  const double width = widest(*cell.box);
+  if (width > kWidestBox) return true;
+  if (request_.threshold || width <= kWidestCrowdedBox) return false;
+  std::vector<FatNode> leaves;
+  gatherNodes(*cell.box, *cell.nodes, true, leaves);
+  return leaves.size() > kCrowd;
+}
+
 void CarvingEngine::divideLargest() {
   std::pop_heap(queue_.begin(), queue_.end(), hasSmallerGap);
   CarvedCell cell = std::move(queue_.back());
@@ -88,7 +103,7 @@ void CarvingEngine::divideLargest() {
   open_.upper -= cell.mass.upper;
   cell_memory_ -= memoryOf(cell);
   ++statistics_.cells;
-  if (cell.box && widest(*cell.box) > kWidestBox) {
+  if (cell.box && isTooLarge(cell)) {
     divideBox(std::move(cell));
   } else {
     resolve(std::move(cell));
@@ -96,32 +111,29 @@ void CarvingEngine::divideLargest() {
 }
 
 // Its memory is counted as long as cells refer to it.
-std::shared_ptr<ObstacleList> CarvingEngine::makeList() {
-  return {new List, [this](List* list) {
-            list_memory_ -= list->counted;
-            delete list;
-          }};
-}
-
-void CarvingEngine::count(List& list) {
-  list.planes.shrink_to_fit();
-  list.counted = list.memory();
-  list_memory_ += list.counted;
+std::shared_ptr<ObstacleList> CarvingEngine::copied(const List& list) {
+  std::shared_ptr<List> copy{new List(list), [this](List* old) {
+                               list_memory_ -= old->counted;
+                               delete old;
+                             }};
+  copy->counted = copy->memory();
+  list_memory_ += copy->counted;
+  return copy;
 }
 
 void CarvingEngine::resolve(CarvedCell&& cell) {
-  std::shared_ptr<List> list = makeList();
   if (cell.box) cell.body = CellPolytope(*cell.box);
-  const Relation relation = examine(cell, *list);
-  statistics_.peak_front = std::max(statistics_.peak_front, list->entries.size());
+  found_.entries.clear();
+  found_.planes.clear();
+  const Relation relation = examine(cell, found_);
+  statistics_.peak_front = std::max(statistics_.peak_front, found_.entries.size());
   if (obstacles_.failed()) return;  // so has the engine
   if (relation == Relation::covered) {
     claim("one fat pair", true, cell.body);
     return settle(cell.box ? cell.mass : settledMass(cell.body));
   }
   if (relation == Relation::free) return settleFree(cell);
-  count(*list);
-  carve(cell, list);
+  carve(cell, copied(found_));
 }
 
 void CarvingEngine::settle(const Bounds& mass) {

@@ -89,6 +89,7 @@ class CarvingEngine {
   enum class Relation { covered, free, cut };
 
   void push(CarvedCell&& cell);
+  bool isTooLarge(const CarvedCell& cell) const;
   void divideLargest();
   void divideBox(CarvedCell&& cell);
   void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
@@ -100,8 +101,7 @@ class CarvingEngine {
   Relation refine(const CarvedCell& cell, List& into);
   Relation examine(const CarvedCell& cell, List& into);
   std::size_t bestEntry(const CarvedCell& cell, const List& list);
-  std::shared_ptr<List> makeList();
-  void count(List& list);
+  std::shared_ptr<List> copied(const List& list);
   void carve(CarvedCell& cell, const std::shared_ptr<List>& list);
   void carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
                const CellPolytope& inside);
@@ -150,6 +150,7 @@ class CarvingEngine {
 
   PolytopeCutter cutter_;
   CellPolytope layer_;
+  List found_;                            // of the cell that is looked at
   std::vector<Eigen::Vector3d> samples_;  // of a cell, and what they stand for
   std::vector<double> weights_;
   std::vector<double> face_lo_;  // of a box, along the normals of each P

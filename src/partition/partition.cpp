@@ -182,10 +182,9 @@ bool carveInTime(const PartitionObject& a, const PartitionObject& b,
   return reached;
 }
 
-// A decision is left to polytope cells when it needs more boxes than these. Measured with `bench
-// parts`: where fewer do they are quicker, and where more are needed they cost about as much as all
-// of the polytope cells.
-constexpr std::size_t kBoxesBeforeCarving = 256;
+// A decision is left to polytope cells when it needs more boxes than these. Measured on links
+// beside an arm (`bench states`): 12, 32, 128 and 256 are slower.
+constexpr std::size_t kBoxesBeforeCarving = 64;
 
 }  // namespace
 
