@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "python/queries.h"
 
+#include <pybind11/stl.h>
+
 #include <mutex>
 
 #include "fcl_prob/collision_probability.h"
@@ -176,6 +178,14 @@ class Groups {
     }
   }
 
+  MotionGradient gradient(const std::vector<fcl::Transform3d>& poses_a,
+                          const std::vector<fcl::Transform3d>& poses_b,
+                          const GaussianDisplacement& displacement,
+                          const MemberVelocities& velocities,
+                          const MotionGradientRequest& request) const {
+    return query_.motionGradient(poses_a, poses_b, displacement, velocities, request);
+  }
+
   std::size_t sizeA() const { return a_.size(); }
   std::size_t sizeB() const { return b_.size(); }
 
@@ -220,6 +230,63 @@ ProbabilityResult askGroups(const Groups& groups, const py::object& displacement
   });
 }
 
+/// None: every member by itself. (members, 6, k).
+MemberVelocities velocitiesFrom(const py::object& value, std::size_t members) {
+  if (value.is_none()) return rigidMotions(members);
+  const Numbers numbers(value, "velocities");
+  if (!numbers.hasShape({static_cast<std::ptrdiff_t>(members), 6, -1})) {
+    numbers.refuseShape("(" + std::to_string(members) + ", 6, k), a matrix a member");
+  }
+  MemberVelocities all(members, Eigen::MatrixXd(6, numbers.size(2)));
+  for (std::size_t i = 0; i < members; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (std::size_t k = 0; k < numbers.size(2); ++k) all[i](j, k) = numbers.at(i, j, k);
+    }
+  }
+  return all;
+}
+
+MotionGradient motionGradient(const Groups& groups, const py::object& displacement,
+                              const py::object& poses_a, const py::object& poses_b,
+                              const py::object& velocities, const py::object& contact,
+                              std::size_t lines, std::uint64_t seed, unsigned threads,
+                              const std::optional<double>& time_limit) {
+  const auto at_a = groupPoses(poses_a, groups.sizeA(), "poses_a");
+  const auto at_b = groupPoses(poses_b, groups.sizeB(), "poses_b");
+  const Randomness randomness = randomnessFrom(displacement, "displacement");
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness);
+  if (!gaussian) throw py::type_error("displacement must be a GaussianDisplacement");
+  const MemberVelocities moving = velocitiesFrom(velocities, groups.sizeA());
+  MotionGradientRequest request;
+  request.contact = contactFrom(contact);
+  request.lines = lines;
+  request.seed = seed;
+  request.threads = threads;
+  request.time_limit = time_limit;
+  const py::gil_scoped_release released;
+  return groups.gradient(at_a, at_b, *gaussian, moving, request);
+}
+
+void bindGradient(py::module_& module) {
+  using G = MotionGradient;
+  py::class_<G>(module, "MotionGradient",
+                "P of a group, and how it changes as its members move: estimates.")
+      .def_property_readonly("probability", [](const G& g) { return g.probability; })
+      .def_property_readonly("standard_error", [](const G& g) { return g.standard_error; })
+      .def_property_readonly(
+          "gradient", [](const G& g) { return vectorArray(g.gradient); },
+          "(k,) float64, by parameter; of members by themselves six each: along the world's axes,\n"
+          "1/metre, and turned about axes through its origin, 1/radian.")
+      .def_property_readonly("gradient_standard_error",
+                             [](const G& g) { return vectorArray(g.gradient_standard_error); })
+      .def_property_readonly(
+          "lines", [](const G& g) { return g.lines; }, "Random lines that were drawn.")
+      .def("__repr__", [](const G& g) {
+        return "<MotionGradient by " + std::to_string(g.gradient.size()) + " parameters, " +
+               std::to_string(g.lines) + " lines>";
+      });
+}
+
 std::shared_ptr<Groups> preparedGroups(const py::object& a, const py::object& b) {
   std::vector<Geometry> of_a = geometriesFrom(a, "group_a");
   std::vector<Geometry> of_b = geometriesFrom(b, "group_b");
@@ -256,6 +323,7 @@ constexpr const char* kAskAllDocumentation =
 
 void bindQueries(py::module_& module) {
   const auto none = py::none();
+  bindGradient(module);
   module.def("collision_probability", &askOnce, py::arg("a"), py::arg("b"), py::arg("displacement"),
              py::arg("pose_a") = none, py::arg("pose_b") = none, kAskDocumentation);
   module.def("collision_probabilities", &askAllOnce, py::arg("a"), py::arg("b"),
@@ -284,7 +352,18 @@ void bindQueries(py::module_& module) {
            "poses_a, poses_b: one pose a member, (k, 4, 4), (k, 3) or (k, 7); metres, world\n"
            "frame; None: identities. frame: (4, 4), with a PoseError the pose that is uncertain\n"
            "and carries A.\n\n" FCL_PROB_REQUEST_KEYWORDS
-           "Raises InvalidRequest, InvalidPose, OpenMesh, UnsupportedGeometry.");
+           "Raises InvalidRequest, InvalidPose, OpenMesh, UnsupportedGeometry.")
+      .def("motion_gradient", &motionGradient, py::arg("displacement"), py::arg("poses_a") = none,
+           py::arg("poses_b") = none, py::kw_only(), py::arg("velocities") = none,
+           py::arg("contact") = "fcl", py::arg("lines") = 4096, py::arg("seed") = 1,
+           py::arg("threads") = 1, py::arg("time_limit") = none,
+           "How P changes as the members of A move (MotionGradient): an estimate from random "
+           "lines.\n\n"
+           "displacement: a GaussianDisplacement. velocities: (members, 6, k), a Jacobian for "
+           "every\n"
+           "member: the velocity of its point at the world's origin (metres) and the angular\n"
+           "velocity (radians) by each of k parameters; None: every member by itself, six each.\n\n"
+           "Raises InvalidRequest, InvalidPose, OpenMesh.");
 }
 
 }  // namespace fcl_prob::python

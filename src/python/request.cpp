@@ -76,11 +76,7 @@ void setMethod(Question& question, py::handle value) {
 }
 
 void setContact(Question& question, py::handle value) {
-  const std::string name = nameFrom("contact", value);
-  if (name != "fcl" && name != "solid") {
-    throw InvalidRequest("contact is " + textOf(value) + ", must be 'fcl' or 'solid'");
-  }
-  question.request.contact = name == "fcl" ? ContactMeaning::fcl : ContactMeaning::solid;
+  question.request.contact = contactFrom(value);
 }
 
 void setThreads(Question& question, py::handle value) {
@@ -170,6 +166,14 @@ constexpr std::array<NamedConvention, 4> kConventions = {{
 }};
 
 }  // namespace
+
+ContactMeaning contactFrom(py::handle value) {
+  const std::string name = nameFrom("contact", value);
+  if (name != "fcl" && name != "solid") {
+    throw InvalidRequest("contact is " + textOf(value) + ", must be 'fcl' or 'solid'");
+  }
+  return name == "fcl" ? ContactMeaning::fcl : ContactMeaning::solid;
+}
 
 Question questionFrom(const py::kwargs& keywords) {
   Question question;

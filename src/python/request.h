@@ -28,4 +28,7 @@ Question questionFrom(const py::kwargs& keywords);
 PoseConvention conventionFrom(const std::string& name);
 std::string toString(PoseConvention convention);
 
+/// 'fcl' or 'solid'. \throws InvalidRequest
+ContactMeaning contactFrom(py::handle value);
+
 }  // namespace fcl_prob::python

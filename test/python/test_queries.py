@@ -87,6 +87,26 @@ def test_group_is_no_less_than_its_members():
     assert abs(turned.estimate - both.probability) < 0.1
 
 
+def test_group_changes_as_its_members_move():
+    poses = np.stack([pose(0.5), pose(0.4)])
+    group = fcl_prob.GroupQuery([PART, fcl_prob.Sphere(0.1)], [FIXTURE])
+    moved = group.motion_gradient(ERROR, poses, lines=8192, seed=3)
+    assert moved.gradient.shape == moved.gradient_standard_error.shape == (12,)
+    both = group.collision_probability(ERROR, poses, gradient=True, relative_tolerance=1e-3)
+    assert abs(moved.probability - both.probability) < 5 * moved.standard_error + 1e-3
+    # All moved alike is a mean that moves.
+    alike = np.zeros((2, 6, 3))
+    alike[:, :3] = np.eye(3)
+    as_one = group.motion_gradient(ERROR, poses, velocities=alike, lines=8192, seed=3)
+    assert np.allclose(as_one.gradient, moved.gradient[:3] + moved.gradient[6:9])
+    errors = 5 * as_one.gradient_standard_error + 0.01
+    assert np.all(np.abs(as_one.gradient - both.gradient) < errors)
+    with pytest.raises(ValueError, match=r"velocities must have the shape \(2, 6, k\)"):
+        group.motion_gradient(ERROR, poses, velocities=np.zeros((2, 3)))
+    with pytest.raises(fcl_prob.InvalidRequest):
+        group.motion_gradient(ERROR, poses, contact="touching")
+
+
 def test_batches_of_pose_errors():
     covariances = np.stack([np.diag([1e-4] * 3 + [s] * 3) for s in (0.0, 1e-4, 1e-3)])
     batch = fcl_prob.collision_probabilities(PART, FIXTURE, covariances=covariances, pose_a=[0.41, 0, 0])

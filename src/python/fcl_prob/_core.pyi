@@ -323,3 +323,28 @@ class GroupQuery:
         band_b: Union[float, Tuple[float, float]] = 0.0,
         on_progress: Optional[QueryProgress] = None,
     ) -> ProbabilityResult: ...
+    def motion_gradient(
+        self,
+        displacement: GaussianDisplacement,
+        poses_a: Optional[Numbers] = None,
+        poses_b: Optional[Numbers] = None,
+        *,
+        velocities: Optional[Numbers] = None,
+        contact: str = "fcl",
+        lines: int = 4096,
+        seed: int = 1,
+        threads: int = 1,
+        time_limit: Optional[float] = None,
+    ) -> MotionGradient: ...
+
+class MotionGradient:
+    @property
+    def probability(self) -> float: ...
+    @property
+    def standard_error(self) -> float: ...
+    @property
+    def gradient(self) -> FloatArray: ...
+    @property
+    def gradient_standard_error(self) -> FloatArray: ...
+    @property
+    def lines(self) -> int: ...
