@@ -8,6 +8,7 @@
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "mesh_shapes.h"
 #include "temporary_folder.h"
 
 using namespace fcl_prob;
@@ -100,7 +101,7 @@ TEST_CASE("thresholds of a robot are decided as its probability says, with less 
   const RobotQuery query(shippedArm(), ballAndBox());
   std::mt19937_64 random(8);
   int above = 0, below = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const Eigen::VectorXd values = randomValues(query.robot(), random);
     ProbabilityRequest request = withTolerance(0.02);
     const Bounds truth = query.state(values, request).any;
@@ -114,6 +115,52 @@ TEST_CASE("thresholds of a robot are decided as its probability says, with less 
   }
   CHECK(above > 0);
   CHECK(below > 0);
+}
+
+TEST_CASE("bodies left out of a decision count against the threshold") {
+  std::vector<Obstacle> one = ballAndBox();
+  one.pop_back();
+  one[0].displacement = sigma(0.1, 0.08, 0.12);
+  const RobotQuery query(shippedArm(), one);
+  std::mt19937_64 random(9);
+  int by_half_spaces = 0, left_out = 0, close = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::VectorXd values = randomValues(query.robot(), random);
+    const Bounds truth = query.state(values, withTolerance(0.02)).any;
+    if (truth.lower < 1e-3 || truth.upper > 0.03 || close > 12) continue;
+    // About as close as what is left out, 2 % of the threshold, and far away.
+    for (const double factor : {0.97, 1.03, 30.0}) {
+      ProbabilityRequest request = withTolerance(1e-3);
+      request.threshold = factor * truth.middle();
+      const RobotResult decided = query.state(values, request);
+      CAPTURE(i, factor, truth.lower, truth.upper, decided.any.lower, decided.any.upper);
+      CHECK(decided.any.lower <= truth.upper);
+      CHECK(decided.any.upper >= truth.lower);
+      if (decided.decision == Decision::below) CHECK(truth.lower < *request.threshold);
+      if (decided.decision == Decision::above) CHECK(truth.upper > *request.threshold);
+      CHECK(decided.decision != Decision::undecided);
+      for (const std::string& note : decided.parts[0].plan) {
+        by_half_spaces += note.find("by half-spaces between the bodies") != std::string::npos;
+        left_out += note.find("left out of the decision") != std::string::npos;
+      }
+      ++close;
+    }
+  }
+  CHECK(by_half_spaces > 2);
+  CHECK(left_out > 2);
+  CHECK(close > 10);
+}
+
+TEST_CASE("open meshes are refused as solids wherever they are") {
+  TriangleMesh open = boxMesh({0.1, 0.1, 0.1});
+  open.triangles.pop_back();
+  const Obstacle far{"open", makeModel<fcl::OBBRSSd>(open), at(50.0, 0.0, 0.0),
+                     sigma(0.1, 0.1, 0.1)};
+  const Robot arm = shippedArm();
+  ProbabilityRequest request = withTolerance(0.01);
+  CHECK(RobotQuery(arm, {far}).state(arm.values({}), request).any.upper < 1e-6);
+  request.contact = ContactMeaning::solid;
+  CHECK_THROWS_AS(RobotQuery(arm, {far}).state(arm.values({}), request), OpenMesh);
 }
 
 TEST_CASE("obstacles may follow mixtures and truncated Gaussians") {
