@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "fcl_prob/gaussian_displacement.h"
 #include "query/prepared_geometry.h"
 #include "robot/placed_body.h"
 
