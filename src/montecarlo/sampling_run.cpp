@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/sampling_run.h"
+#include "request/answered.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +68,7 @@ ProbabilityProgress SamplingRun::progress(const Stopwatch& watch) const {
 
 std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interval) const {
   const Decision decision = decisionOf(interval);
-  if (decision == Decision::below || decision == Decision::above) {
+  if (isDecided(decision)) {
     return ProbabilityStatus::decided;
   }
   const double tolerance =

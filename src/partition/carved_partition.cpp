@@ -77,6 +77,7 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   const bool fan_is_a = isFanOfA(a, b);
   const PartitionObject& body = fan_is_a ? a : b;
   const PartitionObject& mesh = fan_is_a ? b : a;
+  if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening whitening(displacement, unit);
   const WhitenedPair pair = whiten(a, b, whitening);

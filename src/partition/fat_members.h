@@ -30,6 +30,11 @@ class FatMembers {
   FatMembers(const WhitenedPair& pair, const PartitionObject& body, bool fan_is_a,
              const Eigen::Matrix3d& matrix);
 
+  /// Of one that has not been asked for anything.
+  static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh) {
+    return body.parts.size() * FatObstacles::leastMemory(mesh.tree->triangles.size());
+  }
+
   FatObstacles& of(int member) { return members_[member]; }
   const FatObstacles& of(int member) const { return members_[member]; }
   int count() const { return static_cast<int>(members_.size()); }

@@ -46,6 +46,7 @@ FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part
   pad_ = 4 * (body.error + mesh_.error) + 64 * kEpsilon * largest;
   moveFan(body, part, linear);
   details_.resize(mesh_.tree->triangles.size());
+  memory_ = leastMemory(details_.size());
 }
 
 // In the whitened frame a normal n of the fan has the direction m with Lᵀm ∥ n; however m was

@@ -35,6 +35,11 @@ class FatObstacles {
   FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
                const Eigen::Matrix3d& linear);
 
+  /// Of one of so many triangles that has not been asked for anything.
+  static std::size_t leastMemory(std::size_t triangles) {
+    return triangles * sizeof(std::unique_ptr<Details>);
+  }
+
   /// Whether everything was accurate enough to be certified.
   bool usable() const { return usable_; }
 

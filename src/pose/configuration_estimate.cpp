@@ -11,6 +11,7 @@
 #include "pose/pair_source.h"
 #include "pose/query_costs.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -67,7 +68,7 @@ class Estimator {
 
   std::optional<ProbabilityStatus> satisfied(const Answer& answer) const {
     const Decision decision = decisionOf(answer.interval, request_);
-    if (decision == Decision::below || decision == Decision::above) {
+    if (isDecided(decision)) {
       return ProbabilityStatus::decided;
     }
     if (answer.mean.standard_error <= request_.toleranceAt(probability_)) {

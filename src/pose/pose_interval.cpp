@@ -18,6 +18,7 @@
 #include "pose/contact_point.h"
 #include "pose/rotation_cell.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -100,7 +101,7 @@ class PoseInterval {
   std::optional<ProbabilityStatus> satisfied() const {
     if (interval_.width() <= target()) return ProbabilityStatus::converged;
     const Decision decision = decisionOf(interval_, request_);
-    if (decision == Decision::below || decision == Decision::above) {
+    if (isDecided(decision)) {
       return ProbabilityStatus::decided;
     }
     return std::nullopt;

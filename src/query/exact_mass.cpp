@@ -10,6 +10,7 @@
 #include "narrowphase/rounded_pair.h"
 #include "query/request_limits.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -95,7 +96,7 @@ class ExactMass {
     if ((flat_ && !limits_.reason()) || mass_.width() <= kRoundingWidth * mass_.upper)
       return ProbabilityStatus::exact;
     const Decision decision = decisionOf(mass_, request_);
-    if (decision == Decision::below || decision == Decision::above) {
+    if (isDecided(decision)) {
       return ProbabilityStatus::decided;
     }
     const double tolerance = request_.toleranceAt(mass_.upper);

@@ -15,6 +15,7 @@
 #include "query/call_budget.h"
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -249,8 +250,7 @@ class MixtureQuery {
   /// Of the components if they agree; else the first that was stopped, unless the sum is good
   /// enough all the same.
   ProbabilityStatus statusOf(const ProbabilityResult& total) const {
-    const bool is_decided = total.decision == Decision::below || total.decision == Decision::above;
-    if (is_decided) return ProbabilityStatus::decided;
+    if (isDecided(total.decision)) return ProbabilityStatus::decided;
     if (cancelled_) return ProbabilityStatus::cancelled;
     const bool fine = isGoodEnough(total);
     if (limit_ && !fine) return *limit_;

@@ -15,6 +15,7 @@
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
 #include "query/unbounded_pair.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -99,11 +100,8 @@ ProbabilityResult PairQuery::exact(const QueryPlan& plan, const PlacedPair& pair
                                    const ProbabilityRequest& request) const {
   const CallBudget budget(request);
   ProbabilityResult result = exactMass(pair, displacement, request);
-  const bool ended = result.status == ProbabilityStatus::exact ||
-                     result.status == ProbabilityStatus::converged ||
-                     result.status == ProbabilityStatus::decided;
   const bool unresolved = result.status == ProbabilityStatus::resolution_limit ||
-                          (ended && request.gradient && !result.gradient);
+                          (isAnswered(result.status) && request.gradient && !result.gradient);
   if (!unresolved || !plan.partition_if_unresolved) return result;
   ProbabilityResult other = partition(plan, pair, displacement,
                                       request.time_limit ? withTimeLeft(request, budget) : request);

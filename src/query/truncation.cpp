@@ -8,6 +8,7 @@
 #include "fcl_prob/exceptions.h"
 #include "gaussian/constants.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -97,13 +98,10 @@ void TruncatedQuery::makeConditional(const Bounds& of_joint, ProbabilityResult& 
   result.lower = bounds.lower;
   result.upper = bounds.upper;
   result.decision = decisionOf(bounds, request_);
-  const bool decided = result.decision == Decision::below || result.decision == Decision::above;
   const double tolerance = request_.toleranceAt(bounds.upper);
-  if (decided) {
+  if (isDecided(result.decision)) {
     result.status = ProbabilityStatus::decided;
-  } else if (bounds.width() > tolerance && (result.status == ProbabilityStatus::converged ||
-                                            result.status == ProbabilityStatus::decided ||
-                                            result.status == ProbabilityStatus::exact)) {
+  } else if (bounds.width() > tolerance && isAnswered(result.status)) {
     result.status = ProbabilityStatus::resolution_limit;
   } else if (result.status == ProbabilityStatus::decided) {
     result.status = ProbabilityStatus::converged;

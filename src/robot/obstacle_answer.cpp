@@ -10,6 +10,7 @@
 #include "fcl_prob/combined_bounds.h"
 #include "query/call_budget.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -111,7 +112,7 @@ class EventAnswers {
   bool isDecided() {
     result_.any = combine_ ? (*combine_)(bounds_) : anyOfIndependent(bounds_);
     result_.decision = decisionOf(result_.any, request_);
-    return result_.decision == Decision::below || result_.decision == Decision::above;
+    return detail::isDecided(result_.decision);
   }
 
   RobotResult finished() {
@@ -148,11 +149,8 @@ class EventAnswers {
     if (stopped_) return *stopped_;
     ProbabilityStatus common = ProbabilityStatus::exact;
     for (const ProbabilityResult& part : result_.parts) {
-      if (part.status == ProbabilityStatus::exact) continue;
-      const bool within =
-          part.status == ProbabilityStatus::converged || part.status == ProbabilityStatus::decided;
-      if (!within) return part.status;
-      common = ProbabilityStatus::converged;
+      if (!isAnswered(part.status)) return part.status;
+      if (part.status != ProbabilityStatus::exact) common = ProbabilityStatus::converged;
     }
     if (common == ProbabilityStatus::exact || combine_ || isWithinTolerance()) return common;
     return ProbabilityStatus::resolution_limit;

@@ -8,6 +8,7 @@
 #include "query/call_budget.h"
 #include "query/groups_query.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
 #include "robot/sum_above.h"
@@ -61,22 +62,20 @@ ProbabilityResult allUnlikely(double upper) {
   return result;
 }
 
-bool isLimit(ProbabilityStatus status) {
-  return status != ProbabilityStatus::decided && status != ProbabilityStatus::converged &&
-         status != ProbabilityStatus::exact && status != ProbabilityStatus::resolution_limit;
-}
-
 /// Without the bodies that hardly matter for the threshold; nothing where all are needed after all,
-/// for which the request then has what is left of the limits. \param far  of what is left out
+/// for which the request then has what is left of the limits.
+/// \param far    of what is left out
+/// \param spent  on an answer that was of no use
 std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scene,
                                                  const ObstacleState& state,
                                                  const std::vector<PlacedBody>& bodies, double far,
-                                                 ProbabilityRequest& request) {
+                                                 ProbabilityRequest& request,
+                                                 ProbabilityStatistics& spent) {
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
   if (!request.threshold || request.method == ProbabilityMethod::estimate || !gaussian) {
     return std::nullopt;
   }
-  const CallBudget budget(request);
+  CallBudget budget(request);
   const BodyBounds bounds(scene.bodies, bodies, *scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
   if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
@@ -92,11 +91,12 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   result.decision = decisionOf({*result.lower, std::min(1.0, sumAbove(upper, far))}, request);
   result.plan.push_back(std::to_string(bodies.size() - likelier.size()) +
                         " bodies left out of the decision: unlikely to touch it by half-spaces");
-  const bool decided = result.decision == Decision::below || result.decision == Decision::above;
-  if (decided || isLimit(result.status)) return result;
-  CallBudget spent(budget);
-  spent.spend(result.statistics);
-  spent.share(1, request);
+  const bool is_limited =
+      !isAnswered(result.status) && result.status != ProbabilityStatus::resolution_limit;
+  if (isDecided(result.decision) || is_limited) return result;
+  spent = std::move(result.statistics);
+  budget.spend(spent);
+  budget.share(1, request);
   return std::nullopt;
 }
 
@@ -147,8 +147,11 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
     of_near.absolute_tolerance *= 1.0 - kShareOfFar;
     of_near.relative_tolerance *= 1.0 - kShareOfFar;
   }
-  const auto decided = withoutUnlikely(scene, state, bodies, far, of_near);
+  ProbabilityStatistics spent;
+  const auto decided = withoutUnlikely(scene, state, bodies, far, of_near, spent);
   ProbabilityResult result = decided ? *decided : ofGroup(scene, state, bodies, of_near);
+  result.statistics.cells += spent.cells;
+  result.statistics.samples += spent.samples;
   if (far > 0.0 && result.upper) {
     result.upper = std::min(1.0, sumAbove(*result.upper, far));
   }

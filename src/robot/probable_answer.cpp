@@ -21,6 +21,10 @@ constexpr double kFarOfThreshold = 1e-3;
 /// Of the threshold: what other bodies that samples are not drawn for may add up to.
 constexpr double kUnlikelyOfThreshold = 0.01;
 
+/// A probable decision that needs more cells is tried to be proven, with no more cells than those.
+constexpr std::size_t kCellsBeforeProof = 64;
+constexpr std::size_t kCellsOfProof = 4'000;
+
 /// Bodies against one obstacle, as far as they have been looked at.
 class ObstacleSampling {
  public:
@@ -205,10 +209,45 @@ bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state) 
   return gaussian && gaussian->rank() > 0 && obstacle.hasPieces() && !obstacle.pieces().isEmpty();
 }
 
+// Where P is close to the threshold a proof takes less than samples do: it is tried before more of
+// them are drawn. Those that have been drawn are drawn again then, the same ones, so that the
+// chance of being wrong is that of the last run alone.
 ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
                            const PreparedGeometries& geometries, const std::vector<Ball>& balls,
-                           double threshold, double chance, const ProbabilityRequest& request) {
-  return AnyProbably(scenes, geometries, balls, threshold, chance, request).run();
+                           double threshold, double chance, const Proof& prove,
+                           const ProbabilityRequest& request) {
+  CallBudget budget(request);
+  ProbabilityStatistics spent;
+  const auto counted = [&](ProbableResult result) {
+    ProbabilityStatistics of_one;
+    of_one.cells = result.cells;
+    of_one.samples = result.samples;
+    budget.spend(of_one);
+    result.cells = spent.cells += of_one.cells;
+    result.samples = spent.samples += of_one.samples;
+    return result;
+  };
+  const auto within = [&](std::size_t most_cells) {
+    ProbabilityRequest part = request;
+    budget.share(1, part);
+    part.max_cells = std::min(part.max_cells, most_cells);
+    return part;
+  };
+  const auto sampled = [&](std::size_t most_cells) {
+    return counted(
+        AnyProbably(scenes, geometries, balls, threshold, chance, within(most_cells)).run());
+  };
+  const ProbableResult soon = sampled(kCellsBeforeProof);
+  if (soon.status != ProbabilityStatus::cell_limit || budget.exhausted()) return soon;
+  ProbableResult proven = counted(prove(within(kCellsOfProof)));
+  if (proven.decision != ProbableDecision::undecided) return proven;
+  if (proven.status == ProbabilityStatus::cancelled || budget.exhausted()) {
+    const auto [lower, upper] = proven.certified;
+    proven.probable = {std::clamp(soon.probable.lower, lower, upper),
+                       std::clamp(soon.probable.upper, lower, upper)};
+    return proven;
+  }
+  return sampled(request.max_cells);
 }
 
 }  // namespace fcl_prob::detail

@@ -3,6 +3,7 @@
 // On which side of a threshold the probability of any of several obstacles is, with samples.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fcl_prob/probable_decision.h"
@@ -22,10 +23,15 @@ struct ProbableScene {
 /// Whether that can be sampled; else only the certified way is left.
 bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state);
 
+/// A certain answer to the same question, within limits.
+using Proof = std::function<ProbableResult(const ProbabilityRequest&)>;
+
 /// \param geometries, balls  of the robot's bodies, in their frames
 /// \param chance             of a wrong decision, in (0, 1)
+/// \param prove              asked at most once
 ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
                            const PreparedGeometries& geometries, const std::vector<Ball>& balls,
-                           double threshold, double chance, const ProbabilityRequest& request);
+                           double threshold, double chance, const Proof& prove,
+                           const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

@@ -30,10 +30,6 @@ using detail::PlacedBody;
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
 
-// A probable decision that needs more cells is tried to be proven, with no more cells than those.
-constexpr std::size_t kCellsBeforeProof = 64;
-constexpr std::size_t kCellsOfProof = 4'000;
-
 // Between the seeds of obstacles: 2⁶⁴ over the golden ratio.
 constexpr std::uint64_t kSeedsApart = 0x9e3779b97f4a7c15;
 
@@ -231,28 +227,14 @@ struct RobotQuery::Implementation {
     return scenes;
   }
 
-  /// Where P is close to the threshold a proof takes less than samples do: it is tried before more
-  /// of them are drawn.
   ProbableResult ofUnionProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
                                  double chance, const ProbabilityRequest& request) const {
     const std::vector<detail::ProbableScene> scenes = probableScenes(waypoints);
-    if (scenes.empty()) return certainly(ofUnion(waypoints, -1, withThreshold(request, threshold)));
-    const detail::CallBudget budget(request);
-    const auto sampled = [&](std::size_t most_cells) {
-      ProbabilityRequest part = detail::withTimeLeft(request, budget);
-      part.max_cells = std::min(request.max_cells, most_cells);
-      return detail::probablyAny(scenes, geometries, balls, threshold, chance, part);
+    const auto prove = [&](const ProbabilityRequest& part) {
+      return certainly(ofUnion(waypoints, -1, withThreshold(part, threshold)));
     };
-    const ProbableResult soon = sampled(kCellsBeforeProof);
-    const bool is_limited = soon.status == ProbabilityStatus::cell_limit;
-    if (!is_limited || request.max_cells <= kCellsBeforeProof) return soon;
-    ProbabilityRequest proof = detail::withTimeLeft(request, budget);
-    proof.max_cells = std::min(request.max_cells, kCellsOfProof);
-    const RobotResult proven = ofUnion(waypoints, -1, withThreshold(proof, threshold));
-    const bool is_cut_off = proven.status == ProbabilityStatus::cancelled ||
-                            proven.status == ProbabilityStatus::time_limit;
-    if (proven.status == ProbabilityStatus::decided) return certainly(proven);
-    return is_cut_off ? soon : sampled(request.max_cells);
+    if (scenes.empty()) return prove(request);
+    return detail::probablyAny(scenes, geometries, balls, threshold, chance, prove, request);
   }
 
   /// The bodies that may touch an obstacle, relative to where that is by then.

@@ -9,6 +9,7 @@
 
 #include "query/call_budget.h"
 #include "query/single_collide.h"
+#include "request/answered.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
@@ -185,7 +186,7 @@ class SweptMotion {
   std::optional<ProbabilityStatus> isEnough() {
     const Decision decision = decisionOf(known(), request_);
     answer_.result.decision = decision;
-    if (decision == Decision::below || decision == Decision::above) {
+    if (isDecided(decision)) {
       return ProbabilityStatus::decided;
     }
     if (known().width() <= request_.toleranceAt(known().upper)) {
@@ -196,8 +197,7 @@ class SweptMotion {
 
   /// A limit that shorter steps do not move.
   static bool stops(ProbabilityStatus status) {
-    return status != ProbabilityStatus::converged && status != ProbabilityStatus::exact &&
-           status != ProbabilityStatus::decided && status != ProbabilityStatus::band_limit &&
+    return !isAnswered(status) && status != ProbabilityStatus::band_limit &&
            status != ProbabilityStatus::resolution_limit;
   }
 

@@ -360,3 +360,21 @@ TEST_CASE("carved cells and boxes agree", "[carving]") {
     CHECK(found[1].upper >= found[0].lower - 0.001);
   }
 }
+
+TEST_CASE("obstacles that would not fit into the memory that is allowed are not made",
+          "[carving]") {
+  const TriangleMesh body = hullMesh(RandomBodies(3).onSphere(30, 0.3));
+  PartitionQuery query(body, bumpyMesh(0.5, 60, 80, 1));
+  query.pose_b.translation() = Eigen::Vector3d(0.75, 0.1, 0.0);
+  const auto displacement =
+      fcl_prob::GaussianDisplacement::fromStandardDeviations({0.05, 0.08, 0.1}, {1, 0, 0, 0});
+  fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
+  const ProbabilityResult whole = query.run(displacement, request);
+  REQUIRE(isCarved(whole));
+  request.max_memory = 100'000;
+  const ProbabilityResult limited = query.run(displacement, request);
+  CHECK_FALSE(isCarved(limited));
+  CHECK(limited.status == fcl_prob::ProbabilityStatus::memory_limit);
+  CHECK(*limited.lower <= *whole.upper);
+  CHECK(*limited.upper >= *whole.lower);
+}

@@ -119,6 +119,14 @@ GroupScene convexScene(RandomBodies& random) {
   return scene;
 }
 
+/// Five standard deviations, and as many hits more for the small P.
+void checkHolds(const ProbabilityResult& result, int hits, int samples) {
+  const auto deviation = [&](double p) { return 5 * std::sqrt(p * (1 - p) * samples) + 5; };
+  CAPTURE(*result.lower, *result.upper, hits);
+  CHECK(hits >= *result.lower * samples - deviation(*result.lower));
+  CHECK(hits <= *result.upper * samples + deviation(*result.upper));
+}
+
 GroupScene swapped(const GroupScene& scene) {
   return {scene.b, scene.a, scene.poses_b, scene.poses_a, scene.displacement.reversed()};
 }
@@ -154,12 +162,10 @@ TEST_CASE("random groups hold what FCL counts, and lie between largest pair and 
     request.relative_tolerance = 0.05;
     request.contact = i % 3 == 0 ? ContactMeaning::solid : ContactMeaning::fcl;
     const ProbabilityResult result = scene.answer(request);
-    const int hits = scene.hits(kSamples, request.contact, random);
-    const auto deviation = [](double p) { return 5 * std::sqrt(p * (1 - p) * kSamples) + 5; };
-    CAPTURE(i, *result.lower, *result.upper, hits);
+    CAPTURE(i);
     CHECK(result.status == ProbabilityStatus::converged);
-    CHECK(hits >= *result.lower * kSamples - deviation(*result.lower));
-    CHECK(hits <= *result.upper * kSamples + deviation(*result.upper));
+    const int hits = scene.hits(kSamples, request.contact, random);
+    checkHolds(result, hits, kSamples);
     const std::vector<Bounds> pairs = scene.pairs(request);
     CHECK(*result.upper >= anyOf(pairs).lower);
     CHECK(*result.lower <= anyOf(pairs).upper);
@@ -182,12 +188,10 @@ TEST_CASE("groups of convex meshes are taken whole and hold what FCL counts") {
     request.relative_tolerance = 0.01;
     request.contact = i % 3 == 0 ? ContactMeaning::solid : ContactMeaning::fcl;
     const ProbabilityResult result = scene.answer(request);
-    const int hits = scene.hits(kSamples, request.contact, random);
-    const auto deviation = [](double p) { return 5 * std::sqrt(p * (1 - p) * kSamples) + 5; };
-    CAPTURE(i, *result.lower, *result.upper, hits);
+    CAPTURE(i);
     CHECK(result.status == ProbabilityStatus::converged);
-    CHECK(hits >= *result.lower * kSamples - deviation(*result.lower));
-    CHECK(hits <= *result.upper * kSamples + deviation(*result.upper));
+    const int hits = scene.hits(kSamples, request.contact, random);
+    checkHolds(result, hits, kSamples);
     whole += mentions(result, "are convex: a piece each");
     representative += hits > 10 && hits < kSamples - 10;
     // A gradient needs the other partition, whose cells are boxes.

@@ -183,6 +183,14 @@ TEST_CASE("limits leave a probable decision open, with intervals that hold") {
   CHECK(few.decision == ProbableDecision::undecided);
   CHECK(overlap(few.certified, truth));
   CHECK(overlap(few.probable, truth));
+  // Samples, a proof and more samples share them.
+  request.max_cells = 150;
+  const ProbableResult more = query.decideProbably(waypoints, truth.middle(), 1e-9, request);
+  CHECK(more.status == ProbabilityStatus::cell_limit);
+  CHECK(more.cells >= 150);
+  CHECK(more.cells <= 160);
+  CHECK(overlap(more.certified, truth));
+  CHECK(overlap(more.probable, truth));
   request = {};
   request.on_progress = [](const ProbabilityProgress&) { return false; };
   const ProbableResult cancelled = query.decideProbably(waypoints, truth.middle(), 1e-9, request);

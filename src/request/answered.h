@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#pragma once
+
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+
+namespace fcl_prob::detail {
+
+/// Whether a threshold has been told from P.
+inline bool isDecided(Decision decision) {
+  return decision == Decision::below || decision == Decision::above;
+}
+
+/// Whether all that was asked for has been answered; else a limit was in the way.
+inline bool isAnswered(ProbabilityStatus status) {
+  return status == ProbabilityStatus::exact || status == ProbabilityStatus::converged ||
+         status == ProbabilityStatus::decided;
+}
+
+}  // namespace fcl_prob::detail
