@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "cobstacle/hull_slack.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/power_of_two.h"
 
@@ -121,7 +122,7 @@ ConvexMesh makeConvexMesh(const ConvexPolytope& polytope) {
 
 ConvexMesh makeConvexMesh(const Points& points) {
   ConvexMesh mesh = makeConvexMesh(convexHull(points));
-  mesh.slack = slackOf(mesh, points);
+  mesh.slack = std::max(slackOf(mesh, points), hullSlack(mesh, points));
   return mesh;
 }
 
@@ -133,7 +134,7 @@ ConvexMesh makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   const Eigen::Vector3d ab = (b - a) / unit, ac = (c - a) / unit, bc = (c - b) / unit;
   const Eigen::Vector3d area = ab.cross(ac);
   const double longest = std::max({ab.norm(), ac.norm(), bc.norm()});
-  if (area.norm() <= kFlat * longest * longest) return makeFlat(convexHull({a, b, c}).vertices);
+  if (area.norm() <= kFlat * longest * longest) return makeConvexMesh(Points{a, b, c});
   return makePolygon({a, b, c}, area.normalized());
 }
 

@@ -11,6 +11,9 @@
 namespace fcl_prob::detail {
 namespace {
 
+/// Every face of a hull is held against every point: with more of them its root volume has to do.
+constexpr int kLargestHull = 10'000;
+
 Eigen::AlignedBox3d boxOfMesh(const MeshView& mesh) {
   Eigen::AlignedBox3d box;
   for (int i = 0; i < mesh.vertex_count; ++i) box.extend(mesh.vertices[i]);
@@ -65,8 +68,9 @@ const ConvexBody& PreparedGeometry::rootBody() const {
 
 const ConvexBody& PreparedGeometry::hull() const {
   if (isConvex()) return rootBody();
-  std::call_once(hull_once_, [this] {
-    const MeshView mesh = meshView(*geometry_);
+  const MeshView mesh = meshView(*geometry_);
+  if (mesh.vertex_count > kLargestHull) return rootBody();
+  std::call_once(hull_once_, [&] {
     hull_ = std::make_unique<const ConvexBody>(
         std::vector<Eigen::Vector3d>(mesh.vertices, mesh.vertices + mesh.vertex_count));
   });

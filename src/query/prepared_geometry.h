@@ -36,8 +36,8 @@ class PreparedGeometry {
   bool hasRootBody() const;
   const ConvexBody& rootBody() const;
 
-  /// Of what has a root body: itself, or the convex hull of a mesh, which is within its root
-  /// volume.
+  /// Of what has a root body: itself, or the convex hull of a mesh, or the root volume of a mesh of
+  /// very many vertices.
   const ConvexBody& hull() const;
 
   /// Whether it is a bounded convex shape, which rootBody() then is.

@@ -18,6 +18,7 @@
 #include "face_geometry.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
+#include "narrowphase/convex_pair_mass.h"
 #include "random_bodies.h"
 #include "slice_cubature.h"
 
@@ -55,6 +56,37 @@ TEST_CASE("small bodies need the divergence bound, large ones the half-space") {
   CHECK(cubes(10.0, 3.0).half_space / large == Approx(1.0).epsilon(1e-5));
   CHECK(cubes(10.0, 3.0).divergence / large == Approx(15.92).epsilon(1e-3));
   CHECK(cubes(10.0, 3.0).direction.isApprox(Eigen::Vector3d::UnitX()));
+}
+
+TEST_CASE("a half-space between two bodies bounds P, and is close where they are large") {
+  RandomBodies random(31);
+  int useful = 0;
+  for (int i = 0; i < 600; ++i) {
+    const ConvexPairCase pair = i % 3 == 0   ? alignedBoxes(random)
+                                : i % 3 == 1 ? turnedBoxes(random)
+                                             : hulls(random, random.integer(3, 12), 9);
+    const double upper = fcl_prob::detail::halfSpaceUpper(pair.a, pair.pose_a, pair.b, pair.pose_b,
+                                                          pair.displacement);
+    CAPTURE(i, pair.size, pair.distance, pair.mass, pair.mass_error, upper);
+    CHECK(upper >= pair.mass - pair.mass_error);
+    CHECK(upper <= 1.0);
+    // What more iterations than those of GJK find is mostly no better.
+    const double best =
+        convexPcd(pair.a, pair.pose_a, pair.b, pair.pose_b, pair.displacement).half_space;
+    useful += upper <= best * (1.0 + 1e-6) + 1e-290;
+  }
+  CHECK(useful > 500);
+  const ConvexBody wall(fcl::Boxd(1e6, 1e6, 1e6));
+  const GaussianDisplacement unit(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
+  for (double gap = 0.5; gap < 36.0; gap += 0.5) {
+    Eigen::Isometry3d turned = Eigen::Isometry3d(random.quaternion());
+    const Eigen::Isometry3d far = turned * at({1e6 + gap, 0, 0});
+    const double upper = fcl_prob::detail::halfSpaceUpper(wall, turned, wall, far, unit);
+    CAPTURE(gap, upper);
+    // The gap is known to an ε of the positions; how well GJK finds it is no promise.
+    CHECK(upper >= fcl_prob::normalTailMass(gap + 1e-9));
+    CHECK(upper <= fcl_prob::normalTailMass(0.99 * gap));
+  }
 }
 
 TEST_CASE("the mean inside, touching, and very far away") {
