@@ -15,6 +15,10 @@ struct JointGradient {
   Eigen::MatrixXd gradient;  ///< ∂P: a row a joint (1/radian or 1/metre), a column a waypoint
   Eigen::MatrixXd gradient_standard_error;
   std::size_t lines = 0;  ///< of all obstacles
+
+  /// `sampled`, `time_limit` or `cancelled`. Obstacles that are still to come when the query is
+  /// cancelled have only the few lines that each has in any case.
+  ProbabilityStatus status = ProbabilityStatus::sampled;
 };
 
 }  // namespace fcl_prob

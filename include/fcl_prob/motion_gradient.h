@@ -6,10 +6,12 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
 
 namespace fcl_prob {
 
@@ -33,6 +35,11 @@ struct MotionGradientRequest {
 
   /// Seconds after which no more lines are begun.
   std::optional<double> time_limit;
+
+  /// Called now and then from the calling thread; returning false cancels the query, whose result
+  /// is that of the lines drawn by then (status `cancelled`). The interval that it is told is
+  /// [0, 1]: nothing is certain of an estimate.
+  std::function<bool(const ProbabilityProgress&)> on_progress;
 };
 
 /// Estimates from random lines through the displacement space, on which all contact is intervals:
@@ -47,6 +54,11 @@ struct MotionGradient {
   Eigen::VectorXd gradient;  ///< ∂P by parameter, 1 over the unit of that
   Eigen::VectorXd gradient_standard_error;
   std::size_t lines = 0;  ///< that were drawn
+
+  /// `sampled`, `time_limit` or `cancelled`; `exact` where nothing was to be drawn. What came
+  /// before all lines were drawn leaves fewer of them, a few in any case, and larger standard
+  /// errors.
+  ProbabilityStatus status = ProbabilityStatus::sampled;
 };
 
 }  // namespace fcl_prob

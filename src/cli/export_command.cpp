@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Eigenvalues>
-#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <set>
 
 #include "cli/drawn_shapes.h"
@@ -85,15 +85,15 @@ std::vector<ColouredMesh> picture(const ExportArguments& arguments) {
   return meshes;
 }
 
-void requireGlb(const std::string& output) {
-  if (std::filesystem::path(output).extension() != ".glb") {
-    throw InvalidRequest("--output: the file name must end in .glb");
-  }
+GltfForm formOf(const std::string& output) {
+  const std::optional<GltfForm> form = gltfFormOf(output);
+  if (!form) throw InvalidRequest("--output: the file name must end in .glb or .gltf");
+  return *form;
 }
 
 int runExport(const ExportArguments& arguments) {
-  requireGlb(arguments.output);
-  writeFile(arguments.output, glbOf(picture(arguments)));
+  const GltfForm form = formOf(arguments.output);
+  writeFile(arguments.output, gltfOf(picture(arguments), form));
   return kAnswered;
 }
 
@@ -129,7 +129,7 @@ int runExportOfAny(const CLI::App& command, const ExportArguments& arguments,
   const bool has_robot = !scene.empty() && isRobotScene(scene);
   refuseOptionsOfOthers(command, has_robot);
   if (!has_robot) return runExport(arguments);
-  requireGlb(arguments.output);
+  motion.form = formOf(arguments.output);
   motion.scene = scene;
   motion.output = arguments.output;
   return exportMotion(motion);
@@ -151,7 +151,10 @@ void addExportCommand(CLI::App& app, int& exit_code) {
       .add_option("--samples", arguments->samples, "Displacements that are tried for the colours")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", arguments->seed, "Fixes them")->check(CLI::NonNegativeNumber);
-  command.add_option("--output", arguments->output, "The file to write, FILE.glb")->required();
+  command
+      .add_option("--output", arguments->output,
+                  "The file to write, FILE.glb or, as JSON, FILE.gltf")
+      ->required();
 #ifdef FCL_PROB_HAS_ROBOT
   auto motion = std::make_shared<MotionExportArguments>();
   addMotionOptions(command, *motion);

@@ -50,7 +50,8 @@ int exportMotion(const MotionExportArguments& arguments) {
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   const std::vector<MotionState> states = statesOf(query, waypoints, scene.request);
   const std::vector<MotionState> shown = chosenFrom(states, arguments.poses);
-  writeFile(arguments.output, glbOf(motionScene(query, waypoints, shown, !arguments.still)));
+  writeFile(arguments.output,
+            gltfOf(motionScene(query, waypoints, shown, !arguments.still), arguments.form));
   tell(query, shown);
   const bool stopped = std::any_of(states.begin(), states.end(), [](const MotionState& state) {
     return stoppedByLimit(state.result.status);

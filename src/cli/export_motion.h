@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "cli/gltf_container.h"
+
 namespace fcl_prob::cli {
 
 struct MotionExportArguments {
@@ -15,6 +17,7 @@ struct MotionExportArguments {
   std::size_t poses = 5;
   bool still = false;
   std::string output;
+  GltfForm form = GltfForm::binary;
 };
 
 /// Whether the file is a scene of a robot. \throws FileError if it cannot be read or is not JSON

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <utility>
 
@@ -14,15 +13,6 @@ namespace fcl_prob::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Constants of the glTF 2.0 specification.
-constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-
-void appendNumber(std::string& bytes, std::uint32_t number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
 
 /// Three columns a triangle: its corners' values.
 template <int Rows, typename Value>
@@ -123,24 +113,10 @@ class GltfBuilder {
     }
   }
 
-  std::string container() {
+  std::string file(GltfForm form) {
     document_["accessors"] = accessors_.accessors();
     document_["bufferViews"] = accessors_.bufferViews();
-    const std::string& binary = accessors_.binary();
-    document_["buffers"] = Json::array({{{"byteLength", binary.size()}}});
-    std::string json = document_.dump();
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    std::string result;
-    for (const std::uint32_t number :
-         {kMagic, std::uint32_t{2},
-          static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + binary.size()),
-          static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
-      appendNumber(result, number);
-    }
-    result += json;
-    appendNumber(result, static_cast<std::uint32_t>(binary.size()));
-    appendNumber(result, kBinaryChunk);
-    return result + binary;
+    return gltfFile(document_, accessors_.binary(), form);
   }
 
  private:
@@ -229,16 +205,16 @@ class GltfBuilder {
 
 }  // namespace
 
-std::string glbOf(const std::vector<ColouredMesh>& meshes) {
+std::string gltfOf(const std::vector<ColouredMesh>& meshes, GltfForm form) {
   GltfBuilder builder;
   for (const ColouredMesh& mesh : meshes) builder.add(mesh);
-  return builder.container();
+  return builder.file(form);
 }
 
-std::string glbOf(const AnimatedScene& scene) {
+std::string gltfOf(const AnimatedScene& scene, GltfForm form) {
   GltfBuilder builder;
   builder.add(scene);
-  return builder.container();
+  return builder.file(form);
 }
 
 }  // namespace fcl_prob::cli

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/gltf_container.h"
 #include "fcl_prob/triangle_mesh.h"
 
 namespace fcl_prob::cli {
@@ -23,9 +24,9 @@ struct ColouredMesh {
   std::vector<Colour> colours;
 };
 
-/// The meshes as a binary glTF container (.glb): one file without references to others. Normals are
-/// those of the faces, so that edges look like edges.
-std::string glbOf(const std::vector<ColouredMesh>& meshes);
+/// The meshes as one file without references to others. Normals are those of the faces, so that
+/// edges look like edges.
+std::string gltfOf(const std::vector<ColouredMesh>& meshes, GltfForm form);
 
 /// A mesh of one colour at a pose of its own.
 struct PlacedMesh {
@@ -49,6 +50,6 @@ struct AnimatedScene {
 };
 
 /// The same of a scene in which things move, linearly between the times.
-std::string glbOf(const AnimatedScene& scene);
+std::string gltfOf(const AnimatedScene& scene, GltfForm form);
 
 }  // namespace fcl_prob::cli

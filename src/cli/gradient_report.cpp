@@ -26,13 +26,15 @@ JointGradient jointGradient(const RobotQuery& query, const std::vector<Eigen::Ve
   request.threads = scene.request.threads;
   request.contact = scene.request.contact;
   request.time_limit = scene.request.time_limit;
+  request.on_progress = scene.request.on_progress;
   return query.gradient(waypoints, request);
 }
 
 nlohmann::ordered_json jsonOf(const JointGradient& gradient, const Robot& robot) {
   nlohmann::ordered_json json{{"probability", gradient.probability},
                               {"standard_error", gradient.standard_error},
-                              {"lines", gradient.lines}};
+                              {"lines", gradient.lines},
+                              {"status", toString(gradient.status)}};
   for (std::size_t i = 0; i < robot.joints().size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     json["joints"].push_back({{"name", robot.joints()[i].name},
@@ -44,7 +46,8 @@ nlohmann::ordered_json jsonOf(const JointGradient& gradient, const Robot& robot)
 
 std::string textOf(const JointGradient& gradient, const Robot& robot) {
   std::string text = "change of P with the joints, summed over the waypoints (" +
-                     std::to_string(gradient.lines) + " lines):\n";
+                     std::to_string(gradient.lines) + " lines, " + toString(gradient.status) +
+                     "):\n";
   for (std::size_t i = 0; i < robot.joints().size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const RobotJoint& joint = robot.joints()[i];

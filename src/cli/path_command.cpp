@@ -45,6 +45,7 @@ struct PathReport {
   std::vector<RobotResult> by_body;
   std::optional<ordered_json> gradient;
   std::string gradient_text;
+  ProbabilityStatus gradient_status = ProbabilityStatus::sampled;
   std::vector<TouchingBodies> self_collisions;
   std::size_t waypoints = 0;
   double build_ms = 0.0;
@@ -101,7 +102,13 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   report.time_ms = watch.milliseconds();
   if (arguments.by_body) report.by_body = query.byBody(waypoints, scene.request);
   if (arguments.gradient) {
+    // What is certain of P is what it was before: lines add nothing to that.
+    scene.request.on_progress = [&](ProbabilityProgress progress) {
+      progress.interval = report.result.any;
+      return bar(progress);
+    };
     const JointGradient gradient = jointGradient(query, waypoints, scene);
+    report.gradient_status = gradient.status;
     report.gradient = jsonOf(gradient, query.robot());
     report.gradient_text = textOf(gradient, query.robot());
   }
@@ -278,7 +285,9 @@ int runPath(const PathArguments& arguments) {
   const PathReport report = answer(scene, arguments);
   deliver(arguments.json ? jsonOf(report, scene).dump() + "\n" : textOf(report, scene),
           arguments.output);
-  return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
+  const bool stopped =
+      stoppedByLimit(report.result.status) || stoppedByLimit(report.gradient_status);
+  return stopped ? kStopped : kAnswered;
 }
 
 }  // namespace

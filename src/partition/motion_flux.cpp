@@ -4,6 +4,7 @@
 
 #include <Random123/philox.h>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -21,9 +22,14 @@
 namespace fcl_prob::detail {
 namespace {
 
-// Lines between two looks at the clock, and those that one thread takes at a time.
-constexpr std::size_t kLinesOfLook = 512;
-constexpr std::size_t kLinesOfBatch = 32;
+// Lines before the first question whether to go on, and between two of them: the same for any
+// number of threads, and so is what is left off with.
+constexpr std::size_t kFirstLines = 32;
+constexpr std::size_t kLinesOfLook = 64;
+
+// Lines that one thread takes at a time, and those for which it keeps the C-obstacles it has met.
+constexpr std::size_t kLinesOfBatch = 4;
+constexpr std::size_t kLinesOfTable = 8 * kLinesOfLook;
 
 // One over the mean of |n·u| for a unit vector u of random direction, by its dimension.
 constexpr double kCrofton[] = {0.0, 1.0, 1.5707963267948966, 2.0};
@@ -134,6 +140,10 @@ class FluxScene {
   std::unique_ptr<const SolidContact> solids_;
 };
 
+std::size_t nextLook(std::size_t done) {
+  return done == 0 ? kFirstLines : (done / kLinesOfLook + 1) * kLinesOfLook;
+}
+
 MeanAndError meanOfLines(const Eigen::MatrixXd& values) {
   const auto n = static_cast<double>(values.cols());
   MeanAndError result;
@@ -151,17 +161,19 @@ MeanAndError motionFlux(const PartitionObject& a, const PartitionObject& b,
                         const LineDraws& draws) {
   const FluxScene scene(a, b, displacement, velocities);
   Eigen::MatrixXd values(scene.columns(), static_cast<Eigen::Index>(draws.count));
+  tbb::enumerable_thread_specific<LineCrossings> crossings(
+      [&scene] { return LineCrossings(scene.pair()); });
   const auto evaluate = [&](const tbb::blocked_range<std::size_t>& range) {
-    LineCrossings crossings(scene.pair());
+    LineCrossings& own = crossings.local();
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const RandomLine line = randomLine(draws.seed, i, displacement.rank());
-      scene.evaluate(line, crossings, values.col(static_cast<Eigen::Index>(i)));
+      scene.evaluate(line, own, values.col(static_cast<Eigen::Index>(i)));
     }
   };
   tbb::task_arena arena(static_cast<int>(draws.threads));
   std::size_t done = 0;
   while (done < draws.count) {
-    const std::size_t next = std::min(draws.count, done + kLinesOfLook);
+    const std::size_t next = std::min(draws.count, nextLook(done));
     const tbb::blocked_range<std::size_t> range(done, next, kLinesOfBatch);
     if (draws.threads == 1) {
       evaluate(range);
@@ -169,7 +181,8 @@ MeanAndError motionFlux(const PartitionObject& a, const PartitionObject& b,
       arena.execute([&] { tbb::parallel_for(range, evaluate); });
     }
     done = next;
-    if (done >= 2 && draws.go_on && !draws.go_on()) break;
+    if (done < draws.count && draws.go_on && !draws.go_on(done)) break;
+    if (done % kLinesOfTable == 0) crossings.clear();
   }
   return meanOfLines(values.leftCols(static_cast<Eigen::Index>(done)));
 }

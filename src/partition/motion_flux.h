@@ -27,7 +27,10 @@ struct LineDraws {
   std::size_t count;  ///< at least 2
   std::uint64_t seed;
   unsigned threads;
-  std::function<bool()> go_on;  ///< asked now and then by the calling thread; empty: always
+
+  /// Asked now and then by the calling thread, with the number of lines that are drawn, while some
+  /// are left; the first few are drawn in any case. Empty: always.
+  std::function<bool(std::size_t)> go_on;
 };
 
 /// P, and behind it ∂P/∂parameter for every column of the velocities: estimates.

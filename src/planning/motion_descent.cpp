@@ -134,7 +134,12 @@ class MotionDescent {
     MotionGradientRequest lines;
     lines.lines = kLines;
     lines.seed = self.request_.seed;
+    if (self.request_.go_on) {
+      lines.on_progress = [&self](const ProbabilityProgress&) { return self.request_.go_on(); };
+    }
     const JointGradient found = self.query_.gradient(states, lines);
+    // What is known of few lines is nothing to go by.
+    if (found.status == ProbabilityStatus::cancelled) throw nlopt::forced_stop();
     const double aim = kAim * self.request_.threshold;
     const double p = found.probability + kNoDifference * aim;
     self.note(path, p);

@@ -16,7 +16,7 @@ struct DescentRequest {
   double largest_step = 0.05;        ///< between states, as interpolated() takes it
   std::vector<Eigen::Index> moving;  ///< the joints that may move
   std::uint64_t seed = 1;
-  std::function<bool()> go_on;  ///< asked before every step; empty: always
+  std::function<bool()> go_on;  ///< asked before and during every step; empty: always
 };
 
 /// The path with its inner waypoints moved such that P of the motion, errors being the same all

@@ -250,7 +250,8 @@ MotionGradient motionGradient(const Groups& groups, const py::object& displaceme
                               const py::object& poses_a, const py::object& poses_b,
                               const py::object& velocities, const py::object& contact,
                               std::size_t lines, std::uint64_t seed, unsigned threads,
-                              const std::optional<double>& time_limit) {
+                              const std::optional<double>& time_limit,
+                              const py::object& on_progress) {
   const auto at_a = groupPoses(poses_a, groups.sizeA(), "poses_a");
   const auto at_b = groupPoses(poses_b, groups.sizeB(), "poses_b");
   const Randomness randomness = randomnessFrom(displacement, "displacement");
@@ -263,8 +264,10 @@ MotionGradient motionGradient(const Groups& groups, const py::object& displaceme
   request.seed = seed;
   request.threads = threads;
   request.time_limit = time_limit;
-  const py::gil_scoped_release released;
-  return groups.gradient(at_a, at_b, *gaussian, moving, request);
+  return runRequest<MotionGradient, MotionGradientRequest>(
+      request, progressFrom(on_progress), [&](const MotionGradientRequest& of) {
+        return groups.gradient(at_a, at_b, *gaussian, moving, of);
+      });
 }
 
 void bindGradient(py::module_& module) {
@@ -281,6 +284,9 @@ void bindGradient(py::module_& module) {
                              [](const G& g) { return vectorArray(g.gradient_standard_error); })
       .def_property_readonly(
           "lines", [](const G& g) { return g.lines; }, "Random lines that were drawn.")
+      .def_property_readonly(
+          "status", [](const G& g) { return toString(g.status); },
+          "'sampled', 'time-limit' or 'cancelled'; 'exact' where nothing was to be drawn.")
       .def("__repr__", [](const G& g) {
         return "<MotionGradient by " + std::to_string(g.gradient.size()) + " parameters, " +
                std::to_string(g.lines) + " lines>";
@@ -356,13 +362,15 @@ void bindQueries(py::module_& module) {
       .def("motion_gradient", &motionGradient, py::arg("displacement"), py::arg("poses_a") = none,
            py::arg("poses_b") = none, py::kw_only(), py::arg("velocities") = none,
            py::arg("contact") = "fcl", py::arg("lines") = 4096, py::arg("seed") = 1,
-           py::arg("threads") = 1, py::arg("time_limit") = none,
+           py::arg("threads") = 1, py::arg("time_limit") = none, py::arg("on_progress") = none,
            "How P changes as the members of A move (MotionGradient): an estimate from random "
            "lines.\n\n"
            "displacement: a GaussianDisplacement. velocities: (members, 6, k), a Jacobian for "
            "every\n"
            "member: the velocity of its point at the world's origin (metres) and the angular\n"
-           "velocity (radians) by each of k parameters; None: every member by itself, six each.\n\n"
+           "velocity (radians) by each of k parameters; None: every member by itself, six each.\n"
+           "on_progress((0, 1), fraction, seconds) is called now and then; returning False leaves\n"
+           "the estimate from the lines drawn by then, and Ctrl-C raises Interrupted with it.\n\n"
            "Raises InvalidRequest, InvalidPose, OpenMesh.");
 }
 

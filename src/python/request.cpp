@@ -84,12 +84,6 @@ void setThreads(Question& question, py::handle value) {
   question.threads_are_given = true;
 }
 
-void setProgress(Question& question, py::handle value) {
-  if (value.is_none()) return;
-  if (PyCallable_Check(value.ptr()) == 0) refuse("on_progress", "callable", value);
-  question.on_progress = py::reinterpret_borrow<py::function>(value);
-}
-
 void setGradient(Question& question, py::handle value) {
   const int truth = PyObject_IsTrue(value.ptr());
   if (truth < 0) throw py::error_already_set();
@@ -150,7 +144,8 @@ constexpr std::array<Keyword, 16> kKeywords = {{
     {"gradient", [](Question& q, py::handle v, const char*) { setGradient(q, v); }},
     {"band_a", setBand<&R::band_a>},
     {"band_b", setBand<&R::band_b>},
-    {"on_progress", [](Question& q, py::handle v, const char*) { setProgress(q, v); }},
+    {"on_progress",
+     [](Question& q, py::handle v, const char*) { q.on_progress = progressFrom(v); }},
 }};
 
 struct NamedConvention {
@@ -166,6 +161,12 @@ constexpr std::array<NamedConvention, 4> kConventions = {{
 }};
 
 }  // namespace
+
+std::optional<py::function> progressFrom(py::handle value) {
+  if (value.is_none()) return std::nullopt;
+  if (PyCallable_Check(value.ptr()) == 0) refuse("on_progress", "callable", value);
+  return py::reinterpret_borrow<py::function>(value);
+}
 
 ContactMeaning contactFrom(py::handle value) {
   const std::string name = nameFrom("contact", value);

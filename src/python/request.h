@@ -28,6 +28,9 @@ Question questionFrom(const py::kwargs& keywords);
 PoseConvention conventionFrom(const std::string& name);
 std::string toString(PoseConvention convention);
 
+/// A callable, or None for nothing. \throws py::type_error
+std::optional<py::function> progressFrom(py::handle value);
+
 /// 'fcl' or 'solid'. \throws InvalidRequest
 ContactMeaning contactFrom(py::handle value);
 

@@ -66,6 +66,9 @@ void bindGradient(py::module_& module) {
           [](const G& g) { return arrayOf(g.gradient_standard_error.transpose()); })
       .def_property_readonly(
           "lines", [](const G& g) { return g.lines; }, "Random lines that were drawn.")
+      .def_property_readonly(
+          "status", [](const G& g) { return toString(g.status); },
+          "'sampled', 'time-limit' or 'cancelled'.")
       .def("__repr__", [](const G& g) {
         return "<JointGradient of " + std::to_string(g.gradient.cols()) + " waypoints, " +
                std::to_string(g.lines) + " lines>";

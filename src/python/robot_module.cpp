@@ -249,15 +249,16 @@ ProbableResult decideProbably(const RobotQuery& query, const py::object& waypoin
 
 JointGradient gradient(const RobotQuery& query, const py::object& waypoints, std::size_t lines,
                        std::uint64_t seed, unsigned threads,
-                       const std::optional<double>& time_limit) {
+                       const std::optional<double>& time_limit, const py::object& on_progress) {
   const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
   MotionGradientRequest request;
   request.lines = lines;
   request.seed = seed;
   request.threads = threads;
   request.time_limit = time_limit;
-  const py::gil_scoped_release released;
-  return query.gradient(all, request);
+  return runRequest<JointGradient, MotionGradientRequest>(
+      request, progressFrom(on_progress),
+      [&](const MotionGradientRequest& of) { return query.gradient(all, of); });
 }
 
 /// What a robot's scene file asks: (query, waypoints (n, k)).
@@ -310,8 +311,10 @@ void bindQuery(py::module_& module) {
       .def(
           "gradient", &gradient, py::arg("waypoints"), py::kw_only(), py::arg("lines") = 4096,
           py::arg("seed") = 1, py::arg("threads") = 1, py::arg("time_limit") = py::none(),
+          py::arg("on_progress") = py::none(),
           "How P at any of the waypoints (n, k), persistent errors, changes with the joint values\n"
-          "at each (JointGradient): an estimate from random lines.");
+          "at each (JointGradient): an estimate from random lines. on_progress and Ctrl-C as in\n"
+          "GroupQuery.motion_gradient.");
   module.def("load_robot_scene", &loadScene, py::arg("path"),
              "The RobotQuery and the waypoints (n, k) of a scene file (docs/robots.md).");
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fcl_prob/probability_result.h"
@@ -46,21 +47,26 @@ ProbabilityResult answer(
     Question question,
     const std::function<void(const ProbabilityRequest&, ProbabilityResult&)>& query);
 
-/// The same for any kind of result that is valid when it was cancelled.
-/// \param to_python  of the result, for Interrupted
-template <class Result>
-Result run(Question question, const std::function<Result(const ProbabilityRequest&)>& query) {
-  Interruption interruption(question.on_progress);
-  question.request.on_progress = [&](const ProbabilityProgress& now) {
-    return interruption.goOn(now);
-  };
+/// The same for any kind of request with an on_progress, and of result that is valid when it was
+/// cancelled: Interrupted holds it.
+template <class Result, class Request>
+Result runRequest(Request request, std::optional<py::function> on_progress,
+                  const std::function<Result(const Request&)>& query) {
+  Interruption interruption(std::move(on_progress));
+  request.on_progress = [&](const ProbabilityProgress& now) { return interruption.goOn(now); };
   std::optional<Result> result;
   {
     const py::gil_scoped_release released;
-    result = query(question.request);
+    result = query(request);
   }
   interruption.raise([&] { return py::cast(*result); });
   return std::move(*result);
+}
+
+template <class Result>
+Result run(Question question, const std::function<Result(const ProbabilityRequest&)>& query) {
+  return runRequest<Result, ProbabilityRequest>(std::move(question.request),
+                                                std::move(question.on_progress), query);
 }
 
 /// Answers of many queries; those that were not reached when the run was cancelled are not set.

@@ -185,11 +185,13 @@ MotionGradient GroupsQuery::gradient(const Poses& poses_a, const Poses& poses_b,
   PlacedGroup placed_b(b_, poses_b, request.contact);
   placed_a.boundBy(placed_b.object(), displacement);
   placed_b.boundBy(placed_a.object(), displacement);
+  LimitedLines limited(request);
   MemberVelocities of_parts;
   for (const std::size_t i : a_.bounded()) of_parts.push_back(velocities[i]);
   for (const std::size_t i : a_.unbounded()) of_parts.push_back(velocities[i]);
-  return gradientFrom(
-      motionFlux(placed_a.object(), placed_b.object(), displacement, of_parts, drawsOf(request)));
+  const MeanAndError flux =
+      motionFlux(placed_a.object(), placed_b.object(), displacement, of_parts, limited.draws());
+  return gradientFrom(flux, limited.status());
 }
 
 /// Without a displacement, where the partition cannot tell: what fcl::collide says, as for pairs.

@@ -6,7 +6,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/number_text.h"
-#include "montecarlo/sample_loop.h"
+#include "montecarlo/sampling_run.h"
 
 namespace fcl_prob {
 
@@ -47,16 +47,25 @@ void validateGradient(const MotionGradientRequest& request) {
   }
 }
 
-LineDraws drawsOf(const MotionGradientRequest& request) {
-  LineDraws draws{request.lines, request.seed, request.threads, {}};
-  if (!request.time_limit) return draws;
-  draws.go_on = [watch = Stopwatch(), limit = *request.time_limit] {
-    return watch.seconds() < limit;
-  };
+LimitedLines::LimitedLines(const MotionGradientRequest& request) : request_(request) {
+  limits_.time_limit = request.time_limit;
+  limits_.on_progress = request.on_progress;
+}
+
+LineDraws LimitedLines::draws() {
+  LineDraws draws{request_.lines, request_.seed, request_.threads, {}};
+  if (!limits_.time_limit && !limits_.on_progress) return draws;
+  draws.go_on = [this](std::size_t drawn) { return goOn(drawn); };
   return draws;
 }
 
-MotionGradient gradientFrom(const MeanAndError& flux) {
+bool LimitedLines::goOn(std::size_t drawn) {
+  const double fraction = static_cast<double>(drawn) / static_cast<double>(request_.lines);
+  interruption_ = interruptionOf(limits_, {{0.0, 1.0}, fraction, watch_.seconds()});
+  return !interruption_;
+}
+
+MotionGradient gradientFrom(const MeanAndError& flux, ProbabilityStatus status) {
   const Eigen::Index parameters = flux.mean.size() - 1;
   MotionGradient result;
   result.probability = flux.mean[0];
@@ -64,12 +73,14 @@ MotionGradient gradientFrom(const MeanAndError& flux) {
   result.gradient = flux.mean.tail(parameters);
   result.gradient_standard_error = flux.standard_error.tail(parameters);
   result.lines = flux.lines;
+  result.status = status;
   return result;
 }
 
 MotionGradient withoutGradient(Eigen::Index parameters) {
   MotionGradient result;
   result.gradient = result.gradient_standard_error = Eigen::VectorXd::Zero(parameters);
+  result.status = ProbabilityStatus::exact;
   return result;
 }
 

@@ -3,7 +3,10 @@
 // From requests for gradients to lines, and back.
 #pragma once
 
+#include <optional>
+
 #include "fcl_prob/motion_gradient.h"
+#include "montecarlo/sample_loop.h"
 #include "partition/motion_flux.h"
 
 namespace fcl_prob::detail {
@@ -12,10 +15,27 @@ namespace fcl_prob::detail {
 void validateVelocities(const MemberVelocities& velocities, std::size_t members);
 void validateGradient(const MotionGradientRequest& request);
 
-/// Its clock runs from here on.
-LineDraws drawsOf(const MotionGradientRequest& request);
+/// Lines within the limits of a request. The clock starts when this is made.
+class LimitedLines {
+ public:
+  explicit LimitedLines(const MotionGradientRequest& request);
 
-MotionGradient gradientFrom(const MeanAndError& flux);
+  /// Refers to this object.
+  LineDraws draws();
+
+  /// `sampled`, or what stopped the draws.
+  ProbabilityStatus status() const { return interruption_.value_or(ProbabilityStatus::sampled); }
+
+ private:
+  bool goOn(std::size_t drawn);
+
+  const MotionGradientRequest& request_;
+  ProbabilityRequest limits_;
+  Stopwatch watch_;
+  std::optional<ProbabilityStatus> interruption_;
+};
+
+MotionGradient gradientFrom(const MeanAndError& flux, ProbabilityStatus status);
 
 /// Where nothing can touch.
 MotionGradient withoutGradient(Eigen::Index parameters);

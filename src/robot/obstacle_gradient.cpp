@@ -7,6 +7,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
+#include "robot/gradient_parts.h"
 #include "robot/reversed.h"
 
 namespace fcl_prob::detail {
@@ -34,31 +35,25 @@ class ObstacleLines {
   }
 
   MotionGradient operator()(const GaussianDisplacement& displacement) const {
-    if (displacement.rank() > 0) {
-      return query_.motionGradient(poses_a_, poses_b_, displacement, velocities_, request_);
-    }
-    ProbabilityRequest certain;
-    certain.contact = request_.contact;
-    ProbabilityResult result;
-    MotionGradient gradient;
-    gradient.probability =
-        query_.collisionProbability(poses_a_, poses_b_, displacement, certain, result);
-    gradient.gradient = gradient.gradient_standard_error = Eigen::VectorXd::Zero(parameters_);
-    return gradient;
+    return of(displacement, request_);
   }
 
   MotionGradient operator()(const GaussianMixture& mixture) const {
     MotionGradient sum;
     Eigen::ArrayXd variance = Eigen::ArrayXd::Zero(parameters_);
     sum.gradient = Eigen::VectorXd::Zero(parameters_);
-    for (const GaussianMixture::Component& component : mixture.components()) {
-      const double weight = component.weight;
-      const MotionGradient part = (*this)(component.displacement);
+    const auto& components = mixture.components();
+    GradientParts parts(request_, components.size());
+    sum.status = ProbabilityStatus::exact;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      const double weight = components[i].weight;
+      const MotionGradient part = of(components[i].displacement, parts.requestOf(i));
       sum.probability += weight * part.probability;
       sum.standard_error = std::hypot(sum.standard_error, weight * part.standard_error);
       sum.gradient += weight * part.gradient;
       variance += (weight * part.gradient_standard_error.array()).square();
       sum.lines += part.lines;
+      sum.status = statusOfBoth(sum.status, part.status);
     }
     sum.gradient_standard_error = variance.sqrt();
     return sum;
@@ -69,6 +64,22 @@ class ObstacleLines {
   }
 
  private:
+  MotionGradient of(const GaussianDisplacement& displacement,
+                    const MotionGradientRequest& request) const {
+    if (displacement.rank() > 0) {
+      return query_.motionGradient(poses_a_, poses_b_, displacement, velocities_, request);
+    }
+    ProbabilityRequest certain;
+    certain.contact = request.contact;
+    ProbabilityResult result;
+    MotionGradient gradient;
+    gradient.probability =
+        query_.collisionProbability(poses_a_, poses_b_, displacement, certain, result);
+    gradient.status = result.status;
+    gradient.gradient = gradient.gradient_standard_error = Eigen::VectorXd::Zero(parameters_);
+    return gradient;
+  }
+
   static GroupQuery::Geometries geometriesOf(const std::vector<WaypointBody>& bodies,
                                              const Robot& robot) {
     GroupQuery::Geometries geometries;
@@ -125,6 +136,7 @@ JointGradient anyOfGradients(const std::vector<MotionGradient>& parts, Eigen::In
     none *= 1.0 - parts[i].probability;
     square += std::pow(others * parts[i].standard_error, 2);
     result.lines += parts[i].lines;
+    result.status = statusOfBoth(result.status, parts[i].status);
     gradient += others * parts[i].gradient.array();
     variance += (others * parts[i].gradient_standard_error.array()).square();
   }

@@ -13,6 +13,7 @@
 #include "query/motion_gradient.h"
 #include "query/prepared_geometry.h"
 #include "request/refuse_band.h"
+#include "robot/gradient_parts.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 #include "robot/obstacle_gradient.h"
@@ -263,10 +264,11 @@ struct RobotQuery::Implementation {
     const auto count = static_cast<Eigen::Index>(waypoints.size());
     const auto all = placedAll(waypoints);
     std::vector<MotionGradient> parts;
+    detail::GradientParts progress(request, obstacles.size());
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       const auto near = nearBodies(all, i);
       if (near.empty()) continue;
-      MotionGradientRequest of_one = request;
+      MotionGradientRequest of_one = progress.requestOf(i);
       of_one.seed += i * kSeedsApart;
       if (request.time_limit) {
         of_one.time_limit = *request.time_limit / static_cast<double>(obstacles.size());

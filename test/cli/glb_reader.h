@@ -104,6 +104,8 @@ class GlbFile {
     return result;
   }
 
+  const std::string& binary() const { return binary_; }
+
   nlohmann::json json;
 
  private:

@@ -47,6 +47,7 @@ TEST_CASE("path tells how P changes with the joints", "[cli]") {
   const json answered = answerOf({"--threshold", "0.9999", "--gradient"});
   const json& gradient = answered.at("gradient");
   CHECK(gradient.at("lines").get<int>() >= 4096);
+  CHECK(gradient.at("status") == "sampled");
   const double p = gradient.at("probability").get<double>();
   const double doubt = 5.0 * gradient.at("standard_error").get<double>();
   CHECK(p + doubt >= answered.at("lower").get<double>());

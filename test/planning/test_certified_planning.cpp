@@ -10,6 +10,7 @@
 #include "catch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "planning/motion_descent.h"
 #include "planning/state_screen.h"
 #include "temporary_folder.h"
 
@@ -202,6 +203,25 @@ TEST_CASE("a path is moved along the gradient until its motion is below the thre
   const Counted counted = countHits(scene.query, states, 2'000);
   const double p = plan.motion.middle();
   CHECK(std::fabs(counted.any / 2'000.0 - p) < 5.0 * std::sqrt(p / 2'000.0) + plan.motion.width());
+}
+
+TEST_CASE("a path that is moved along the gradient can be cancelled within a step") {
+  const PlanScene scene;
+  detail::DescentRequest request;
+  request.largest_step = 0.1;
+  request.moving = {0, 1, 2};
+  int calls = 0;
+  int last = 1'000'000;
+  request.go_on = [&] { return ++calls < last; };
+  const auto descend = [&] {
+    return detail::descended(scene.query, {scene.start, scene.goal}, request);
+  };
+  REQUIRE(descend());  // at once: every path is below 1
+  // Once before each step is not all.
+  last = 2;
+  calls = 0;
+  CHECK(!descend());
+  CHECK(calls == 2);
 }
 
 TEST_CASE("certified plans refuse what makes no sense") {

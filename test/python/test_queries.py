@@ -101,6 +101,10 @@ def test_group_changes_as_its_members_move():
     assert np.allclose(as_one.gradient, moved.gradient[:3] + moved.gradient[6:9])
     errors = 5 * as_one.gradient_standard_error + 0.01
     assert np.all(np.abs(as_one.gradient - both.gradient) < errors)
+    told = []
+    stopped = group.motion_gradient(ERROR, poses, on_progress=lambda *now: told.append(now) or False)
+    assert moved.status == "sampled" and stopped.status == "cancelled" and stopped.lines < 4096
+    assert len(told) == 1 and told[0][0] == (0, 1) and 0 < told[0][1] < 1
     with pytest.raises(ValueError, match=r"velocities must have the shape \(2, 6, k\)"):
         group.motion_gradient(ERROR, poses, velocities=np.zeros((2, 3)))
     with pytest.raises(fcl_prob.InvalidRequest):
@@ -255,6 +259,10 @@ def test_gradients_for_joints_go_with_differences():
     assert abs(found.gradient[:, joint].sum() - slope) < 5 * error + 0.05 * abs(slope)
     with pytest.raises(fcl_prob.InvalidRequest, match="lines"):
         query.gradient(waypoints, lines=1)
+    told = []
+    stopped = query.gradient(waypoints, on_progress=lambda *now: told.append(now) or False)
+    assert found.status == "sampled" and stopped.status == "cancelled" and stopped.lines < found.lines
+    assert len(told) == 1 and told[0][0] == (0, 1) and 0 < told[0][1] < 1
 
 
 @needs_robot

@@ -13,7 +13,7 @@ import threading
 
 import numpy as np
 import pytest
-from scenes import ERROR, FIXTURE, PART, pose, torus
+from scenes import ERROR, FIXTURE, PART, needs_robot, pose, torus
 
 import fcl_prob
 
@@ -51,6 +51,11 @@ def test_errors_of_progress_come_out():
         fcl_prob.collision_probabilities(torus(), torus(), ERROR, np.full((4, 3), 0.2), on_progress=refuse, **LONG)
     with pytest.raises(TypeError):
         fcl_prob.collision_probability(torus(), torus(), ERROR, [0.25, 0.1, 0], on_progress=lambda: None, **LONG)
+    group = fcl_prob.GroupQuery([torus()], [torus()])
+    with pytest.raises(Refusal):
+        group.motion_gradient(ERROR, [[0.25, 0.1, 0]], on_progress=refuse)
+    with pytest.raises(TypeError, match="on_progress must be callable"):
+        group.motion_gradient(ERROR, [[0.25, 0.1, 0]], on_progress=3)
 
 
 def test_progress_of_batches():
@@ -70,7 +75,7 @@ def test_progress_of_batches():
 INTERRUPTED = """
     import os, signal, sys, threading
     sys.path.insert(0, {tests!r})
-    from scenes import ERROR, torus
+    from scenes import DATA, ERROR, torus
     import fcl_prob, numpy as np
     long = dict(method="interval", relative_tolerance=1e-9, absolute_tolerance=1e-12, max_cells=10**9)
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
@@ -96,6 +101,15 @@ CALLS = [
         "fcl_prob.collision_probability(torus(), torus(), fcl_prob.PoseError(np.eye(6) * 1e-3), [0.25, 0.1, 0],"
         " method='estimate', relative_tolerance=1e-7, absolute_tolerance=1e-12, max_cells=10**9)",
         "assert result.status == 'cancelled' and result.lower <= result.upper",
+    ),
+    (
+        "fcl_prob.GroupQuery([torus()], [torus()]).motion_gradient(ERROR, [[0.25, 0.1, 0]], lines=10**7)",
+        "assert result.status == 'cancelled' and 0 < result.lines < 10**7 and result.standard_error > 0",
+    ),
+    pytest.param(
+        "query, at = fcl_prob.load_robot_scene(DATA / 'arm_path.json'); query.gradient(at, lines=10**6, threads=2)",
+        "assert result.status == 'cancelled' and 0 < result.lines < 10**6 and result.gradient.shape == at.shape",
+        marks=needs_robot,
     ),
 ]
 

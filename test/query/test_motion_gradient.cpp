@@ -10,6 +10,8 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <thread>
 
 #include "catch.h"
 #include "fcl_prob/exceptions.h"
@@ -118,6 +120,12 @@ void checkDifferences(const Scene& scene, const MotionGradient& gradient, double
                 0.01 * gradient.gradient.lpNorm<Eigen::Infinity>());
     }
   }
+}
+
+bool isSame(const MotionGradient& x, const MotionGradient& y) {
+  return x.probability == y.probability && x.standard_error == y.standard_error &&
+         x.gradient == y.gradient && x.gradient_standard_error == y.gradient_standard_error &&
+         x.lines == y.lines;
 }
 
 Scene twoBodiesBesideABox(const GaussianDisplacement& displacement) {
@@ -241,6 +249,7 @@ TEST_CASE("lines are fixed by the seed, whatever the number of threads, and end 
   };
   const MotionGradient one = ask();
   CHECK(one.lines == 1000);
+  CHECK(one.status == ProbabilityStatus::sampled);
   request.threads = 3;
   const MotionGradient three = ask();
   CHECK(one.gradient == three.gradient);
@@ -252,6 +261,65 @@ TEST_CASE("lines are fixed by the seed, whatever the number of threads, and end 
   const MotionGradient stopped = ask();
   CHECK(stopped.lines >= 2);
   CHECK(stopped.lines < request.lines);
+  CHECK(stopped.status == ProbabilityStatus::time_limit);
+}
+
+TEST_CASE("a gradient tells how far it is, and cancelled it is that of the lines so far") {
+  const Scene scene =
+      twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
+  const GroupQuery query(scene.a, scene.b);
+  MotionGradientRequest request;
+  request.lines = 1000;
+  const auto ask = [&](const MotionGradientRequest& of) {
+    return query.motionGradient(scene.poses_a, scene.poses_b, scene.displacement, rigidMotions(2),
+                                of);
+  };
+  const MotionGradient whole = ask(request);
+  for (const unsigned threads : {1U, 3U}) {
+    request.threads = threads;
+    std::vector<ProbabilityProgress> told;
+    request.on_progress = [&, caller = std::this_thread::get_id()](const auto& progress) {
+      CHECK(std::this_thread::get_id() == caller);
+      told.push_back(progress);
+      return true;
+    };
+    CHECK(isSame(ask(request), whole));
+    REQUIRE(told.size() > 4);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      CHECK(told[i].interval.lower == 0.0);
+      CHECK(told[i].interval.upper == 1.0);
+      CHECK(told[i].fraction > (i > 0 ? told[i - 1].fraction : 0.0));
+      CHECK(told[i].seconds >= (i > 0 ? told[i - 1].seconds : 0.0));
+    }
+    CHECK(told.back().fraction < 1.0);
+
+    for (std::size_t last = 1; last <= told.size(); ++last) {
+      CAPTURE(threads, last);
+      std::size_t calls = 0;
+      request.on_progress = [&](const auto&) { return ++calls < last; };
+      const MotionGradient cancelled = ask(request);
+      CHECK(calls == last);
+      CHECK(cancelled.status == ProbabilityStatus::cancelled);
+      CHECK(static_cast<double>(cancelled.lines) == Approx(1000.0 * told[last - 1].fraction));
+      // Nothing but fewer lines.
+      MotionGradientRequest fewer;
+      fewer.lines = cancelled.lines;
+      CHECK(isSame(ask(fewer), cancelled));
+    }
+    request.on_progress = [](const auto&) -> bool { throw std::runtime_error("no"); };
+    CHECK_THROWS_AS(ask(request), std::runtime_error);
+  }
+}
+
+TEST_CASE("a gradient of two lines has none left to cancel, and that of nothing is exact") {
+  Scene scene = twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
+  CHECK(scene.gradient(2).status == ProbabilityStatus::sampled);
+  const auto unoccupied = std::make_shared<fcl::Boxd>(0.8, 0.9, 0.7);
+  unoccupied->cost_density = 0.0;
+  scene.b = {unoccupied};
+  const MotionGradient nothing = scene.gradient(100);
+  CHECK(nothing.status == ProbabilityStatus::exact);
+  CHECK(nothing.lines == 0);
 }
 
 TEST_CASE("gradients refuse what has none") {

@@ -86,6 +86,50 @@ TEST_CASE("joint gradients of a robot far from everything are zero") {
   CHECK(found.gradient.isZero(0.0));
 }
 
+TEST_CASE("joint gradients of several obstacles are told of as one, and cancelled as one") {
+  const Robot arm = shippedArm();
+  std::vector<Obstacle> obstacles = ballAndBox();
+  obstacles[0].displacement = GaussianMixture(
+      {{0.3, sigma(0.03, 0.02, 0.04)}, {0.7, sigma(0.02, 0.03, 0.02).withMean({0.05, 0.0, 0.02})}});
+  const RobotQuery query(arm, obstacles);
+  const Waypoints waypoints{near(arm, 0.5), near(arm, -0.4)};
+  MotionGradientRequest request;
+  request.lines = 500;
+  const JointGradient whole = query.gradient(waypoints, request);
+  CHECK(whole.lines == 1500);
+  CHECK(whole.status == ProbabilityStatus::sampled);
+
+  std::vector<double> fractions;
+  request.on_progress = [&](const ProbabilityProgress& progress) {
+    CHECK(progress.fraction > (fractions.empty() ? 0.0 : fractions.back()));
+    fractions.push_back(progress.fraction);
+    return true;
+  };
+  const JointGradient told = query.gradient(waypoints, request);
+  CHECK(told.gradient == whole.gradient);
+  CHECK(told.gradient_standard_error == whole.gradient_standard_error);
+  CHECK(told.probability == whole.probability);
+  REQUIRE(fractions.size() > 3);
+  CHECK(fractions.back() < 1.0);
+
+  std::size_t lines = 0;
+  for (std::size_t last = 1; last <= fractions.size(); ++last) {
+    std::size_t calls = 0;
+    request.on_progress = [&](const ProbabilityProgress&) { return ++calls < last; };
+    const JointGradient cancelled = query.gradient(waypoints, request);
+    CAPTURE(last);
+    CHECK(calls == last);
+    CHECK(cancelled.status == ProbabilityStatus::cancelled);
+    CHECK(cancelled.lines > lines);
+    CHECK(cancelled.lines < whole.lines);
+    lines = cancelled.lines;
+    // What is not reached any more takes part, known badly.
+    CHECK(cancelled.standard_error > 0.0);
+    CHECK(std::fabs(cancelled.probability - whole.probability) <
+          6.0 * std::hypot(cancelled.standard_error, whole.standard_error));
+  }
+}
+
 TEST_CASE("joint gradients refuse what has none") {
   const Robot arm = shippedArm();
   std::vector<Obstacle> obstacles = ballAndBox();

@@ -138,6 +138,7 @@ TEST_CASE("lines and evenly spread samples on two threads", "[threads]") {
   };
   const MotionGradient alone = gradient();
   lines.threads = 2;
+  lines.on_progress = [](const ProbabilityProgress&) { return true; };
   CHECK(gradient().gradient == alone.gradient);
   const PreparedPoseQuery pose(body, ring);
   const auto error = PoseError::fromIndependent(displacement(), 0.3 * Eigen::Matrix3d::Identity());

@@ -335,6 +335,7 @@ class GroupQuery:
         seed: int = 1,
         threads: int = 1,
         time_limit: Optional[float] = None,
+        on_progress: Optional[QueryProgress] = None,
     ) -> MotionGradient: ...
 
 class MotionGradient:
@@ -348,3 +349,5 @@ class MotionGradient:
     def gradient_standard_error(self) -> FloatArray: ...
     @property
     def lines(self) -> int: ...
+    @property
+    def status(self) -> str: ...

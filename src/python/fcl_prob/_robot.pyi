@@ -143,6 +143,7 @@ class RobotQuery:
         seed: int = 1,
         threads: int = 1,
         time_limit: Optional[float] = None,
+        on_progress: Optional[QueryProgress] = None,
     ) -> JointGradient: ...
 
 class JointGradient:
@@ -156,6 +157,8 @@ class JointGradient:
     def gradient_standard_error(self) -> FloatArray: ...
     @property
     def lines(self) -> int: ...
+    @property
+    def status(self) -> str: ...
 
 class ProbableResult:
     @property

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/gradient_parts.h"
+
+namespace fcl_prob::detail {
+
+MotionGradientRequest GradientParts::requestOf(std::size_t index) {
+  MotionGradientRequest part = whole_;
+  if (whole_.on_progress) {
+    part.on_progress = [this, index](const ProbabilityProgress& progress) {
+      return goOn(index, progress);
+    };
+  }
+  return part;
+}
+
+bool GradientParts::goOn(std::size_t index, ProbabilityProgress progress) {
+  if (cancelled_) return false;
+  progress.fraction =
+      (static_cast<double>(index) + progress.fraction) / static_cast<double>(count_);
+  progress.seconds = watch_.seconds();
+  cancelled_ = !whole_.on_progress(progress);
+  return !cancelled_;
+}
+
+ProbabilityStatus statusOfBoth(ProbabilityStatus one, ProbabilityStatus other) {
+  for (const ProbabilityStatus status :
+       {ProbabilityStatus::cancelled, ProbabilityStatus::time_limit, ProbabilityStatus::sampled}) {
+    if (one == status || other == status) return status;
+  }
+  return other;
+}
+
+}  // namespace fcl_prob::detail
