@@ -19,7 +19,7 @@ constexpr double kSliceTarget = 4e-12;
 constexpr double kVolumeShare = 0.266;
 constexpr double kEnough = 1e-11;
 constexpr int kSliceAttempts = 3;
-constexpr double kMostPanels = 4;
+constexpr int kMostPanels = 4;
 constexpr int kMostDepth = 5;
 constexpr unsigned kFewSlices = 10, kManySlices = 20, kMostSlices = 30;
 constexpr double kSliceSlack = 16.0 * kEpsilon;
@@ -49,6 +49,14 @@ Eigen::Matrix<double, kDimension, 1> nearestTo(const Eigen::Matrix<double, kDime
   return centre - radius.cwiseProduct(unit);
 }
 
+/// \param lengths  half the window, in lengths over which the integrand falls by about e; not a
+/// number
+///                 where squares of the radii underflow, and no mass comes of it
+int panelsFor(double lengths) {
+  if (!(lengths > 7.0)) return 1;
+  return lengths < 4.0 * kMostPanels ? static_cast<int>(std::ceil(lengths / 4.0)) : kMostPanels;
+}
+
 /// Slices at 1 + w = u: z = z_pole + radius u, an ellipse of radii sqrt(u (2 - u)) times those of
 /// the ball's other axes.
 class Slices {
@@ -75,10 +83,8 @@ class Slices {
     digits_ = kSliceDigits + std::log(std::max(1.0, likely / about_));
     lower_ = upper_ = error_ = 0.0;
     findWindow();
-    const double scale = growthScale();
     const double half = 0.5 * (to_ - from_);
-    const int panels = static_cast<int>(
-        std::clamp(half * scale <= 7.0 ? 1.0 : std::ceil(half * scale / 4.0), 1.0, kMostPanels));
+    const int panels = panelsFor(half * growthScale());
     // Panels are told by their distance from the window's middle, of which the height is exact:
     // they must not leave gaps as wide as rounding of a large ball.
     half_window_ = half;
@@ -277,6 +283,8 @@ class Slices {
 }  // namespace
 
 Bounds ellipsoidMass(const WhitenedBall& ball) {
+  // Beyond, squares overflow and infinities meet.
+  if (!((ball.centre + ball.radius).squaredNorm() < kInfinity)) return {0.0, 1.0};
   Slices slices(ball);
   Bounds best{0.0, 1.0};
   double about = 0.0;

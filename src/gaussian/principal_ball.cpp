@@ -19,6 +19,9 @@ constexpr double kRelative = 1.01 * kEpsilon;
 /// added to the radius or taken from it.
 constexpr double kSmallMove = 1e-9;
 
+/// More than products below the least normal number lose.
+constexpr double kUnderflow = 1e-306;
+
 /// One axis: lengths in deviations.
 struct Axis {
   double centre, radius, pole, centre_error, pole_error;
@@ -74,6 +77,20 @@ Bounds massOfSection(const Section& ball, const GaussianDisplacement& displaceme
   return ellipsoidMass(whitened);
 }
 
+/// From the cubes around and inside the ball, along its axes: wide, but of any scale.
+Bounds massBetweenCubes(const Section& ball, const GaussianDisplacement& displacement) {
+  Section inner = ball;
+  inner.radius = ball.radius / std::sqrt(static_cast<long double>(displacement.rank()));
+  Bounds mass{1.0, 1.0};
+  for (int k = 0; k < displacement.rank(); ++k) {
+    mass.lower *= std::max(0.0, massOnLine(axisOf(inner, displacement, k)).lower);
+    mass.upper *= std::min(1.0, massOnLine(axisOf(ball, displacement, k)).upper);
+  }
+  const double rounding = 8.0 * kEpsilon;
+  return {std::max(0.0, mass.lower * (1.0 - rounding) - kUnderflow),
+          std::min(1.0, mass.upper * (1.0 + rounding) + kUnderflow)};
+}
+
 /// Radius of the section at a distance across the axes that move; 0 if the ball does not reach.
 long double sectionRadius(long double radius, long double distance) {
   return radius > distance ? std::sqrt((radius - distance) * (radius + distance)) : 0.0L;
@@ -84,7 +101,8 @@ Bounds massOf(const Section& ball, const GaussianDisplacement& displacement) {
   Bounds mass = massOfSection(ball, displacement);
   mass.lower = std::max(mass.lower, 0.0);
   mass.upper = std::min(mass.upper, 1.0);
-  return mass.lower <= mass.upper ? mass : Bounds{0.0, 1.0};
+  if (!(mass.lower <= mass.upper)) mass = {0.0, 1.0};
+  return mass.width() < 1.0 ? mass : massBetweenCubes(ball, displacement);
 }
 
 }  // namespace

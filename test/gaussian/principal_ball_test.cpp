@@ -198,6 +198,37 @@ TEST_CASE("ball masses of equal deviations against the closed form") {
   CHECK(count > 200);
 }
 
+/// Of the cube with the ball's centre and the given half of an edge.
+HighPrecision cubeMass(const BallCase& one, const HighPrecision& half) {
+  HighPrecision mass = 1;
+  for (int k = 0; k < 3; ++k) {
+    const HighPrecision sigma = one.deviations[k], centre = one.centre[k];
+    mass *= intervalOf<HighPrecision>((centre - half) / sigma, (centre + half) / sigma);
+  }
+  return mass;
+}
+
+TEST_CASE(
+    "balls of deviations up to 450 orders of magnitude apart hold the cubes in and around them") {
+  std::mt19937 random(7);
+  int known = 0;
+  for (int i = 0; i < 2000; ++i) {
+    BallCase one;
+    const double least = i % 2 == 0 ? 1e-300 : 1e-80, most = i % 3 == 0 ? 1e150 : 1e80;
+    for (int k = 0; k < 3; ++k) one.deviations[k] = logUniform(random, least, most);
+    if (i == 0) one.deviations << 1e60, 1.0, 1e-300;
+    std::sort(one.deviations.data(), one.deviations.data() + 3, std::greater<>());
+    one.radius = 1.0;
+    one.centre << 0.4, 0.2, uniform(random, 0.0, 0.9);
+    const Bounds bounds = massOf(one);
+    CAPTURE(one.deviations, one.centre, bounds.lower, bounds.upper);
+    REQUIRE(bounds.lower <= cubeMass(one, 1) * (1 + 1e-15));
+    REQUIRE(bounds.upper >= cubeMass(one, 1 / sqrt(HighPrecision(3))) * (1 - 1e-15));
+    known += bounds.upper < 1.0 || bounds.lower > 0.0;
+  }
+  CHECK(known > 1000);
+}
+
 TEST_CASE("a ball on a line, and axes along which nothing moves") {
   std::mt19937 random(5);
   for (int i = 0; i < 300; ++i) {

@@ -28,6 +28,8 @@ Number intervalOf(Number lo, Number hi) {
     hi = -hi;
   }
   const Number half_root = sqrt(Number(2));
+  // Near the origin erfc is 1, whatever the number of digits.
+  if (hi < 1) return (boost::math::erf(hi / half_root) - boost::math::erf(lo / half_root)) / 2;
   return (boost::math::erfc(lo / half_root) - boost::math::erfc(hi / half_root)) / 2;
 }
 
