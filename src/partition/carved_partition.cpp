@@ -7,43 +7,13 @@
 #include <string>
 
 #include "partition/carving_engine.h"
+#include "partition/whole_body.h"
 
 namespace fcl_prob::detail {
 namespace {
 
 // Masses of cells are not computed to more digits than a tolerance of this needs.
 constexpr double kLeastTolerance = 1e-4;
-
-// A fan's arcs are those of its cones as long as whitening stretches it no more than this.
-constexpr double kMostAnisotropic = 100.0;
-
-bool isMesh(const PartitionObject& object) {
-  return object.tree->isMesh() && !object.tree->isEmpty();
-}
-
-bool isConvex(const PartitionObject& object) {
-  const auto& parts = object.tree->parts;
-  return std::all_of(parts.begin(), parts.end(),
-                     [](const PieceTree::Part& part) { return part.fan != nullptr; });
-}
-
-// The larger of two, so that there are fewer triangles beside it.
-bool isFanOfA(const PartitionObject& a, const PartitionObject& b) {
-  if (!isConvex(b)) return true;
-  return isConvex(a) && a.tree->triangles.size() >= b.tree->triangles.size();
-}
-
-// Where surfaces count, what is within a convex one would be taken for touching it.
-bool mayBeWithin(const PartitionObject& body, const PartitionObject& mesh,
-                 const FatMembers& obstacles) {
-  for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    if (body.parts[i].solid) continue;
-    for (const PieceTree::Part& part : mesh.tree->parts) {
-      if (!obstacles.of(static_cast<int>(i)).isTooSmallFor(part.spans)) return true;
-    }
-  }
-  return false;
-}
 
 std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
   const std::string name = fan_is_a ? "A" : "B";
@@ -62,21 +32,17 @@ std::string convexNote(const PartitionObject& body, const FatMembers& obstacles,
 
 bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
                  const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
-  if (!isMesh(a) || !isMesh(b)) return false;
-  if (!isConvex(a) && !isConvex(b)) return false;
   if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
-  if (a.motion || b.motion || a.isSwept() || b.isSwept()) return false;
   if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
-  const Eigen::Vector3d& sigma = displacement.standardDeviations();
-  return displacement.rank() == 3 && sigma[0] <= kMostAnisotropic * sigma[2];
+  return wholeBodyOf(a, b, displacement).has_value();
 }
 
 bool carve(const PartitionObject& a, const PartitionObject& b,
            const GaussianDisplacement& displacement, const ProbabilityRequest& request,
            ProbabilityResult& result) {
-  const bool fan_is_a = isFanOfA(a, b);
-  const PartitionObject& body = fan_is_a ? a : b;
-  const PartitionObject& mesh = fan_is_a ? b : a;
+  const auto whole = wholeBodyOf(a, b, displacement);
+  if (!whole) return false;
+  const auto& [body, mesh, fan_is_a] = *whole;
   if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening whitening(displacement, unit);
@@ -85,7 +51,9 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   if (!obstacles.usable()) return false;
   std::optional<SolidContact> solids;
   if (a.hasSolid() || b.hasSolid()) solids.emplace(a, b, whitening, pair);
-  if (mayBeWithin(body, mesh, obstacles)) return false;
+  for (std::size_t i = 0; i < body.parts.size(); ++i) {
+    if (mayHoldPart(*whole, i, obstacles.of(static_cast<int>(i)))) return false;
+  }
   if (claim_observer) claim_observer->frame(whitening, displacement);
   CarvingEngine engine(obstacles, solids ? &*solids : nullptr, request, result.statistics);
   result.method = ProbabilityMethod::interval;

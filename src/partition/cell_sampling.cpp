@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "partition/cell_draw.h"
 
@@ -119,8 +120,9 @@ SampledMass average(const SampledMass& a, const SampledMass& b) {
 }
 
 CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
-                         const SolidContact* solids, std::uint64_t seed)
-    : tester_(pair, obstacles, solids), seed_(seed) {}
+                         const SolidContact* solids, std::unique_ptr<WholeBodyTester> whole,
+                         std::uint64_t seed)
+    : tester_(pair, obstacles, solids, std::move(whole)), seed_(seed) {}
 
 // Means and spreads are updated set by set (Welford): a difference of sums of squares may come out
 // negative where all sets agree.

@@ -50,8 +50,9 @@ SampledMass average(const SampledMass& a, const SampledMass& b);
 /// against the cell's own front only.
 class CellSampler {
  public:
+  /// For the other arguments see PointTester.
   CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
-              std::uint64_t seed);
+              std::unique_ptr<WholeBodyTester> whole, std::uint64_t seed);
 
   /// About `count` samples, at least a few a cell. Every call draws others. Once interrupted it
   /// takes half the gap of the cells that are left, and doubts it.

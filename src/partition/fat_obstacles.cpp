@@ -3,7 +3,6 @@
 #include "partition/fat_obstacles.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -21,9 +20,6 @@ constexpr double kOnPlane = 1e-9;
 // The normals of a sharper edge than this, added up, are no longer than this.
 constexpr double kSharpest = 1e-3;
 
-// Beyond this share of P nothing is certified of its inside.
-constexpr double kLargestShare = 1e-3;
-
 // A triangle whose normal is known no better than this covers nothing.
 constexpr double kPoorNormal = 1e-6;
 
@@ -33,117 +29,21 @@ constexpr double kNever = 1e300;
 
 FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
                            const Eigen::Matrix3d& linear)
-    : mesh_(fan_is_a ? pair.b : pair.a), sign_(fan_is_a ? 1.0 : -1.0), arcs_(part.fan->arcs) {
-  const WhitenedTree& body = fan_is_a ? pair.a : pair.b;
-  Eigen::Vector3d largest = Eigen::Vector3d::Constant(kReach);
-  for (const WhitenedTree* tree : {&body, &mesh_}) {
-    const NodeBox& box = tree->boxes[0];
-    for (int k = 0; k < 3; ++k) {
-      largest[k] += 2 * std::max(std::fabs(box.lo[k]), std::fabs(box.hi[k]));
-    }
-  }
-  reach_ = 2 * largest.norm();
-  pad_ = 4 * (body.error + mesh_.error) + 64 * kEpsilon * largest;
-  moveFan(body, part, linear);
-  details_.resize(mesh_.tree->triangles.size());
-  memory_ = leastMemory(details_.size());
-}
-
-// In the whitened frame a normal n of the fan has the direction m with Lᵀm ∥ n; however m was
-// rounded, the offset follows from how far Lᵀm is off n.
-void FatObstacles::moveFan(const WhitenedTree& body, const PieceTree::Part& part,
-                           const Eigen::Matrix3d& linear) {
-  const ConvexFan& fan = *part.fan;
-  const int anchor = part.vertices.begin;
-  centre_ = body.vertices[anchor] + linear * (fan.centre - body.tree->vertices[anchor]);
-  for (int k = 0; k < 3; ++k) {
-    box_.lo[k] = kInfinity;
-    box_.hi[k] = -kInfinity;
-  }
-  for (const Eigen::Vector3d& vertex : fan.vertices) {
-    points_.emplace_back(-sign_ * (linear * vertex));
-    for (int k = 0; k < 3; ++k) {
-      box_.lo[k] = std::min(box_.lo[k], points_.back()[k] - pad_[k]);
-      box_.hi[k] = std::max(box_.hi[k], points_.back()[k] + pad_[k]);
-    }
-  }
-  const Eigen::Matrix3d inverse = linear.inverse();
-  const double size = linear.cwiseAbs().sum();
-  double share = 0.0;
-  for (std::size_t f = 0; f < fan.normals.size(); ++f) {
-    const Eigen::Vector3d n = (inverse.transpose() * fan.normals[f]).normalized();
-    const Eigen::Vector3d back = linear.transpose() * n;
-    const double scale = back.dot(fan.normals[f]);
-    const double off =
-        (back - scale * fan.normals[f]).norm() * fan.radius + 16 * kEpsilon * size * fan.radius;
-    const double offset = scale * fan.offsets[f] + off + padding(n);
-    const double depth = scale * fan.depths[f] + 2 * (off + padding(n));
-    usable_ = usable_ && scale > 0.0 && offset > depth && std::isfinite(offset);
-    normals_.push_back(-sign_ * n);
-    offsets_.push_back(offset);
-    share = std::max(share, depth / offset);
-  }
-  // See docs/rounding.md: once for the mesh off its hull, once for the fan off the hull.
-  share_ = 2.5 * share;
-  usable_ = usable_ && share_ < kLargestShare;
-  for (std::size_t f = 0; f < normals_.size(); ++f) {
-    pads_.push_back(padding(normals_[f]));
-    margins_.push_back(share_ * offsets_[f] + 3 * pads_[f]);
-    most_margin_ = std::max(most_margin_, margins_[f]);
-  }
-}
-
-double FatObstacles::support(const Eigen::Vector3d& n) const {
-  double highest = -kInfinity;
-  for (const Eigen::Vector3d& point : points_) highest = std::max(highest, n.dot(point));
-  return highest + padding(n);
-}
-
-double FatObstacles::support(int triangle, const Eigen::Vector3d& n, double of_p) const {
-  return of_p + (n.transpose() * corners(triangle)).maxCoeff() + padding(n);
-}
-
-Eigen::Matrix3d FatObstacles::corners(int triangle) const {
-  const Eigen::Vector3i& t = mesh_.tree->triangles[triangle];
-  Eigen::Matrix3d corners;
-  for (int k = 0; k < 3; ++k) corners.col(k) = sign_ * (mesh_.vertices[t[k]] - centre_);
-  return corners;
-}
-
-NodeBox FatObstacles::obstacleBox(int node) const {
-  const NodeBox& box = mesh_.boxes[node];
-  NodeBox result;
-  for (int k = 0; k < 3; ++k) {
-    const double lo = sign_ * ((sign_ > 0 ? box.lo[k] : box.hi[k]) - centre_[k]);
-    const double hi = sign_ * ((sign_ > 0 ? box.hi[k] : box.lo[k]) - centre_[k]);
-    result.lo[k] = box_.lo[k] + lo - pad_[k];
-    result.hi[k] = box_.hi[k] + hi + pad_[k];
-  }
-  return result;
-}
-
-bool FatObstacles::isTooSmallFor(const std::vector<std::pair<int, int>>& spans) const {
-  if (spans.empty()) return false;
-  return std::all_of(spans.begin(), spans.end(), [this](const std::pair<int, int>& span) {
-    if (span.first < 0) return false;
-    const Eigen::Vector3d along = mesh_.vertices[span.second] - mesh_.vertices[span.first];
-    const Eigen::Vector3d n = along.normalized();
-    return n.allFinite() && n.dot(along) - 4 * padding(n) > support(n) + support(-n);
-  });
-}
+    : WhitenedFan(pair, part, fan_is_a, linear),
+      details_(mesh().tree->triangles.size()),
+      memory_(leastMemory(details_.size())) {}
 
 FatObstacles::Details& FatObstacles::details(int triangle) {
   std::unique_ptr<Details>& slot = details_[triangle];
   if (!slot) {
     slot = std::make_unique<Details>();
     ++built_;
+    slot->offsets.resize(static_cast<std::size_t>(faceCount()));
     const Eigen::Matrix3d t = corners(triangle);
-    slot->offsets.resize(normals_.size());
-    for (std::size_t f = 0; f < normals_.size(); ++f) {
-      const Eigen::Vector3d& n = normals_[f];
-      slot->offsets[f] =
-          offsets_[f] + std::max({n.dot(t.col(0)), n.dot(t.col(1)), n.dot(t.col(2))});
-    }
+    Eigen::Map<Eigen::VectorXd> of_faces(slot->offsets.data(), faceCount());
+    of_faces = heightsAlong(t.col(0));
+    for (int k = 1; k < 3; ++k) of_faces = of_faces.cwiseMax(heightsAlong(t.col(k)));
+    of_faces += offsets();
     memory_ += sizeof(Details) + slot->offsets.capacity() * sizeof(double);
   }
   return *slot;
@@ -162,7 +62,7 @@ const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int triangle) {
 // Its other planes must have been made: those that are left out move the others.
 ObstaclePlane FatObstacles::facePlane(int triangle, int face) const {
   const Details& known = *details_[triangle];
-  return {normals_[face], known.offsets[face] + pads_[face], margins_[face] + known.loss};
+  return {normals()[face], known.offsets[face] + facePad(face), faceMargin(face) + known.loss};
 }
 
 void FatObstacles::buildPlanes(int triangle, Details& into) {
@@ -180,7 +80,7 @@ ObstaclePlane FatObstacles::planeAcross(const Eigen::Matrix3d& corners, const Ei
                                         double of_p) const {
   const double pad = padding(n);
   const double extent = (n.transpose() * corners).maxCoeff();
-  return {n, of_p + extent + pad, share_ * of_p + 3 * pad};
+  return {n, of_p + extent + pad, share() * of_p + 3 * pad};
 }
 
 void FatObstacles::addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const {
@@ -195,7 +95,7 @@ void FatObstacles::addTriangleNormal(const Eigen::Matrix3d& corners, Details& in
   for (const double side : {1.0, -1.0}) {
     const Eigen::Vector3d n = side * across.normalized();
     into.planes.push_back(planeAcross(corners, n, support(n)));
-    into.planes.back().margin += turned * reach_;
+    into.planes.back().margin += turned * reach();
   }
 }
 
@@ -210,33 +110,32 @@ void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& in
     into.loss = kNever;
     return;
   }
-  along_.resize(normals_.size());
-  for (std::size_t f = 0; f < normals_.size(); ++f) along_[f] = normals_[f].dot(along);
+  along_ = heightsAlong(along);
   const double parallel = kParallel * length;
-  for (const auto& [f, g] : arcs_) {
+  for (const auto& [f, g] : arcs()) {
     const double at_f = along_[f];
     const double at_g = along_[g];
     const double lean = std::fabs(at_f) + std::fabs(at_g);
     if (lean <= parallel) {
-      const double sum = (normals_[f] + normals_[g]).norm();
-      const double loss = sum > kSharpest ? 8 * (lean / length) * (2 / sum) * reach_ : kNever;
+      const double sum = (normals()[f] + normals()[g]).norm();
+      const double loss = sum > kSharpest ? 8 * (lean / length) * (2 / sum) * reach() : kNever;
       into.loss = std::max(into.loss, loss);
       continue;
     }
     if ((at_f > 0.0) == (at_g > 0.0)) continue;
     const double of_f = std::fabs(at_g);
     const double of_g = std::fabs(at_f);
-    const Eigen::Vector3d crossing = of_f * normals_[f] + of_g * normals_[g];
+    const Eigen::Vector3d crossing = of_f * normals()[f] + of_g * normals()[g];
     if (crossing.dot(opposite) > kOnPlane * crossing.norm() * opposite.norm()) continue;
     const double size = crossing.norm();
     if (!(size > kSharpest * lean)) {
       into.loss = kNever;
       continue;
     }
-    const double of_p = (of_f * offsets_[f] + of_g * offsets_[g]) / size;
+    const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
     ObstaclePlane plane = planeAcross(corners, crossing / size, of_p);
-    const double gap = (normals_[f] - normals_[g]).norm();
-    plane.margin += 64 * kEpsilon * gap * (length / lean) * (lean / size) * reach_;
+    const double gap = (normals()[f] - normals()[g]).norm();
+    plane.margin += 64 * kEpsilon * gap * (length / lean) * (lean / size) * reach();
     into.planes.push_back(plane);
   }
 }

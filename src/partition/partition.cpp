@@ -224,6 +224,11 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   if (may_be_carved) request.max_cells = std::min(request.max_cells, kBoxesBeforeCarving);
   PartitionEngine engine(frame.pair, frame.whitening.rank(), solids.get(), ball, request,
                          result.statistics);
+  std::unique_ptr<WholeBodyTester> whole;
+  if (estimate) {
+    whole = WholeBodyTester::of(frame.pair, a, b, displacement, frame.whitening.matrix());
+  }
+  if (whole) engine.expectQuickSamples();
   result.status = engine.run(estimate);
   clock.finish("partition");
   if (result.status == ProbabilityStatus::cell_limit &&
@@ -237,7 +242,11 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   }
   SampledMass sampled;
   if (estimate) {
-    CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), request.seed);
+    if (whole)
+      result.plan.push_back(
+          "samples tested against convex meshes taken whole, not triangle by triangle");
+    CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), std::move(whole),
+                        request.seed);
     sampled = sampleOpenCells(engine, sampler, result.statistics, result.status);
     clock.finish("sampling");
   }

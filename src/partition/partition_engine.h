@@ -56,6 +56,9 @@ class PartitionEngine {
   /// the cells examined; none beyond the least if there is no time left.
   double samplesToDraw(ProbabilityStatus status) const;
 
+  /// Samples will take less time, so that fewer cells are to be divided for them.
+  void expectQuickSamples() { quick_samples_ = true; }
+
   /// Samples turned out to deviate `factor` times as much as expected so far.
   void expectDeviation(double factor) { deviation_share_ *= factor; }
 
@@ -92,6 +95,7 @@ class PartitionEngine {
   Bounds open_;                  ///< sums over queue_
   double open_deviation_ = 0.0;  ///< sum over queue_ of bounds on the deviation of one sample
   double deviation_share_ = 1.0;
+  bool quick_samples_ = false;
   bool indivisible_ = false;
   std::shared_ptr<const BandMargin> band_;
   double left_by_band_ = 0.0;  ///< of the width of the interval: what the bands leave open

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cobstacle/cell_section.h"
 
@@ -21,8 +22,8 @@ bool isInBox(const NodeBox& box, const Eigen::Vector3d& y) {
 }  // namespace
 
 PointTester::PointTester(const WhitenedPair& pair, ObstacleTable& obstacles,
-                         const SolidContact* solids)
-    : pair_(pair), obstacles_(obstacles), solids_(solids) {}
+                         const SolidContact* solids, std::unique_ptr<WholeBodyTester> whole)
+    : pair_(pair), obstacles_(obstacles), solids_(solids), whole_(std::move(whole)) {}
 
 void PointTester::test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
   if (!observer_) return decide(front, points);
@@ -42,6 +43,10 @@ void PointTester::claim(const std::vector<TestedPoint>& before,
 
 void PointTester::decide(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
   collectUndecided(points);
+  if (whole_) {
+    testWhole(points);
+    return decideContainment(points);
+  }
   // The leaves first: they are the cheapest to test.
   for (const bool leaves : {true, false}) {
     for (const FrontPair& pair : front) {
@@ -49,6 +54,19 @@ void PointTester::decide(const std::vector<FrontPair>& front, std::vector<Tested
       if ((pair.obstacle >= 0) == leaves) testPair(pair, points);
     }
   }
+  decideContainment(points);
+}
+
+void PointTester::testWhole(std::vector<TestedPoint>& points) {
+  for (int i : undecided_) {
+    const PointContact contact = whole_->at(points[i].y);
+    points[i].collides = contact == PointContact::touching;
+    points[i].doubtful = contact == PointContact::unknown;
+  }
+  removeDecided(points);
+}
+
+void PointTester::decideContainment(std::vector<TestedPoint>& points) const {
   for (int i : undecided_) {
     TestedPoint& point = points[i];
     if (solids_) {

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "partition/claim_observer.h"
 #include "partition/containment.h"
 #include "partition/obstacle_table.h"
 #include "partition/open_cell.h"
+#include "partition/whole_body_tester.h"
 
 namespace fcl_prob::detail {
 
@@ -21,8 +23,14 @@ struct TestedPoint {
 
 class PointTester {
  public:
-  /// Keeps references to its arguments. \param solids  null: surfaces only
-  PointTester(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids);
+  /// Keeps references to its arguments.
+  /// \param solids  null: surfaces only
+  /// \param whole   null: triangle by triangle
+  PointTester(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
+              std::unique_ptr<WholeBodyTester> whole);
+
+  /// Whether a sample takes a microsecond or two, whatever the front.
+  bool isQuick() const { return whole_ != nullptr; }
 
   /// Sets `collides` of every point; one that has it set already is left alone. A point that may
   /// touch but, within rounding, may as well not, collides and is doubtful. All of them must be
@@ -44,6 +52,8 @@ class PointTester {
 
   void decide(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points);
   void claim(const std::vector<TestedPoint>& before, const std::vector<TestedPoint>& points) const;
+  void testWhole(std::vector<TestedPoint>& points);
+  void decideContainment(std::vector<TestedPoint>& points) const;
   void collectUndecided(const std::vector<TestedPoint>& points);
   void padUndecided();
   void removeDecided(const std::vector<TestedPoint>& points);
@@ -57,6 +67,7 @@ class PointTester {
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
   const SolidContact* solids_;
+  std::unique_ptr<WholeBodyTester> whole_;
   ClaimObserver* const observer_ = claim_observer;
   std::vector<int> undecided_;                      ///< indices of points
   std::array<std::vector<double>, 3> coordinates_;  ///< of the undecided, padded with NaN

@@ -19,6 +19,7 @@ constexpr std::size_t kMoreCells = 2;
 
 // Samples of a look for every cell so far, and of its first batch.
 constexpr std::size_t kSamplesOfCell = 24;
+constexpr std::size_t kQuickSamplesOfCell = 128;
 constexpr std::size_t kFirstBatch = 64;
 
 // Σ 1/k² = π²/6
@@ -70,7 +71,9 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
   }
   engine_ = std::make_unique<PartitionEngine>(frame_.pair, frame_.whitening.rank(), solids_.get(),
                                               nullptr, request_, statistics_);
-  tester_ = std::make_unique<PointTester>(frame_.pair, engine_->obstacles(), solids_.get());
+  tester_ = std::make_unique<PointTester>(
+      frame_.pair, engine_->obstacles(), solids_.get(),
+      WholeBodyTester::of(frame_.pair, a, b, displacement, frame_.whitening.matrix()));
 }
 
 std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<bool()>& enough) {
@@ -78,7 +81,8 @@ std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<
   if (enough()) return std::nullopt;
   if (engine_->openCells().empty()) return stopped ? stopped : ProbabilityStatus::exact;
   beginLook();
-  const std::size_t most = kSamplesOfCell * statistics_.cells;
+  const std::size_t of_cell = tester_->isQuick() ? kQuickSamplesOfCell : kSamplesOfCell;
+  const std::size_t most = of_cell * statistics_.cells;
   std::size_t batch = std::min(kFirstBatch, most);
   while (batch > 0) {
     draw(batch);
