@@ -2,10 +2,23 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/gradient_parts.h"
 
+#include <algorithm>
+
 namespace fcl_prob::detail {
+namespace {
+
+// A time limit must be above 0.
+constexpr double kLeastSeconds = 1e-6;
+
+}  // namespace
 
 MotionGradientRequest GradientParts::requestOf(std::size_t index) {
   MotionGradientRequest part = whole_;
+  if (whole_.time_limit) {
+    const double share =
+        (*whole_.time_limit - watch_.seconds()) / static_cast<double>(count_ - index);
+    part.time_limit = std::max(share, kLeastSeconds);
+  }
   if (whole_.on_progress) {
     part.on_progress = [this, index](const ProbabilityProgress& progress) {
       return goOn(index, progress);

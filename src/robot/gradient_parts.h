@@ -10,7 +10,8 @@
 
 namespace fcl_prob::detail {
 
-/// Makes the progress of parts that of the whole. Its clock runs from when it is made.
+/// Makes the progress of parts that of the whole, and shares its time among them: what one of them
+/// does not use is there for the next. Its clock runs from when it is made.
 class GradientParts {
  public:
   /// Keeps a reference.
@@ -19,9 +20,9 @@ class GradientParts {
   GradientParts(const GradientParts&) = delete;
   GradientParts& operator=(const GradientParts&) = delete;
 
-  /// The request with the on_progress of part `index`, which refers to this object. Once the whole
-  /// is cancelled so is every part that is still to come, with the few lines that are drawn in any
-  /// case: what it adds is known badly then, but with its error.
+  /// The request of part `index`; those before it are done. Its on_progress refers to this object.
+  /// Once the whole is cancelled so is every part that is still to come, with the few lines that
+  /// are drawn in any case: what it adds is known badly then, but with its error.
   MotionGradientRequest requestOf(std::size_t index);
 
  private:

@@ -270,9 +270,6 @@ struct RobotQuery::Implementation {
       if (near.empty()) continue;
       MotionGradientRequest of_one = progress.requestOf(i);
       of_one.seed += i * kSeedsApart;
-      if (request.time_limit) {
-        of_one.time_limit = *request.time_limit / static_cast<double>(obstacles.size());
-      }
       parts.push_back(detail::obstacleGradient(robot, waypoints, near, obstacles[i].geometry,
                                                detail::stateAt(obstacles[i], 0), of_one));
     }

@@ -4,6 +4,7 @@
 #include "arm_motions.h"
 #include "fcl_prob/exceptions.h"
 #include "mesh_shapes.h"
+#include "robot/gradient_parts.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
@@ -128,6 +129,21 @@ TEST_CASE("joint gradients of several obstacles are told of as one, and cancelle
     CHECK(std::fabs(cancelled.probability - whole.probability) <
           6.0 * std::hypot(cancelled.standard_error, whole.standard_error));
   }
+}
+
+TEST_CASE("parts of a gradient share its time, and leave to others what they do not use") {
+  fcl_prob::MotionGradientRequest whole;
+  fcl_prob::detail::GradientParts unlimited(whole, 4);
+  CHECK_FALSE(unlimited.requestOf(0).time_limit);
+  whole.time_limit = 1000.0;
+  fcl_prob::detail::GradientParts parts(whole, 4);
+  CHECK(*parts.requestOf(0).time_limit <= 250.0);
+  CHECK(*parts.requestOf(2).time_limit > 300.0);
+  CHECK(*parts.requestOf(3).time_limit > 600.0);
+  CHECK(*parts.requestOf(3).time_limit <= 1000.0);
+  whole.time_limit = 1e-12;
+  fcl_prob::detail::GradientParts none(whole, 2);
+  CHECK(*none.requestOf(1).time_limit > 0.0);
 }
 
 TEST_CASE("joint gradients refuse what has none") {
