@@ -19,6 +19,14 @@ std::string convexNote(const PartitionObject& body, const FatMembers& obstacles,
   const std::string name = fan_is_a ? "A" : "B";
   const std::string triangles = std::to_string(body.tree->triangles.size());
   const std::string faces = std::to_string(obstacles.faceCount());
+  const auto& parts = body.tree->parts;
+  const auto nearly = std::count_if(parts.begin(), parts.end(),
+                                    [](const PieceTree::Part& part) { return !part.fan; });
+  if (nearly > 0) {
+    return std::to_string(nearly) + " of " + std::to_string(parts.size()) + " members of " + name +
+           " nearly convex, the others convex: taken between two polytopes, or as one, of " +
+           faces + " faces together, no tree of their " + triangles + " triangles";
+  }
   if (obstacles.count() == 1) {
     return "object " + name + " is convex: one piece of " + faces + " faces, no tree of its " +
            triangles + " triangles";
@@ -34,13 +42,13 @@ bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
                  const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
   if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
-  return wholeBodyOf(a, b, displacement).has_value();
+  return wholeBodyOf(a, b, displacement, Convexity::nearly).has_value();
 }
 
 bool carve(const PartitionObject& a, const PartitionObject& b,
            const GaussianDisplacement& displacement, const ProbabilityRequest& request,
            ProbabilityResult& result) {
-  const auto whole = wholeBodyOf(a, b, displacement);
+  const auto whole = wholeBodyOf(a, b, displacement, Convexity::nearly);
   if (!whole) return false;
   const auto& [body, mesh, fan_is_a] = *whole;
   if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
@@ -51,8 +59,8 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   if (!obstacles.usable()) return false;
   std::optional<SolidContact> solids;
   if (a.hasSolid() || b.hasSolid()) solids.emplace(a, b, whitening, pair);
-  for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    if (mayHoldPart(*whole, i, obstacles.of(static_cast<int>(i)))) return false;
+  for (int member = 0; member < obstacles.count(); ++member) {
+    if (mayHoldPart(*whole, obstacles.partOf(member), obstacles.of(member))) return false;
   }
   if (claim_observer) claim_observer->frame(whitening, displacement);
   CarvingEngine engine(obstacles, solids ? &*solids : nullptr, request, result.statistics);

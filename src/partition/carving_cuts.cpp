@@ -33,7 +33,8 @@ constexpr double kTouching = 2 * CellPolytope::kSnap;
 
 }  // namespace
 
-// By how much of the cell's mass is in it, as far as a few samples tell.
+// By how much of the cell's mass is in it, as far as a few samples tell. Hulls come last: they
+// settle nothing.
 std::size_t CarvingEngine::bestEntry(const CarvedCell& cell, const List& list) {
   const std::vector<Eigen::Vector3d>& vertices = cell.body.vertices();
   const Eigen::Vector3d middle = cell.body.middle();
@@ -46,10 +47,15 @@ std::size_t CarvingEngine::bestEntry(const CarvedCell& cell, const List& list) {
   for (const Eigen::Vector3d& sample : samples_) {
     weights_.push_back(std::exp(0.5 * (middle.squaredNorm() - sample.squaredNorm())));
   }
+  const auto encloses = [this](const List::Entry& entry) {
+    return obstacles_.encloses(entry.obstacle.member);
+  };
+  const bool only_hulls = std::all_of(list.entries.begin(), list.entries.end(), encloses);
   std::size_t best = 0;
   double most = -kInfinity;
   for (std::size_t e = 0; e < list.entries.size(); ++e) {
     const List::Entry& entry = list.entries[e];
+    if (!only_hulls && encloses(entry)) continue;
     double score = 0.0;
     double nearest = kInfinity;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -145,13 +151,14 @@ void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list,
     return split(cell, list);
   }
   const List::Entry entry = list->entries[best];
+  const bool is_hull = obstacles_.encloses(entry.obstacle.member);
   Rest rest{cell.body, {}, cell.mass.upper, entry.obstacle};
   rest.planes.assign(list->planes.begin() + static_cast<std::ptrdiff_t>(entry.first),
                      list->planes.begin() + static_cast<std::ptrdiff_t>(entry.last));
   allowSlivers(cell.body, entry.last - entry.first);  // the same cuts in another order
   const double enough = inner.lower + kLazyShare * (cell.mass.upper - inner.lower);
   while (const auto plane = nextPlane(rest)) {
-    if (rest.mass <= enough && list->entries.size() > 1) {
+    if (!is_hull && rest.mass <= enough && list->entries.size() > 1) {
       CarvedCell kept;
       kept.mass = {0.0, std::max(rest.mass, inner.upper)};
       kept.inner = inner.lower;
@@ -163,6 +170,11 @@ void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list,
       return push(std::move(kept));
     }
     cutOff(cell, list, *plane, rest);
+  }
+  if (is_hull) {
+    // In a hull and in none of the cores.
+    settled_.upper += settledMass(inside).upper;
+    return;
   }
   claim("planes of a fat pair", true, inside);
   settle(settledMass(inside));

@@ -245,6 +245,9 @@ std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
   }
   const double tolerance = request_.toleranceAt(now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
+  // What is settled as unknown stays so.
+  const double unknown = settled_.upper - settled_.lower;
+  if (!request_.threshold && unknown > tolerance) return ProbabilityStatus::resolution_limit;
   // What is left is rounding and the accuracy of masses.
   const double open = open_.upper - open_.lower;
   if (queue_.empty() || open < 0.1 * now.width()) return ProbabilityStatus::resolution_limit;

@@ -98,6 +98,7 @@ class CarvingEngine {
   Relation listBox(const CarvedCell& cell, const std::vector<FatObstacle>& obstacles, List& into);
   void rangeFaces(const CellBox& box, int member);
   Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
+  Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);
   Relation examine(const CarvedCell& cell, List& into);
   std::size_t bestEntry(const CarvedCell& cell, const List& list);

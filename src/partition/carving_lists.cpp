@@ -138,7 +138,14 @@ CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, FatObstacl
     const ObstaclePlane plane = body.facePlane(obstacle.triangle, f);
     if (face_hi[f] > plane.inner()) into.planes.push_back(plane);
   }
-  if (into.planes.size() == first) return Relation::covered;
+  return addEntry(obstacle, first, into);
+}
+
+// With the planes of the list from `first` on: those over which the cell sticks out.
+CarvingEngine::Relation CarvingEngine::addEntry(FatObstacle obstacle, std::size_t first,
+                                                List& into) const {
+  const bool within = into.planes.size() == first;
+  if (within && !obstacles_.encloses(obstacle.member)) return Relation::covered;
   into.entries.push_back({obstacle, first, into.planes.size()});
   return Relation::cut;
 }
@@ -166,8 +173,7 @@ CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into
       into.planes.resize(first);
       continue;
     }
-    if (into.planes.size() == first) return Relation::covered;
-    into.entries.push_back({entry.obstacle, first, into.planes.size()});
+    if (addEntry(entry.obstacle, first, into) == Relation::covered) return Relation::covered;
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
 }

@@ -10,10 +10,25 @@ FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body, bo
                        const Eigen::Matrix3d& matrix)
     : first_faces_{0} {
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
-    members_.emplace_back(pair, body.tree->parts[i], fan_is_a,
-                          matrix * body.parts[i].pose.linear());
-    first_faces_.push_back(first_faces_.back() + members_.back().faceCount());
+    const PieceTree::Part& part = body.tree->parts[i];
+    const auto add = [&](const ConvexFan& fan, bool encloses) {
+      members_.emplace_back(pair, part, fan, fan_is_a, matrix * body.parts[i].pose.linear());
+      parts_.push_back({i, encloses});
+      first_faces_.push_back(first_faces_.back() + members_.back().faceCount());
+    };
+    if (part.fan) {
+      add(*part.fan, false);
+    } else {
+      add(part.nearly->core, false);
+      add(part.nearly->hull, true);
+    }
   }
+}
+
+std::size_t FatMembers::leastMemory(const PartitionObject& body, const PartitionObject& mesh) {
+  std::size_t members = 0;
+  for (const PieceTree::Part& part : body.tree->parts) members += part.fan ? 1 : 2;
+  return members * FatObstacles::leastMemory(mesh.tree->triangles.size());
 }
 
 bool FatMembers::usable() const {

@@ -27,9 +27,9 @@ constexpr double kNever = 1e300;
 
 }  // namespace
 
-FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
-                           const Eigen::Matrix3d& linear)
-    : WhitenedFan(pair, part, fan_is_a, linear),
+FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part,
+                           const ConvexFan& fan, bool fan_is_a, const Eigen::Matrix3d& linear)
+    : WhitenedFan(pair, part, fan, fan_is_a, linear),
       details_(mesh().tree->triangles.size()),
       memory_(leastMemory(details_.size())) {}
 

@@ -27,8 +27,8 @@ struct ObstaclePlane {
 /// for. All is relative to the centre of P, which is within P.
 class FatObstacles : public WhitenedFan {
  public:
-  FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
-               const Eigen::Matrix3d& linear);
+  FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
+               bool fan_is_a, const Eigen::Matrix3d& linear);
 
   /// Of one of so many triangles that has not been asked for anything.
   static std::size_t leastMemory(std::size_t triangles) {

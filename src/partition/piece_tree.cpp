@@ -212,6 +212,7 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     const MeshView view = meshView(geometry);
     PieceTree::Part& part = tree->parts[0];
     part.fan = convexFanOf(view, tree->vertices, part.origin);
+    if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
     part.spans = spansOf(view);
   }
   return tree;

@@ -13,6 +13,7 @@
 #include "cobstacle/support_shape.h"
 #include "geometry/surface_caps.h"
 #include "partition/convex_fan.h"
+#include "partition/nearly_convex.h"
 
 namespace fcl_prob::detail {
 
@@ -73,6 +74,8 @@ struct PieceTree {
 
     /// Of a mesh that is convex, relative to `origin`; else null.
     std::shared_ptr<const ConvexFan> fan;
+    /// Of one that is so nearly, relative to `origin`; else null.
+    std::shared_ptr<const NearlyConvex> nearly;
     /// Of a mesh, indices into the tree's vertices: see spansOf().
     std::vector<std::pair<int, int>> spans;
   };

@@ -15,9 +15,9 @@ constexpr double kLargestShare = 1e-3;
 
 }  // namespace
 
-WhitenedFan::WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
-                         const Eigen::Matrix3d& linear)
-    : mesh_(fan_is_a ? pair.b : pair.a), sign_(fan_is_a ? 1.0 : -1.0), arcs_(part.fan->arcs) {
+WhitenedFan::WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part,
+                         const ConvexFan& fan, bool fan_is_a, const Eigen::Matrix3d& linear)
+    : mesh_(fan_is_a ? pair.b : pair.a), sign_(fan_is_a ? 1.0 : -1.0), arcs_(fan.arcs) {
   const WhitenedTree& body = fan_is_a ? pair.a : pair.b;
   Eigen::Vector3d largest = Eigen::Vector3d::Constant(kReach);
   for (const WhitenedTree* tree : {&body, &mesh_}) {
@@ -28,14 +28,13 @@ WhitenedFan::WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part, 
   }
   reach_ = 2 * largest.norm();
   pad_ = 4 * (body.error + mesh_.error) + 64 * kEpsilon * largest;
-  moveFan(body, part, linear);
+  moveFan(body, part, fan, linear);
 }
 
 // In the whitened frame a normal n of the fan has the direction m with Lᵀm ∥ n; however m was
 // rounded, the offset follows from how far Lᵀm is off n.
 void WhitenedFan::moveFan(const WhitenedTree& body, const PieceTree::Part& part,
-                          const Eigen::Matrix3d& linear) {
-  const ConvexFan& fan = *part.fan;
+                          const ConvexFan& fan, const Eigen::Matrix3d& linear) {
   const int anchor = part.vertices.begin;
   centre_ = body.vertices[anchor] + linear * (fan.centre - body.tree->vertices[anchor]);
   for (int k = 0; k < 3; ++k) {

@@ -20,11 +20,12 @@ namespace fcl_prob::detail {
 /// of them belongs to P (docs/rounding.md).
 class WhitenedFan {
  public:
-  /// \param part      of the tree of the object whose members are convex; has a fan
+  /// \param part      of the tree of the object whose members are taken whole
+  /// \param fan       its own, or a body in or around it
   /// \param fan_is_a  whether A is that object, and B the mesh beside it
   /// \param linear    from the frame of the part to the whitened one, as the tree was moved
-  WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part, bool fan_is_a,
-              const Eigen::Matrix3d& linear);
+  WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
+              bool fan_is_a, const Eigen::Matrix3d& linear);
 
   /// Whether everything was accurate enough to be certified.
   bool usable() const { return usable_; }
@@ -86,7 +87,7 @@ class WhitenedFan {
 
  private:
   Eigen::Vector3d corner(int vertex) const { return sign_ * (mesh_.vertices[vertex] - centre_); }
-  void moveFan(const WhitenedTree& body, const PieceTree::Part& part,
+  void moveFan(const WhitenedTree& body, const PieceTree::Part& part, const ConvexFan& fan,
                const Eigen::Matrix3d& linear);
 
   const WhitenedTree& mesh_;

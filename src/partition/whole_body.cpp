@@ -3,6 +3,8 @@
 #include "partition/whole_body.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 namespace fcl_prob::detail {
 namespace {
@@ -14,22 +16,25 @@ bool isMesh(const PartitionObject& object) {
   return object.tree->isMesh() && !object.tree->isEmpty();
 }
 
-bool isConvex(const PartitionObject& object) {
+bool isConvex(const PartitionObject& object, Convexity convexity) {
   const auto& parts = object.tree->parts;
-  return std::all_of(parts.begin(), parts.end(),
-                     [](const PieceTree::Part& part) { return part.fan != nullptr; });
+  return std::all_of(parts.begin(), parts.end(), [convexity](const PieceTree::Part& part) {
+    return part.fan || (part.nearly && convexity == Convexity::nearly);
+  });
 }
 
 }  // namespace
 
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
-                                     const GaussianDisplacement& displacement) {
+                                     const GaussianDisplacement& displacement,
+                                     Convexity convexity) {
   if (!isMesh(a) || !isMesh(b)) return std::nullopt;
   if (a.motion || b.motion || a.isSwept() || b.isSwept()) return std::nullopt;
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() != 3 || sigma[0] > kMostAnisotropic * sigma[2]) return std::nullopt;
-  const bool a_is_convex = isConvex(a);
-  const bool b_is_convex = isConvex(b);
+  const auto which = [&](Convexity how) { return std::pair(isConvex(a, how), isConvex(b, how)); };
+  auto [a_is_convex, b_is_convex] = which(Convexity::exact);
+  if (!a_is_convex && !b_is_convex) std::tie(a_is_convex, b_is_convex) = which(convexity);
   if (!a_is_convex && !b_is_convex) return std::nullopt;
   const bool a_is_larger = a.tree->triangles.size() >= b.tree->triangles.size();
   if (a_is_convex && (!b_is_convex || a_is_larger)) return WholeBody{a, b, true};

@@ -11,20 +11,24 @@
 
 namespace fcl_prob::detail {
 
-/// A mesh of which every member is convex, and the mesh beside it.
+/// A mesh of which every member is convex (or nearly), and the mesh beside it.
 struct WholeBody {
   const PartitionObject& body;
   const PartitionObject& mesh;
   bool body_is_a;
 };
 
-/// Nothing unless both are meshes that hold still, one of them is convex, and the displacement has
-/// rank 3 and is not so stretched that planes across its edges would be known poorly. Of two that
-/// are convex the one with more triangles is taken whole. Refers to the arguments.
+enum class Convexity { exact, nearly };
+
+/// Nothing unless both are meshes that hold still, one of them is convex (or nearly), and the
+/// displacement has rank 3 and is not so stretched that planes across its edges would be known
+/// poorly. Of two that are convex the one with more triangles is taken whole; one that is nearly
+/// convex only if there is no other. Refers to the arguments.
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
-                                     const GaussianDisplacement& displacement);
+                                     const GaussianDisplacement& displacement, Convexity convexity);
 
 /// Whether part of the mesh may be within a member and not touch its surface, where surfaces count.
+/// \param fan  the member, or a body around it
 bool mayHoldPart(const WholeBody& whole, std::size_t member, const WhitenedFan& fan);
 
 }  // namespace fcl_prob::detail

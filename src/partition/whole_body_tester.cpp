@@ -24,11 +24,12 @@ std::unique_ptr<WholeBodyTester> WholeBodyTester::of(const WhitenedPair& pair,
                                                      const PartitionObject& b,
                                                      const GaussianDisplacement& displacement,
                                                      const Eigen::Matrix3d& matrix) {
-  const auto whole = wholeBodyOf(a, b, displacement);
+  const auto whole = wholeBodyOf(a, b, displacement, Convexity::exact);
   if (!whole || pair.band) return nullptr;
   auto tester = std::make_unique<WholeBodyTester>();
   for (std::size_t i = 0; i < whole->body.parts.size(); ++i) {
-    WhitenedFan fan(pair, whole->body.tree->parts[i], whole->body_is_a,
+    const PieceTree::Part& part = whole->body.tree->parts[i];
+    WhitenedFan fan(pair, part, *part.fan, whole->body_is_a,
                     matrix * whole->body.parts[i].pose.linear());
     if (!fan.usable() || mayHoldPart(*whole, i, fan)) return nullptr;
     tester->members_.emplace_back(std::move(fan));

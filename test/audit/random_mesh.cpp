@@ -76,7 +76,7 @@ TriangleMesh convexShell(RandomBodies& random, const MeshStructure& structure) {
   }
   if (chance(random, structure.dented)) {
     const int last = static_cast<int>(mesh.vertices.size()) - 1;
-    mesh.vertices[random.integer(0, last)] += random.logUniform(1e-12, 1e-2) * random.direction();
+    mesh.vertices[random.integer(0, last)] += random.logUniform(1e-12, 0.2) * random.direction();
   }
   return mesh;
 }

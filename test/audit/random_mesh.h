@@ -25,7 +25,7 @@ struct MeshStructure {
   double least_thinness = 1e-9;
   double flat = 0.0;    ///< ... to nothing
   double convex = 0.0;  ///< a shell is a hull, with many vertices at times
-  double dented = 0.0;  ///< of such a shell: but for one vertex, by 1e-12 to 1e-2
+  double dented = 0.0;  ///< of such a shell: but for one vertex, by 1e-12 to 0.2
 };
 
 /// About 1 m wide around its origin (without what is far away), at most some dozens of triangles.

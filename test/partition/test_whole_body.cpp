@@ -99,7 +99,8 @@ TEST_CASE("a convex mesh touches a triangle where the hull of their sum says so"
     const bool body_is_a = scene % 2 == 0;
     const WhitenedMeshes meshes(body_is_a ? body : one, body_is_a ? one : body);
     const auto& tree = body_is_a ? meshes.tree_a : meshes.tree_b;
-    const WhitenedFan fan(meshes.pair, tree->parts[0], body_is_a, meshes.whitening.matrix());
+    const WhitenedFan fan(meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
+                          meshes.whitening.matrix());
     REQUIRE(fan.usable());
     FanContact contacts(fan);
     std::vector<Eigen::Vector3d> sum;
