@@ -60,6 +60,9 @@ struct CarvedCell {
   FatObstacle outside_of;
 
   std::shared_ptr<const CarvedLayer> layers;
+  /// Of the list's obstacles of hulls those of what is in the hulls are to be taken instead.
+  bool opens_hulls = false;
+
   bool dropped = false;  ///< it may also meet such obstacles elsewhere
 
   double inner_error = 0.0;  ///< how much more that part may weigh
@@ -100,12 +103,16 @@ class CarvingEngine {
   Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
   Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);
+  Relation openHulls(const CarvedCell& cell, List& into);
+  Relation addFromBody(const CellPolytope& body, FatObstacle obstacle, List& into);
   Relation examine(const CarvedCell& cell, List& into);
   std::size_t bestEntry(const CarvedCell& cell, const List& list);
   std::shared_ptr<List> copied(const List& list);
   void carve(CarvedCell& cell, const std::shared_ptr<List>& list);
   void carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
                const CellPolytope& inside);
+  void openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
+                const CellPolytope& inside);
   /// What is left of a cell around its best obstacle.
   struct Rest {
     CellPolytope body;

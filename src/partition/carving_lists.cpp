@@ -59,6 +59,7 @@ void CarvingEngine::gatherNodes(const Cell& box, const std::vector<FatNode>& fro
 }
 
 CarvingEngine::Relation CarvingEngine::examine(const CarvedCell& cell, List& into) {
+  if (cell.opens_hulls) return openHulls(cell, into);
   if (!cell.box) return refine(cell, into);
   std::vector<FatNode> leaves;
   gatherNodes(*cell.box, *cell.nodes, true, leaves);
@@ -176,6 +177,42 @@ CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into
     if (addEntry(entry.obstacle, first, into) == Relation::covered) return Relation::covered;
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
+}
+
+// All obstacles of the list are hulls: no core meets the cell.
+CarvingEngine::Relation CarvingEngine::openHulls(const CarvedCell& cell, List& into) {
+  for (const List::Entry& hull : cell.list->entries) {
+    for (const int piece : obstacles_.piecesWithin(hull.obstacle.member)) {
+      const FatObstacle obstacle{piece, hull.obstacle.triangle};
+      if (addFromBody(cell.body, obstacle, into) == Relation::covered) return Relation::covered;
+    }
+  }
+  return into.entries.empty() ? Relation::free : Relation::cut;
+}
+
+CarvingEngine::Relation CarvingEngine::addFromBody(const CellPolytope& body, FatObstacle obstacle,
+                                                   List& into) {
+  FatObstacles& member = obstacles_.of(obstacle.member);
+  const NodeBox around = member.obstacleBoxOf(obstacle.triangle);
+  const Cell box = body.box();
+  if (isClearOf(around, box.lo.data(), box.hi.data())) return Relation::free;
+  ++statistics_.pairs_tested;
+  const std::size_t first = into.planes.size();
+  const auto meets = [&](const ObstaclePlane& plane) {
+    const CellPolytope::Extent extent = body.along(plane.n);
+    if (extent.lo > plane.outer) return false;
+    if (extent.hi > plane.inner() - 2 * CellPolytope::kSnap) into.planes.push_back(plane);
+    return true;
+  };
+  member.faceOffsets(obstacle.triangle);
+  const std::vector<ObstaclePlane>& others = member.otherPlanes(obstacle.triangle);
+  bool may_meet = std::all_of(others.begin(), others.end(), meets);
+  for (int f = 0; f < member.faceCount() && may_meet; ++f) {
+    may_meet = meets(member.facePlane(obstacle.triangle, f));
+  }
+  if (may_meet) return addEntry(obstacle, first, into);
+  into.planes.resize(first);
+  return Relation::free;
 }
 
 }  // namespace fcl_prob::detail

@@ -3,26 +3,47 @@
 #include "partition/fat_members.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fcl_prob::detail {
 
 FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body, bool fan_is_a,
                        const Eigen::Matrix3d& matrix)
-    : first_faces_{0} {
+    : pair_(pair), body_(body), fan_is_a_(fan_is_a), matrix_(matrix), first_faces_{0} {
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     const PieceTree::Part& part = body.tree->parts[i];
-    const auto add = [&](const ConvexFan& fan, bool encloses) {
-      members_.emplace_back(pair, part, fan, fan_is_a, matrix * body.parts[i].pose.linear());
-      parts_.push_back({i, encloses});
-      first_faces_.push_back(first_faces_.back() + members_.back().faceCount());
-    };
     if (part.fan) {
-      add(*part.fan, false);
+      add(i, *part.fan, false);
     } else {
-      add(part.nearly->core, false);
-      add(part.nearly->hull, true);
+      add(i, part.nearly->core, false);
+      add(i, part.nearly->hull, true);
     }
   }
+}
+
+void FatMembers::add(std::size_t part, const ConvexFan& fan, bool encloses) {
+  members_.emplace_back(pair_, body_.tree->parts[part], fan, fan_is_a_,
+                        matrix_ * body_.parts[part].pose.linear());
+  parts_.push_back({part, encloses, std::nullopt});
+  first_faces_.push_back(first_faces_.back() + members_.back().faceCount());
+}
+
+// Where one of them is not known well enough there is none.
+const std::vector<int>& FatMembers::piecesWithin(int hull) {
+  if (!parts_[hull].pieces) {
+    const std::size_t part = parts_[hull].index;
+    const int first = count();
+    std::vector<int> pieces;
+    for (const ConvexFan& fan : body_.tree->parts[part].nearly->pieces) {
+      add(part, fan, false);
+      pieces.push_back(count() - 1);
+    }
+    const bool all_usable = std::all_of(members_.begin() + first, members_.end(),
+                                        [](const FatObstacles& member) { return member.usable(); });
+    if (!all_usable) pieces.clear();
+    parts_[hull].pieces = std::move(pieces);
+  }
+  return *parts_[hull].pieces;
 }
 
 std::size_t FatMembers::leastMemory(const PartitionObject& body, const PartitionObject& mesh) {

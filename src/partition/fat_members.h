@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "partition/fat_obstacles.h"
@@ -29,6 +30,8 @@ class FatMembers {
  public:
   /// \param body    of which every part is convex, or nearly; A if `fan_is_a`
   /// \param matrix  that of the whitening
+  ///
+  /// Keeps references to the pair and the body.
   FatMembers(const WhitenedPair& pair, const PartitionObject& body, bool fan_is_a,
              const Eigen::Matrix3d& matrix);
 
@@ -45,6 +48,11 @@ class FatMembers {
   /// Whether it is a hull: what does not touch it does not touch its part, and no more is said.
   /// What touches any other member touches the body.
   bool encloses(int member) const { return parts_[member].encloses; }
+
+  /// The members beside its core that a hull is around: what touches none of all these does not
+  /// touch the part. They are made when they are first asked for; empty if there are none.
+  const std::vector<int>& piecesWithin(int hull);
+
   const WhitenedTree& mesh() const { return members_.front().mesh(); }
 
   /// Where the faces of a member begin among those of all.
@@ -60,8 +68,15 @@ class FatMembers {
   struct OfPart {
     std::size_t index;
     bool encloses;
+    std::optional<std::vector<int>> pieces;
   };
 
+  void add(std::size_t part, const ConvexFan& fan, bool encloses);
+
+  const WhitenedPair& pair_;
+  const PartitionObject& body_;
+  const bool fan_is_a_;
+  const Eigen::Matrix3d matrix_;
   std::deque<FatObstacles> members_;
   std::vector<OfPart> parts_;  ///< by member
   std::vector<int> first_faces_;

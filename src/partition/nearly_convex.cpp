@@ -16,6 +16,8 @@
 #include "geometry/closed_mesh.h"
 #include "geometry/surface_caps.h"
 #include "partition/core_cuts.h"
+#include "partition/mesh_reach.h"
+#include "partition/shell_pieces.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -28,9 +30,6 @@ constexpr double kMostConcave = 0.25;
 
 // The core is worth its planes if it has at least this share of the hull.
 constexpr double kLeastCoreShare = 0.85;
-
-// The farthest that the mesh may reach into the core, as a share of it.
-constexpr double kMostReach = 1e-5;
 
 double volumeOf(const TriangleMesh& mesh) {
   double sum = 0.0;
@@ -97,38 +96,6 @@ ConvexPolytope coreOf(const ConvexPolytope& hull, const std::vector<CoreCut>& cu
   return convexHull(rest.vertices());
 }
 
-// How far the mesh reaches into a polytope, as a share of it: of any plane that bounds the polytope
-// shrunk by that share about the centre, every triangle has to be beyond one.
-double reachInto(const ConvexFan& core, const ConvexPolytope& hull,
-                 const std::vector<CoreCut>& cuts, const MeshView& view,
-                 const std::vector<Eigen::Vector3d>& vertices) {
-  std::vector<std::pair<Eigen::Vector3d, double>> planes;
-  const auto add = [&](const Eigen::Vector3d& n) {
-    double highest = -kInfinity;
-    for (const Eigen::Vector3d& v : core.vertices) highest = std::max(highest, n.dot(v));
-    if (highest > 0.0) planes.emplace_back(n, highest);
-  };
-  for (const Eigen::Vector3d& n : core.normals) add(n);
-  for (const ConvexPolytope::Face& face : hull.faces) add(face.normal);
-  for (const CoreCut& cut : cuts) add(cut.n);
-  double farthest = 0.0;
-  for (int t = 0; t < view.triangle_count; ++t) {
-    double reach = 1.0;
-    double size = core.radius + core.centre.norm();
-    for (int k = 0; k < 3; ++k) size = std::max(size, 2 * view.vertex(t, k).norm());
-    for (const auto& [n, height] : planes) {
-      double lowest = kInfinity;
-      for (int k = 0; k < 3; ++k) {
-        lowest = std::min(lowest, n.dot(vertices[view.triangles[t][k]] - core.centre));
-      }
-      reach = std::min(reach, 1.0 - (lowest - 32 * kEpsilon * size) / height);
-    }
-    farthest = std::max(farthest, reach);
-    if (farthest > kMostReach) break;
-  }
-  return farthest;
-}
-
 // All vertices are P's, so that its hull is that of the mesh whatever Qhull made of it.
 void holdAll(const std::vector<Eigen::Vector3d>& vertices, ConvexFan& hull) {
   hull.vertices.clear();
@@ -170,20 +137,21 @@ std::shared_ptr<const NearlyConvex> nearlyConvexOf(const MeshView& view,
   const auto hull_fan = convexFanOf(viewOf(around), around.vertices, Eigen::Vector3d::Zero());
   const auto core_fan = convexFanOf(viewOf(core), core.vertices, Eigen::Vector3d::Zero());
   if (!hull_fan || !core_fan) return nullptr;
-  auto found = std::make_shared<NearlyConvex>(NearlyConvex{*hull_fan, *core_fan, share});
+  auto found = std::make_shared<NearlyConvex>(NearlyConvex{*hull_fan, *core_fan, {}, share});
   holdAll(vertices, found->hull);
-  const double reach = reachInto(found->core, hull, *cuts, view, vertices);
+  std::vector<Eigen::Vector3d> normals;
+  for (const ConvexPolytope::Face& face : hull.faces) normals.push_back(face.normal);
+  for (const CoreCut& cut : *cuts) normals.push_back(cut.n);
+  const double reach = reachInto(found->core, normals, view, vertices);
   if (!(reach <= kMostReach)) return nullptr;
-  for (std::size_t f = 0; f < found->core.depths.size(); ++f) {
-    double& depth = found->core.depths[f];
-    depth = std::max(depth, reach * found->core.offsets[f]);
-  }
+  allowReach(reach, found->core);
   const ClosedMesh solid(view, "mesh");
   const double rounding =
       16 * kEpsilon * (moved_by.norm() + found->core.centre.norm() + found->core.radius);
   if (solid.contains(moved_by + found->core.centre, rounding) != Containment::inside) {
     return nullptr;
   }
+  found->pieces = shellPieces(view, vertices, moved_by, core, found->core.centre);
   return found;
 }
 

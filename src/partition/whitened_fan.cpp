@@ -108,6 +108,16 @@ NodeBox WhitenedFan::obstacleBox(int node) const {
   return box;
 }
 
+NodeBox WhitenedFan::obstacleBoxOf(int triangle) const {
+  const Eigen::Matrix3d t = corners(triangle);
+  NodeBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = box_.lo[k] + t.row(k).minCoeff() - pad_[k];
+    box.hi[k] = box_.hi[k] + t.row(k).maxCoeff() + pad_[k];
+  }
+  return box;
+}
+
 bool WhitenedFan::isTooSmallFor(const std::vector<std::pair<int, int>>& spans) const {
   if (spans.empty()) return false;
   return std::all_of(spans.begin(), spans.end(), [this](const std::pair<int, int>& span) {

@@ -71,6 +71,9 @@ class WhitenedFan {
   /// Box of P ⊕ a box of the tree of the mesh.
   NodeBox obstacleBox(int node) const;
 
+  /// Box of P ⊕ T.
+  NodeBox obstacleBoxOf(int triangle) const;
+
   /// Whether no connected part of the mesh fits within P, so that where triangles meet P they meet
   /// its surface.
   bool isTooSmallFor(const std::vector<std::pair<int, int>>& spans) const;

@@ -63,6 +63,44 @@ double windingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
   return angle / (4 * fcl::constantsd::pi());
 }
 
+// Points all over a body, most of them near its surface, are within the mesh.
+void checkInside(const ConvexFan& body, const TriangleMesh& mesh, RandomBodies& random) {
+  double share = 0.0;
+  for (std::size_t f = 0; f < body.depths.size(); ++f) {
+    share = std::max(share, body.depths[f] / body.offsets[f]);
+  }
+  CHECK(share < 1e-3);
+  for (int k = 0; k < 30; ++k) {
+    const Eigen::Vector3d direction = random.direction();
+    double reach = 1e300;
+    for (std::size_t f = 0; f < body.normals.size(); ++f) {
+      const double along = body.normals[f].dot(direction);
+      if (along > 0.0) reach = std::min(reach, body.offsets[f] / along);
+    }
+    const double part = k % 2 ? 1.0 - 2 * share - 1e-12 : random.uniform(0.0, 1.0 - 2 * share);
+    CHECK(windingNumber(mesh, body.centre + part * reach * direction) > 0.5);
+  }
+}
+
+// Every triangle has its corners among those of one body.
+void checkHeld(const NearlyConvex& nearly, const TriangleMesh& mesh) {
+  std::vector<const ConvexFan*> bodies{&nearly.core};
+  for (const ConvexFan& piece : nearly.pieces) bodies.push_back(&piece);
+  for (const fcl::Triangle& t : mesh.triangles) {
+    const bool held = std::any_of(bodies.begin(), bodies.end(), [&](const ConvexFan* body) {
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d corner = mesh.vertices[t[k]] - body->centre;
+        if (std::none_of(body->vertices.begin(), body->vertices.end(),
+                         [&](const Eigen::Vector3d& v) { return v == corner; })) {
+          return false;
+        }
+      }
+      return true;
+    });
+    REQUIRE(held);
+  }
+}
+
 bool isBetweenTwo(const ProbabilityResult& result) {
   return std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& note) {
     return note.find("nearly convex") != std::string::npos;
@@ -74,6 +112,7 @@ bool isBetweenTwo(const ProbabilityResult& result) {
 TEST_CASE("dented bodies lie between a core and a hull", "[nearly_convex]") {
   RandomBodies random(1);
   int found = 0;
+  int with_pieces = 0;
   for (int i = 0; i < 150; ++i) {
     const TriangleMesh body = i % 2 ? sphereMesh(0.3, random.integer(5, 12), random.integer(5, 16))
                                     : hullMesh(random.onSphere(random.integer(8, 80), 0.3));
@@ -90,25 +129,13 @@ TEST_CASE("dented bodies lie between a core and a hull", "[nearly_convex]") {
         REQUIRE(hull.normals[f].dot(v - hull.centre) <= hull.offsets[f]);
       }
     }
-    // Points all over the core, most of them near its surface.
-    const ConvexFan& core = nearly->core;
-    double share = 0.0;
-    for (std::size_t f = 0; f < core.depths.size(); ++f) {
-      share = std::max(share, core.depths[f] / core.offsets[f]);
-    }
-    CHECK(share < 2e-5);
-    for (int k = 0; k < 60; ++k) {
-      const Eigen::Vector3d direction = random.direction();
-      double reach = 1e300;
-      for (std::size_t f = 0; f < core.normals.size(); ++f) {
-        const double along = core.normals[f].dot(direction);
-        if (along > 0.0) reach = std::min(reach, core.offsets[f] / along);
-      }
-      const double part = k % 2 ? 1.0 - 2 * share - 1e-12 : random.uniform(0.0, 1.0 - 2 * share);
-      CHECK(windingNumber(mesh, core.centre + part * reach * direction) > 0.5);
-    }
+    checkInside(nearly->core, mesh, random);
+    for (const ConvexFan& piece : nearly->pieces) checkInside(piece, mesh, random);
+    with_pieces += !nearly->pieces.empty();
+    if (!nearly->pieces.empty()) checkHeld(*nearly, mesh);
   }
   CHECK(found > 100);
+  CHECK(with_pieces > found / 2);
 }
 
 TEST_CASE("what is not closed, inside out or far from convex is not nearly so", "[nearly_convex]") {
@@ -237,4 +264,5 @@ TEST_CASE("a can is nearly convex", "[nearly_convex][models]") {
   const auto can = nearlyOf(fcl_prob_test::readObj(*path));
   REQUIRE(can);
   CHECK(can->share > 0.97);
+  CHECK_FALSE(can->pieces.empty());
 }
