@@ -13,7 +13,11 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr std::size_t kMostCoreCuts = 200;
+// The more triangles the longer a cut is looked for, and the fewer are tried: a body with many
+// dents is given up after some hundredths of a second.
+constexpr int kMostCoreCuts = 200;
+constexpr int kLeastCoreCuts = 40;
+constexpr int kTrianglesTimesCuts = 100'000;
 
 // A triangle that reaches no farther into a half-space than this share of the size is beyond it.
 constexpr double kBeyond = 1e-10;
@@ -23,6 +27,9 @@ constexpr double kLeastLeft = 0.05;
 
 // Of the hull's faces those are tried for a cut that a triangle is nearest to.
 constexpr std::size_t kHullFaces = 24;
+
+// Of a triangle's neighbours and theirs, about.
+constexpr std::size_t kNeighbours = 64;
 
 class CutSearch {
  public:
@@ -36,6 +43,8 @@ class CutSearch {
   }
 
   std::optional<std::vector<CoreCut>> run() {
+    const int most =
+        std::clamp(kTrianglesTimesCuts / view_.triangle_count, kLeastCoreCuts, kMostCoreCuts);
     std::vector<int> reaching = trianglesWithin();
     std::vector<CoreCut> cuts;
     for (auto next = reaching.begin(); next != reaching.end(); ++next) {
@@ -44,7 +53,7 @@ class CutSearch {
       });
       if (done) continue;
       const auto cut = bestCut(*next);
-      if (!cut || cuts.size() == kMostCoreCuts) return std::nullopt;
+      if (!cut || static_cast<int>(cuts.size()) == most) return std::nullopt;
       cuts.push_back(*cut);
       dropPointsBeyond(*cut);
     }
@@ -84,6 +93,7 @@ class CutSearch {
       double depth = kInfinity;
       for (const ConvexPolytope::Face& face : hull_.faces) {
         depth = std::min(depth, face.offset - lowest(t, face.normal));
+        if (depth <= kBeyond * size_) break;
       }
       if (depth > kBeyond * size_) found.emplace_back(-depth, t);
     }
@@ -107,8 +117,9 @@ class CutSearch {
       std::sort(around.begin(), around.end());
       around.erase(std::unique(around.begin(), around.end()), around.end());
     }
-    std::vector<Eigen::Vector3d> normals;
-    for (const int s : around) normals.push_back(normals_[s]);
+    std::vector<Eigen::Vector3d> normals{normals_[t]};
+    const std::size_t step = 1 + around.size() / kNeighbours;
+    for (std::size_t i = 0; i < around.size(); i += step) normals.push_back(normals_[around[i]]);
     std::vector<std::pair<double, std::size_t>> above;
     for (std::size_t f = 0; f < hull_.faces.size(); ++f) {
       const ConvexPolytope::Face& face = hull_.faces[f];
