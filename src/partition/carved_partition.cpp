@@ -15,6 +15,9 @@ namespace {
 // Masses of cells are not computed to more digits than a tolerance of this needs.
 constexpr double kLeastTolerance = 1e-4;
 
+// Pieces of nearly convex meshes may take one part in so many of the memory.
+constexpr std::size_t kShareOfPieces = 8;
+
 std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
   const std::string name = fan_is_a ? "A" : "B";
   const std::string triangles = std::to_string(body.tree->triangles.size());
@@ -57,6 +60,9 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   const WhitenedPair pair = whiten(a, b, whitening);
   FatMembers obstacles(pair, body, fan_is_a, whitening.matrix());
   if (!obstacles.usable()) return false;
+  if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
+    obstacles.keepHullsClosed();
+  }
   std::optional<SolidContact> solids;
   if (a.hasSolid() || b.hasSolid()) solids.emplace(a, b, whitening, pair);
   for (int member = 0; member < obstacles.count(); ++member) {

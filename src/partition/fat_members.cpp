@@ -28,15 +28,25 @@ void FatMembers::add(std::size_t part, const ConvexFan& fan, bool encloses) {
   first_faces_.push_back(first_faces_.back() + members_.back().faceCount());
 }
 
+std::size_t FatMembers::memoryOfPieces(const PartitionObject& body, const PartitionObject& mesh) {
+  std::size_t pieces = 0;
+  for (const PieceTree::Part& part : body.tree->parts) {
+    if (part.nearly) pieces += part.nearly->pieces.size();
+  }
+  return pieces * FatObstacles::leastMemory(mesh.tree->triangles.size());
+}
+
 // Where one of them is not known well enough there is none.
 const std::vector<int>& FatMembers::piecesWithin(int hull) {
   if (!parts_[hull].pieces) {
     const std::size_t part = parts_[hull].index;
     const int first = count();
     std::vector<int> pieces;
-    for (const ConvexFan& fan : body_.tree->parts[part].nearly->pieces) {
-      add(part, fan, false);
-      pieces.push_back(count() - 1);
+    if (!hulls_stay_closed_) {
+      for (const ConvexFan& fan : body_.tree->parts[part].nearly->pieces) {
+        add(part, fan, false);
+        pieces.push_back(count() - 1);
+      }
     }
     const bool all_usable = std::all_of(members_.begin() + first, members_.end(),
                                         [](const FatObstacles& member) { return member.usable(); });

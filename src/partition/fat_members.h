@@ -38,6 +38,12 @@ class FatMembers {
   /// Of one that has not been asked for anything.
   static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);
 
+  /// What all piecesWithin() take in addition.
+  static std::size_t memoryOfPieces(const PartitionObject& body, const PartitionObject& mesh);
+
+  /// From here on there are no pieces.
+  void keepHullsClosed() { hulls_stay_closed_ = true; }
+
   FatObstacles& of(int member) { return members_[member]; }
   const FatObstacles& of(int member) const { return members_[member]; }
   int count() const { return static_cast<int>(members_.size()); }
@@ -77,6 +83,7 @@ class FatMembers {
   const PartitionObject& body_;
   const bool fan_is_a_;
   const Eigen::Matrix3d matrix_;
+  bool hulls_stay_closed_ = false;
   std::deque<FatObstacles> members_;
   std::vector<OfPart> parts_;  ///< by member
   std::vector<int> first_faces_;

@@ -258,6 +258,26 @@ TEST_CASE("a dented body has the interval that its triangles give", "[nearly_con
   }
 }
 
+TEST_CASE("pieces that would not fit into the memory that is allowed are not made",
+          "[nearly_convex]") {
+  RandomBodies random(6);
+  const TriangleMesh body = withDents(sphereMesh(0.3, 12, 16), 12, 2e-2, random);
+  REQUIRE(nearlyOf(body));
+  REQUIRE(nearlyOf(body)->pieces.size() > 20);
+  PartitionQuery query(body, bumpyMesh(0.5, 40, 60, 1));
+  query.pose_b.translation() = Eigen::Vector3d(0.75, 0.1, 0.0);
+  const auto displacement =
+      fcl_prob::GaussianDisplacement::fromStandardDeviations({0.05, 0.08, 0.1}, {1, 0, 0, 0});
+  fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
+  const ProbabilityResult all = query.run(displacement, request);
+  request.max_memory = 6'000'000;
+  const ProbabilityResult limited = query.run(displacement, request);
+  CAPTURE(all.statistics.peak_memory, limited.statistics.peak_memory);
+  CHECK(limited.statistics.peak_memory < 6'100'000);
+  CHECK(*limited.lower <= *all.upper);
+  CHECK(*limited.upper >= *all.lower);
+}
+
 TEST_CASE("a can is nearly convex", "[nearly_convex][models]") {
   const auto path = fcl_prob_test::modelOrSkip("objects/coke_can_500.obj");
   if (!path) return;
