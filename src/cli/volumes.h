@@ -10,16 +10,15 @@
 
 #include "fcl_prob/convex_hull_tree.h"
 #include "fcl_prob/triangle_mesh.h"
+#include "geometry/enclosed_volume.h"
 #include "traversal/bv_volumes.h"
 
 namespace fcl_prob::cli {
 
-/// Volume that a closed mesh encloses, cubic metres, from its triangles as they are oriented.
-double enclosedVolume(const TriangleMesh& mesh);
-
 /// Volume of the convex hull of its vertices, cubic metres.
 double hullVolume(const TriangleMesh& mesh);
 
+using detail::enclosedVolume;
 using detail::volumeOf;
 
 /// For levels 0 to `levels` - 1 of a tree: the volumes of all nodes at that depth, added up. Where

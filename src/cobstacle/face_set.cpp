@@ -123,6 +123,16 @@ ConvexPolytope polytopeOf(const FaceSet& faces, bool with_slivers) {
 
 }  // namespace
 
+FaceSet toFaceSet(const ConvexPolytope& polytope) {
+  FaceSet faces;
+  for (const Eigen::Vector3d& v : polytope.vertices) faces.addVertex(v);
+  for (const ConvexPolytope::Face& face : polytope.faces) {
+    faces.beginFace();
+    for (const int corner : face.vertices) faces.addCorner(corner);
+  }
+  return faces;
+}
+
 ConvexPolytope toPolytope(const FaceSet& faces) { return polytopeOf(faces, false); }
 
 ConvexPolytope toClosedPolytope(const FaceSet& faces) { return polytopeOf(faces, true); }

@@ -61,6 +61,9 @@ class FaceSet {
   std::vector<int> corners_;
 };
 
+/// The faces of a polytope.
+FaceSet toFaceSet(const ConvexPolytope& polytope);
+
 /// The same surface as a ConvexPolytope; faces whose area is within rounding of zero are left out.
 ConvexPolytope toPolytope(const FaceSet& faces);
 

@@ -65,16 +65,6 @@ Eigen::Vector3d middleOf(const FaceSet& faces) {
   return sum / static_cast<double>(faces.vertices().size());
 }
 
-FaceSet faceSetOf(const ConvexPolytope& polytope) {
-  FaceSet faces;
-  for (const Eigen::Vector3d& v : polytope.vertices) faces.addVertex(v);
-  for (const ConvexPolytope::Face& face : polytope.faces) {
-    faces.beginFace();
-    for (const int corner : face.vertices) faces.addCorner(corner);
-  }
-  return faces;
-}
-
 /// Cuts leave narrow faces that are uneven; those of a hull are even, and merged where they can be.
 /// Points may be off by `error`.
 Bounds massOfHull(const FaceSet& faces, double error) {
@@ -114,7 +104,7 @@ KnownObstacle::KnownObstacle(FaceSet faces, double error)
     : faces_(std::move(faces)), error_(error) {
   const double distance = kThinning * lengthOf(faces_);
   const ConvexPolytope hull = convexHull(thinnedOut(faces_.vertices(), distance));
-  FaceSet even = faceSetOf(hull);
+  FaceSet even = toFaceSet(hull);
   // The normals of narrow faces are noise, and what is surely below their planes is little.
   if (even.faceCount() > 0 && even.closed()) {
     faces_ = std::move(even);

@@ -177,16 +177,14 @@ void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list,
     }
     cutOff(cell, list, *plane, rest);
   }
-  if (is_hull) {
-    return openHull(cell, list, inside);
-  }
+  if (is_hull) return openHull(cell, list, inside, inner.upper);
   claim("planes of a fat pair", true, inside);
   settle(settledMass(inside));
 }
 
 // What is in hulls and in none of their cores.
 void CarvingEngine::openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
-                             const CellPolytope& inside) {
+                             const CellPolytope& inside, double mass) {
   const bool rough = request_.threshold || request_.relative_tolerance >= kFinestOfPieces;
   const bool worth_while = rough && statistics_.cells < kMostCellsOfPieces;
   const bool all_have_pieces =
@@ -194,12 +192,12 @@ void CarvingEngine::openHull(const CarvedCell& cell, const std::shared_ptr<List>
       std::all_of(list->entries.begin(), list->entries.end(), [this](const List::Entry& entry) {
         return !obstacles_.piecesWithin(entry.obstacle.member).empty();
       });
-  CarvedCell within;
-  within.mass = openMass(inside, cell.mass.upper);
   if (!all_have_pieces) {
-    settled_.upper += within.mass.upper;
+    settled_.upper += mass;
     return;
   }
+  CarvedCell within;
+  within.mass = {0.0, mass};
   within.body = inside;
   within.list = list;
   within.layers = cell.layers;

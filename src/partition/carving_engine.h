@@ -112,7 +112,7 @@ class CarvingEngine {
   void carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
                const CellPolytope& inside);
   void openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
-                const CellPolytope& inside);
+                const CellPolytope& inside, double mass);
   /// What is left of a cell around its best obstacle.
   struct Rest {
     CellPolytope body;

@@ -14,6 +14,14 @@ namespace {
 // A node of the mesh's tree is opened in a box if it is this many times larger.
 constexpr double kOpenRatio = 2.0;
 
+// A plane of an obstacle over which a body sticks out. False if all of it does: the two are apart.
+bool addPlane(const CellPolytope& body, const ObstaclePlane& plane, ObstacleList& into) {
+  const CellPolytope::Extent extent = body.along(plane.n);
+  if (extent.lo > plane.outer) return false;
+  if (extent.hi > plane.inner() - 2 * CellPolytope::kSnap) into.planes.push_back(plane);
+  return true;
+}
+
 }  // namespace
 
 void CarvingEngine::divideBox(CarvedCell&& cell) {
@@ -165,10 +173,7 @@ CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into
     const std::size_t first = into.planes.size();
     bool meets = true;
     for (std::size_t i = entry.first; i < entry.last && meets; ++i) {
-      const ObstaclePlane& plane = from.planes[i];
-      const CellPolytope::Extent extent = cell.body.along(plane.n);
-      meets = !(extent.lo > plane.outer);
-      if (extent.hi > plane.inner() - 2 * CellPolytope::kSnap) into.planes.push_back(plane);
+      meets = addPlane(cell.body, from.planes[i], into);
     }
     if (!meets) {
       into.planes.resize(first);
@@ -198,12 +203,7 @@ CarvingEngine::Relation CarvingEngine::addFromBody(const CellPolytope& body, Fat
   if (isClearOf(around, box.lo.data(), box.hi.data())) return Relation::free;
   ++statistics_.pairs_tested;
   const std::size_t first = into.planes.size();
-  const auto meets = [&](const ObstaclePlane& plane) {
-    const CellPolytope::Extent extent = body.along(plane.n);
-    if (extent.lo > plane.outer) return false;
-    if (extent.hi > plane.inner() - 2 * CellPolytope::kSnap) into.planes.push_back(plane);
-    return true;
-  };
+  const auto meets = [&](const ObstaclePlane& plane) { return addPlane(body, plane, into); };
   member.faceOffsets(obstacle.triangle);
   const std::vector<ObstaclePlane>& others = member.otherPlanes(obstacle.triangle);
   bool may_meet = std::all_of(others.begin(), others.end(), meets);

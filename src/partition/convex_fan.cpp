@@ -11,7 +11,6 @@
 
 #include "gaussian/constants.h"
 #include "gaussian/directed_edges.h"
-#include "geometry/closed_mesh.h"
 #include "geometry/surface_caps.h"
 
 namespace fcl_prob::detail {
@@ -242,10 +241,14 @@ std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
   if (view.triangle_count < 4 || view.triangle_count > kMostTriangles) return nullptr;
   std::shared_ptr<ConvexFan> fan = FanBuilder(view, vertices).build();
   if (!fan) return nullptr;
-  const ClosedMesh solid(view, "mesh");
-  const double rounding = 16 * kEpsilon * (moved_by.norm() + fan->centre.norm() + fan->radius);
-  if (solid.contains(moved_by + fan->centre, rounding) != Containment::inside) return nullptr;
+  if (!hasCentreWithin(*fan, ClosedMesh(view, "mesh"), moved_by)) return nullptr;
   return fan;
+}
+
+bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,
+                     const Eigen::Vector3d& moved_by) {
+  const double rounding = 16 * kEpsilon * (moved_by.norm() + fan.centre.norm() + fan.radius);
+  return solid.contains(moved_by + fan.centre, rounding) == Containment::inside;
 }
 
 std::vector<std::pair<int, int>> spansOf(const MeshView& view) {

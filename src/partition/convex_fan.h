@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/closed_mesh.h"
 #include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::detail {
@@ -35,6 +36,11 @@ struct ConvexFan {
 std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
                                              const std::vector<Eigen::Vector3d>& vertices,
                                              const Eigen::Vector3d& moved_by);
+
+/// Whether the centre of a fan is certainly within a solid.
+/// \param moved_by  added to what is relative to the fan's frame, up to rounding
+bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,
+                     const Eigen::Vector3d& moved_by);
 
 /// Of every connected part of a mesh two vertices far apart; nothing if it has too many parts.
 std::vector<std::pair<int, int>> spansOf(const MeshView& view);

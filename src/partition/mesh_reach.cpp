@@ -11,6 +11,9 @@
 namespace fcl_prob::detail {
 namespace {
 
+// The farthest that the mesh may reach into a body, as a share of it.
+constexpr double kMostReach = 1e-5;
+
 // Planes that separate as well as this are not improved upon.
 constexpr double kLittleReach = 1e-12;
 
@@ -78,8 +81,8 @@ class ReachSearch {
   double best_ = 1.0;
 };
 
-}  // namespace
-
+// The share λ of P that the mesh reaches into; where it is more than kMostReach it means no more
+// than that.
 double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
                  const MeshView& view, const std::vector<Eigen::Vector3d>& vertices) {
   ReachSearch search(fan, normals, view, vertices);
@@ -90,10 +93,19 @@ double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& norma
   return farthest;
 }
 
-void allowReach(double reach, ConvexFan& fan) {
+}  // namespace
+
+SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
+                                 const Eigen::Vector3d& moved_by)
+    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {}
+
+bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const {
+  const double reach = reachInto(fan, normals, view_, vertices_);
+  if (!(reach <= kMostReach) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
   for (std::size_t f = 0; f < fan.depths.size(); ++f) {
     fan.depths[f] = std::max(fan.depths[f], reach * fan.offsets[f]);
   }
+  return true;
 }
 
 }  // namespace fcl_prob::detail

@@ -13,7 +13,7 @@
 #include "fcl_prob/triangle_mesh.h"
 #include "gaussian/constants.h"
 #include "gaussian/directed_edges.h"
-#include "geometry/closed_mesh.h"
+#include "geometry/enclosed_volume.h"
 #include "geometry/surface_caps.h"
 #include "partition/core_cuts.h"
 #include "partition/mesh_reach.h"
@@ -30,16 +30,6 @@ constexpr double kMostConcave = 0.25;
 
 // The core is worth its planes if it has at least this share of the hull.
 constexpr double kLeastCoreShare = 0.85;
-
-double volumeOf(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices[t[0]] - mesh.vertices[0];
-    const Eigen::Vector3d b = mesh.vertices[t[1]] - mesh.vertices[0];
-    sum += a.dot(b.cross(mesh.vertices[t[2]] - mesh.vertices[0])) / 6;
-  }
-  return sum;
-}
 
 TriangleMesh surfaceOf(const ConvexPolytope& polytope) {
   TriangleMesh mesh;
@@ -82,13 +72,7 @@ bool mayBeNearlyConvex(const MeshView& view, const std::vector<Eigen::Vector3d>&
 }
 
 ConvexPolytope coreOf(const ConvexPolytope& hull, const std::vector<CoreCut>& cuts) {
-  FaceSet faces;
-  for (const Eigen::Vector3d& v : hull.vertices) faces.addVertex(v);
-  for (const ConvexPolytope::Face& face : hull.faces) {
-    faces.beginFace();
-    for (const int v : face.vertices) faces.addCorner(v);
-  }
-  CutPolytope cut(faces);
+  CutPolytope cut(toFaceSet(hull));
   for (const CoreCut& each : cuts) cut.cut(each.n, each.offset);
   FaceSet rest;
   cut.writeTo(rest);
@@ -125,14 +109,14 @@ std::shared_ptr<const NearlyConvex> nearlyConvexOf(const MeshView& view,
   const TriangleMesh around = surfaceOf(hull);
   TriangleMesh mesh = triangleMesh(view);
   mesh.vertices = vertices;
-  const double whole = volumeOf(around);
-  if (!(volumeOf(mesh) > kLeastCoreShare * whole)) return nullptr;
+  const double whole = enclosedVolume(around);
+  if (!(enclosedVolume(mesh) > kLeastCoreShare * whole)) return nullptr;
   const auto cuts = findCoreCuts(view, vertices, hull);
   if (!cuts) return nullptr;
   const ConvexPolytope inside = coreOf(hull, *cuts);
   if (inside.faces.empty()) return nullptr;
   const TriangleMesh core = surfaceOf(inside);
-  const double share = volumeOf(core) / whole;
+  const double share = enclosedVolume(core) / whole;
   if (!(share > kLeastCoreShare)) return nullptr;
   const auto hull_fan = convexFanOf(viewOf(around), around.vertices, Eigen::Vector3d::Zero());
   const auto core_fan = convexFanOf(viewOf(core), core.vertices, Eigen::Vector3d::Zero());
@@ -142,16 +126,9 @@ std::shared_ptr<const NearlyConvex> nearlyConvexOf(const MeshView& view,
   std::vector<Eigen::Vector3d> normals;
   for (const ConvexPolytope::Face& face : hull.faces) normals.push_back(face.normal);
   for (const CoreCut& cut : *cuts) normals.push_back(cut.n);
-  const double reach = reachInto(found->core, normals, view, vertices);
-  if (!(reach <= kMostReach)) return nullptr;
-  allowReach(reach, found->core);
-  const ClosedMesh solid(view, "mesh");
-  const double rounding =
-      16 * kEpsilon * (moved_by.norm() + found->core.centre.norm() + found->core.radius);
-  if (solid.contains(moved_by + found->core.centre, rounding) != Containment::inside) {
-    return nullptr;
-  }
-  found->pieces = shellPieces(view, vertices, moved_by, core, found->core.centre);
+  const SurroundingMesh surrounding(view, vertices, moved_by);
+  if (!surrounding.surrounds(found->core, normals)) return nullptr;
+  found->pieces = shellPieces(view, vertices, surrounding, core, found->core.centre);
   return found;
 }
 

@@ -8,16 +8,11 @@
 #include <memory>
 #include <set>
 
-#include "gaussian/constants.h"
-#include "geometry/closed_mesh.h"
-#include "partition/mesh_reach.h"
-
 namespace fcl_prob::detail {
 namespace {
 
-// Where the fourth corner is on the way from the middle of the triangle to that of the core: the
-// deepest that is within the mesh. From the middle of a core that sees them all, tetrahedra leave
-// no gaps.
+// Where the fourth corner is: on the way from the middle of the triangle to the apex, or else below
+// that middle, as a share of the triangle's size. The deepest that is within the mesh.
 constexpr std::array kDepths{1.0, 0.5, 0.25, 0.1, 0.03};
 
 // A mesh with more of them is left to its triangles.
@@ -28,8 +23,8 @@ std::array<double, 3> key(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z(
 class PieceMaker {
  public:
   PieceMaker(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
-             const Eigen::Vector3d& moved_by, const Eigen::Vector3d& apex)
-      : view_(view), vertices_(vertices), moved_by_(moved_by), apex_(apex), solid_(view, "mesh") {}
+             const SurroundingMesh& mesh, const Eigen::Vector3d& apex)
+      : view_(view), vertices_(vertices), mesh_(mesh), apex_(apex) {}
 
   std::shared_ptr<ConvexFan> below(int t) const {
     TriangleMesh piece;
@@ -56,32 +51,26 @@ class PieceMaker {
     const auto known = convexFanOf(viewOf(piece), piece.vertices, Eigen::Vector3d::Zero());
     if (!known) return nullptr;
     auto fan = std::make_shared<ConvexFan>(*known);
-    const double reach = reachInto(*fan, {}, view_, vertices_);
-    if (!(reach <= kMostReach)) return nullptr;
-    const double rounding = 16 * kEpsilon * (moved_by_.norm() + fan->centre.norm() + fan->radius);
-    if (solid_.contains(moved_by_ + fan->centre, rounding) != Containment::inside) return nullptr;
-    allowReach(reach, *fan);
-    return fan;
+    return mesh_.surrounds(*fan, {}) ? fan : nullptr;
   }
 
   const MeshView& view_;
   const std::vector<Eigen::Vector3d>& vertices_;
-  const Eigen::Vector3d& moved_by_;
+  const SurroundingMesh& mesh_;
   Eigen::Vector3d apex_;
-  ClosedMesh solid_;
 };
 
 }  // namespace
 
 std::vector<ConvexFan> shellPieces(const MeshView& view,
                                    const std::vector<Eigen::Vector3d>& vertices,
-                                   const Eigen::Vector3d& moved_by, const TriangleMesh& core,
+                                   const SurroundingMesh& mesh, const TriangleMesh& core,
                                    const Eigen::Vector3d& apex) {
   std::set<std::array<double, 3>> held;
   for (const fcl::Triangle& t : core.triangles) {
     for (int k = 0; k < 3; ++k) held.insert(key(core.vertices[t[k]]));
   }
-  const PieceMaker maker(view, vertices, moved_by, apex);
+  const PieceMaker maker(view, vertices, mesh, apex);
   std::vector<ConvexFan> pieces;
   for (int t = 0; t < view.triangle_count; ++t) {
     bool is_held = true;

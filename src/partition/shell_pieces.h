@@ -9,6 +9,7 @@
 #include "fcl_prob/triangle_mesh.h"
 #include "geometry/mesh_visitor.h"
 #include "partition/convex_fan.h"
+#include "partition/mesh_reach.h"
 
 namespace fcl_prob::detail {
 
@@ -18,7 +19,7 @@ namespace fcl_prob::detail {
 /// \param apex  deep inside
 std::vector<ConvexFan> shellPieces(const MeshView& view,
                                    const std::vector<Eigen::Vector3d>& vertices,
-                                   const Eigen::Vector3d& moved_by, const TriangleMesh& core,
+                                   const SurroundingMesh& mesh, const TriangleMesh& core,
                                    const Eigen::Vector3d& apex);
 
 }  // namespace fcl_prob::detail

@@ -3,7 +3,9 @@
 // Queries of the partition on meshes, for tests.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <string>
 
 #include "geometry/closed_mesh.h"
 #include "mesh_shapes.h"
@@ -45,6 +47,12 @@ class PartitionQuery {
   std::unique_ptr<fcl_prob::detail::ClosedMesh> solid_a_;
   std::unique_ptr<fcl_prob::detail::ClosedMesh> solid_b_;
 };
+
+inline bool planMentions(const fcl_prob::ProbabilityResult& result, const std::string& words) {
+  return std::any_of(result.plan.begin(), result.plan.end(), [&words](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
 
 /// A request for a certified interval to a relative tolerance alone.
 inline fcl_prob::ProbabilityRequest intervalRequest(double relative_tolerance) {

@@ -2,11 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 // A convex mesh taken whole beside another mesh: what is recognised as convex, the planes of its
 // C-obstacles, polytope cells and their masses, and intervals against sampling.
-#include <fcl/narrowphase/collision.h>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "catch.h"
 #include "fcl_prob/convex_polytope.h"
@@ -17,6 +14,7 @@
 #include "partition/fat_obstacles.h"
 #include "partition_query.h"
 #include "random_bodies.h"
+#include "sampled_contact.h"
 #include "whitened_meshes.h"
 
 namespace {
@@ -45,9 +43,7 @@ TriangleMesh inSinglePrecision(TriangleMesh mesh) {
 }
 
 bool isCarved(const ProbabilityResult& result) {
-  return std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& note) {
-    return note.find("is convex: one piece") != std::string::npos;
-  });
+  return fcl_prob_test::planMentions(result, "is convex: one piece");
 }
 
 }  // namespace
@@ -217,34 +213,6 @@ TEST_CASE("cut polytopes add up, and have the mass of the exact formula", "[carv
 
 namespace {
 
-// Counts displaced collisions; with `solid` also whether a vertex of either is in the other.
-double sampled(const PartitionQuery& query, const fcl_prob::GaussianDisplacement& displacement,
-               bool solid, int samples, std::uint64_t seed) {
-  const fcl_prob::Whitening whitening(displacement);
-  std::optional<ClosedMesh> inside_a, inside_b;
-  if (solid) {
-    inside_a.emplace(meshView(*query.model_a), "A");
-    inside_b.emplace(meshView(*query.model_b), "B");
-  }
-  RandomBodies random(static_cast<unsigned>(seed));
-  int hits = 0;
-  for (int i = 0; i < samples; ++i) {
-    fcl::Transform3d pose = query.pose_a;
-    pose.pretranslate(whitening.unapply(random.normalVector()));
-    fcl::CollisionResultd result;
-    fcl::collide(query.model_a.get(), pose, query.model_b.get(), query.pose_b, {}, result);
-    bool hit = result.isCollision();
-    if (solid && !hit) {
-      const Eigen::Vector3d of_a = query.pose_b.inverse() * (pose * query.model_a->vertices[0]);
-      const Eigen::Vector3d of_b = pose.inverse() * (query.pose_b * query.model_b->vertices[0]);
-      hit = inside_b->contains(of_a) == Containment::inside ||
-            inside_a->contains(of_b) == Containment::inside;
-    }
-    hits += hit;
-  }
-  return static_cast<double>(hits) / samples;
-}
-
 void checkScenes(int scenes, int samples, unsigned seed) {
   RandomBodies random(seed);
   int carved = 0;
@@ -270,13 +238,11 @@ void checkScenes(int scenes, int samples, unsigned seed) {
     fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
     const ProbabilityResult result = query.run(displacement, request);
     carved += isCarved(result);
-    const double p = sampled(query, displacement, solid, samples, 1000 + seed + i);
-    const double middle = result.probability();
-    const double error = 5 * std::sqrt(std::max(middle * (1 - middle), 10.0 / samples) / samples);
-    INFO("scene " << i << (solid ? " solid " : " ") << *result.lower << " .. " << *result.upper
-                  << " sampled " << p << " carved " << isCarved(result));
-    CHECK(p >= *result.lower - error);
-    CHECK(p <= *result.upper + error);
+    RandomBodies draws(1000 + seed + static_cast<unsigned>(i));
+    const double p = fcl_prob_test::sampledContact(
+        query, swapped ? other : body, swapped ? body : other, displacement, solid, samples, draws);
+    INFO("scene " << i << (solid ? " solid" : "") << " carved " << isCarved(result));
+    fcl_prob_test::checkHoldsSampled(result, p, samples);
   }
   CHECK(carved > scenes / 4);
 }

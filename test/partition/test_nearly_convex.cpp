@@ -2,19 +2,17 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/nearly_convex.h"
 
-#include <fcl/narrowphase/collision.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "catch.h"
-#include "fcl_prob/whitening.h"
 #include "mesh_shapes.h"
 #include "models.h"
 #include "obj_file.h"
 #include "partition_query.h"
 #include "random_bodies.h"
+#include "sampled_contact.h"
 
 namespace {
 
@@ -26,6 +24,7 @@ using fcl_prob_test::hullMesh;
 using fcl_prob_test::PartitionQuery;
 using fcl_prob_test::RandomBodies;
 using fcl_prob_test::sphereMesh;
+using fcl_prob_test::windingNumber;
 
 std::shared_ptr<const NearlyConvex> nearlyOf(const TriangleMesh& mesh) {
   return nearlyConvexOf(viewOf(mesh), mesh.vertices, Eigen::Vector3d::Zero());
@@ -49,18 +48,6 @@ TriangleMesh withDents(TriangleMesh mesh, int count, double depth, RandomBodies&
     mesh.triangles.emplace_back(t[2], t[0], middle);
   }
   return mesh;
-}
-
-// The solid angle of the surface, in turns: 1 inside, 0 outside.
-double windingNumber(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double angle = 0.0;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    const Eigen::Vector3d a = (mesh.vertices[t[0]] - point).normalized();
-    const Eigen::Vector3d b = (mesh.vertices[t[1]] - point).normalized();
-    const Eigen::Vector3d c = (mesh.vertices[t[2]] - point).normalized();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
-  }
-  return angle / (4 * fcl::constantsd::pi());
 }
 
 // Points all over a body, most of them near its surface, are within the mesh.
@@ -102,9 +89,7 @@ void checkHeld(const NearlyConvex& nearly, const TriangleMesh& mesh) {
 }
 
 bool isBetweenTwo(const ProbabilityResult& result) {
-  return std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& note) {
-    return note.find("nearly convex") != std::string::npos;
-  });
+  return fcl_prob_test::planMentions(result, "nearly convex");
 }
 
 }  // namespace
@@ -169,30 +154,6 @@ void addShell(TriangleMesh& body, RandomBodies& random) {
   body = fcl_prob_test::joined(body, shell);
 }
 
-// Displaced collisions by FCL; of solids also whether a vertex of either is in the other.
-double sampledContact(const PartitionQuery& query, const TriangleMesh& a, const TriangleMesh& b,
-                      const fcl_prob::GaussianDisplacement& displacement, bool solid, int samples,
-                      RandomBodies& random) {
-  const fcl_prob::Whitening whitening(displacement);
-  int hits = 0;
-  for (int i = 0; i < samples; ++i) {
-    fcl::Transform3d pose = query.pose_a;
-    pose.pretranslate(whitening.unapply(random.normalVector()));
-    fcl::CollisionResultd result;
-    fcl::collide(query.model_a.get(), pose, query.model_b.get(), query.pose_b, {}, result);
-    bool hit = result.isCollision();
-    if (solid && !hit) {
-      const auto holds = [](const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-        return std::fabs(windingNumber(mesh, point)) > 0.5;
-      };
-      hit = holds(b, query.pose_b.inverse() * (pose * a.vertices[0])) ||
-            holds(a, pose.inverse() * (query.pose_b * b.vertices[0]));
-    }
-    hits += hit;
-  }
-  return static_cast<double>(hits) / samples;
-}
-
 void checkDentedScenes(int scenes, int samples, unsigned seed) {
   RandomBodies random(seed);
   int between_two = 0;
@@ -217,13 +178,10 @@ void checkDentedScenes(int scenes, int samples, unsigned seed) {
     const ProbabilityResult result =
         query.run(displacement, fcl_prob_test::intervalRequest(i % 2 ? 0.1 : 0.03));
     between_two += isBetweenTwo(result);
-    const double p = sampledContact(query, a, b, displacement, solid, samples, random);
-    const double middle = result.probability();
-    const double error = 5 * std::sqrt(std::max(middle * (1 - middle), 10.0 / samples) / samples);
-    INFO("scene " << i << (solid ? " solid " : " ") << *result.lower << " .. " << *result.upper
-                  << " sampled " << p << " between two " << isBetweenTwo(result));
-    CHECK(p >= *result.lower - error);
-    CHECK(p <= *result.upper + error);
+    const double p =
+        fcl_prob_test::sampledContact(query, a, b, displacement, solid, samples, random);
+    INFO("scene " << i << (solid ? " solid" : "") << " between two " << isBetweenTwo(result));
+    fcl_prob_test::checkHoldsSampled(result, p, samples);
   }
   CHECK(between_two > scenes / 4);
 }

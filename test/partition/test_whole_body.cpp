@@ -82,9 +82,7 @@ bool isGrazing(const WhitenedMeshes& meshes, const Eigen::Vector3d& y) {
 }
 
 bool isWhole(const ProbabilityResult& result) {
-  return std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& note) {
-    return note.find("taken whole") != std::string::npos;
-  });
+  return fcl_prob_test::planMentions(result, "taken whole");
 }
 
 }  // namespace
