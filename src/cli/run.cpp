@@ -6,7 +6,6 @@
 #include <csignal>
 #include <iostream>
 
-#include "cli/bench_command.h"
 #include "cli/check_command.h"
 #include "cli/compare_command.h"
 #include "cli/decompose_command.h"
@@ -32,7 +31,7 @@ int complain(const std::string& message) {
   return kBadInput;
 }
 
-int parseAndRun(int argc, const char* const* argv) {
+int parseAndRun(int argc, const char* const* argv, const std::vector<AddCommand>& others) {
   CLI::App app("Collision probabilities of two shapes under Gaussian position error");
   app.name("fcl_prob");
   app.set_version_flag("--version", "fcl_prob " FCL_PROB_VERSION);
@@ -40,7 +39,6 @@ int parseAndRun(int argc, const char* const* argv) {
   int exit_code = kAnswered;
   addCheckCommand(app, exit_code);
   addCompareCommand(app, exit_code);
-  addBenchCommand(app, exit_code);
   addExportCommand(app, exit_code);
   addDecomposeCommand(app, exit_code);
   addSweepCommand(app, exit_code);
@@ -53,6 +51,7 @@ int parseAndRun(int argc, const char* const* argv) {
 #ifdef FCL_PROB_HAS_CLOUD
   addReconstructCommand(app, exit_code);
 #endif
+  for (const AddCommand add : others) add(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -65,12 +64,12 @@ int parseAndRun(int argc, const char* const* argv) {
 
 }  // namespace
 
-int run(int argc, const char* const* argv) {
+int run(int argc, const char* const* argv, const std::vector<AddCommand>& others) {
   // A closed pipe or a file that may not grow shall be an error message, not a death.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return parseAndRun(argc, argv);
+    return parseAndRun(argc, argv, others);
   } catch (const std::bad_alloc&) {
     return complain("out of memory");
   } catch (const std::exception& error) {

@@ -3,6 +3,12 @@
 // The fcl_prob command as a function.
 #pragma once
 
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
 namespace fcl_prob::cli {
 
 /// Exit codes of every subcommand.
@@ -12,8 +18,12 @@ enum ExitCode {
   kStopped = 3    ///< a limit came before the tolerance; what was printed is valid
 };
 
+/// Adds a subcommand, as addCheckCommand().
+using AddCommand = void (*)(CLI::App& app, int& exit_code);
+
 /// Runs the command line. Results go to standard output; one line to standard error if the exit
 /// code is kBadInput.
-int run(int argc, const char* const* argv);
+/// \param others  subcommands of rooms above this one
+int run(int argc, const char* const* argv, const std::vector<AddCommand>& others = {});
 
 }  // namespace fcl_prob::cli

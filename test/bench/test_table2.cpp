@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The rows of bench table2 against certified intervals of the same states.
+#ifdef FCL_PROB_HAS_PLANNING
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+
+#include "bench/table2_methods.h"
+#include "bench/table2_plot.h"
+#include "catch.h"
+#include "cli/gnuplot.h"
+#include "command.h"
+#include "models.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob::cli;
+
+namespace {
+
+bool decides(const Table2Method& method) {
+  return method.answer == Table2Answer::certified || method.answer == Table2Answer::probable;
+}
+
+std::ptrdiff_t countOf(const std::vector<Table2Method>& methods, Table2Answer answer) {
+  return std::count_if(methods.begin(), methods.end(),
+                       [&](const Table2Method& method) { return method.answer == answer; });
+}
+
+void checkRow(const Table2Method& method, const Eigen::VectorXd& values, const Bounds& truth) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  CAPTURE(method.name, truth.lower, truth.upper);
+  if (decides(method)) {
+    // The probable decision is wrong with a chance of 1e-4, for which the seed is fixed.
+    const bool below = method.probability(values, 0.05) < 0.05;
+    if (below) CHECK(truth.lower < 0.05);
+    if (!below) CHECK(truth.upper >= 0.05);
+  } else if (method.published == "monte-carlo") {
+    const double error = 5.0 * std::sqrt(truth.upper / 10'000) + 5e-4;
+    const double share = method.probability(values, kAll);
+    CHECK(share >= truth.lower - error);
+    CHECK(share <= truth.upper + error);
+  } else if (method.answer == Table2Answer::probability) {
+    CHECK(method.probability(values, kAll) >= truth.lower);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no row of table2 is below what is certain, but padding", "[cli][slow]") {
+  if (!fcl_prob_test::modelOrSkip("fetch_robot/fetch.srdf")) return;
+  const auto scenes = table2Scenes(*fcl_prob_test::modelsFolder());
+  REQUIRE(scenes.size() == 2);
+  for (const Table2Scene& scene : scenes) {
+    CHECK_FALSE(scene.self.collides(scene.start));
+    CHECK_FALSE(scene.self.collides(scene.goal));
+    const auto methods = table2Methods(scene, 0.05, 1);
+    CHECK(methods.size() == 11);
+    CHECK(countOf(methods, Table2Answer::certified) == 1);
+    CHECK(countOf(methods, Table2Answer::probable) == 1);
+    CHECK(countOf(methods, Table2Answer::padding) == 2);
+    for (const double at : {0.0, 0.2, 0.3}) {
+      const Eigen::VectorXd values = scene.start + at * (scene.goal - scene.start);
+      ProbabilityRequest request;
+      request.relative_tolerance = 0.1;
+      request.max_cells = 20'000;
+      const Bounds truth = scene.query.state(values, request).any;
+      for (const Table2Method& method : methods) checkRow(method, values, truth);
+    }
+  }
+}
+
+TEST_CASE("table2 is drawn with a panel a scene and a point a path", "[cli]") {
+  CHECK(table2PlotScript({}).empty());
+  const std::string script = table2PlotScript({{"cans", "probable decision", 120.5, 6.5},
+                                               {"cans", "certified decision", 900.0, 6.25},
+                                               {"cans", "probable decision", 80.0, 7.5},
+                                               {"waving", "certified decision", 70.0, 5.0}});
+  CHECK(script.find("$scene0_method0 << EOD\n120.5 6.5\n80 7.5\nEOD\n") != std::string::npos);
+  CHECK(script.find("$scene0_method1 << EOD\n900 6.25\nEOD\n") != std::string::npos);
+  CHECK(script.find("$scene1_method1 << EOD\n70 5\nEOD\n") != std::string::npos);
+  CHECK(script.find("$scene1_method0") == std::string::npos);
+  CHECK(script.find("layout 1,2") != std::string::npos);
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) {
+    std::cout << "SKIPPED: gnuplot is not installed\n";
+    return;
+  }
+  const fcl_prob_test::TemporaryFolder folder;
+  writePlot(script, folder.path("plot.svg"));
+  const std::string plot = fcl_prob_test::readWhole(folder.path("plot.svg"));
+  for (const char* text : {"<svg", "cans", "waving", "probable decision", "certified decision"}) {
+    CAPTURE(text);
+    CHECK(plot.find(text) != std::string::npos);
+  }
+}
+
+TEST_CASE("bench draws what has a plot, to a file whose ending it knows", "[cli]") {
+  const fcl_prob_test::TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const std::string& plot) {
+    return fcl_prob_test::runCommand({"bench", name, "--models", folder.path(""), "--plot", plot},
+                                     folder);
+  };
+  CHECK(run("table2", "x.pdf").refused());
+  CHECK(run("table1", "x.svg").refused());
+  CHECK(run("table1", "x.svg").err.find("table1 has no plot") != std::string::npos);
+}
+
+TEST_CASE("a plot of nothing is told", "[cli]") {
+  const fcl_prob_test::TemporaryFolder folder;
+  writePlot("", folder.path("plot.svg"));
+  CHECK(fcl_prob_test::readWhole(folder.path("plot.svg")).empty());
+}
+#endif
