@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "base/random_words.h"
 #include "bench/stability_truth.h"
 #include "fcl_prob/mixture.h"
 #include "fcl_prob/triangle_mesh.h"
-#include "montecarlo/random_samples.h"
 
 namespace fcl_prob::cli {
 

@@ -4,9 +4,9 @@
 
 #include <map>
 
+#include "base/refuse_band.h"
 #include "cli/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "request/refuse_band.h"
 
 namespace fcl_prob::cli {
 namespace {

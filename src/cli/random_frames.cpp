@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "montecarlo/random_samples.h"
+#include "base/random_words.h"
 
 namespace fcl_prob::cli {
 

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/number_text.h"
 #include "cloud/depth_grid.h"
 #include "cloud/grid_mesh.h"
 #include "cloud/median.h"
 #include "cloud/points_mesh.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "gaussian/rotation.h"
 
 namespace fcl_prob {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/constants.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "cobstacle/inner_pyramid.h"
 #include "cobstacle/portal.h"
-#include "gaussian/constants.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -11,12 +11,12 @@
 #include <optional>
 #include <string>
 
+#include "base/number_text.h"
 #include "cobstacle/flat_hull.h"
 #include "cobstacle/spanning_frame.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
-#include "gaussian/number_text.h"
 #include "geometry/length_limit.h"
 #include "geometry/quiet_qhull.h"
 

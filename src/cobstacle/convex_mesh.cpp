@@ -8,9 +8,9 @@
 #include <map>
 #include <utility>
 
+#include "base/power_of_two.h"
 #include "cobstacle/hull_slack.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "base/interruption.h"
 #include "cobstacle/convex_mesh.h"
 #include "cobstacle/face_set.h"
-#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "gaussian/power_of_two.h"
+#include "base/power_of_two.h"
 #include "geometry/exact_sum.h"
 #include "geometry/length.h"
 #include "geometry/validation.h"

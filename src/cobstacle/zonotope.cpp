@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/power_of_two.h"
 #include "cobstacle/perturbation.h"
-#include "gaussian/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {

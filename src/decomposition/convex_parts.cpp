@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "decomposition/cover_proof.h"
 #include "decomposition/hull_volume.h"
 #include "decomposition/padded_hull.h"
 #include "decomposition/piece_cutting.h"
 #include "decomposition/solid_cover_proof.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob {
 namespace {

@@ -8,11 +8,11 @@
 #include <map>
 #include <optional>
 
+#include "base/number_text.h"
 #include "cobstacle/convex_body_data.h"
 #include "decomposition/intersection_mass.h"
 #include "decomposition/overlap_samples.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/pair_bounds.h"

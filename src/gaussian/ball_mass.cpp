@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/normal_density.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob {
 namespace {

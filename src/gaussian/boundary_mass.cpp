@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/edge_quadrature.h"
 #include "gaussian/normal_density.h"
 

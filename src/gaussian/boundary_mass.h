@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "gaussian/interruption.h"
+#include "base/interruption.h"
 #include "gaussian/polytope_boundary.h"
 
 namespace fcl_prob::detail {

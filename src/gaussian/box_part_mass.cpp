@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
-#include "gaussian/constants.h"
-#include "gaussian/number_text.h"
 #include "gaussian/polytope_clip.h"
 
 namespace fcl_prob {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/principal_axes.h"
 
 namespace fcl_prob::detail {

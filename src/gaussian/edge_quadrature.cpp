@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "gaussian/boundary_kernel.h"
-#include "gaussian/constants.h"
 #include "gaussian/panel_quadrature.h"
 
 namespace fcl_prob::detail {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/normal_density.h"
 #include "gaussian/panel_quadrature.h"
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/constants.h"
 #include "gaussian/covariance_limits.h"
-#include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
 #include "gaussian/rotation.h"
 

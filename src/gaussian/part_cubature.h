@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/solid_part.h"
 
 namespace fcl_prob::detail {

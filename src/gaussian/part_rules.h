@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/density_kernels.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/normal_density.h"

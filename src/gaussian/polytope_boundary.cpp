@@ -8,10 +8,10 @@
 #include <limits>
 #include <string>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/constants.h"
 #include "gaussian/directed_edges.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -3,8 +3,8 @@
 // The mass of a polytope for a caller who does not need all its digits, or not at any price.
 #pragma once
 
+#include "base/interruption.h"
 #include "fcl_prob/polytope_mass.h"
-#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 

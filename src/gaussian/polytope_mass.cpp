@@ -9,12 +9,12 @@
 #include <optional>
 #include <string>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/agreed_bounds.h"
 #include "gaussian/boundary_mass.h"
-#include "gaussian/constants.h"
-#include "gaussian/number_text.h"
 #include "gaussian/polytope_effort.h"
 #include "gaussian/solid_mass.h"
 

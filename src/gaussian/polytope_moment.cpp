@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
 #include "gaussian/boundary_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/face_mass.h"
 #include "gaussian/normal_density.h"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/covariance_limits.h"
-#include "gaussian/number_text.h"
 #include "gaussian/principal_axes.h"
 #include "gaussian/rotation.h"
 

@@ -10,8 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "gaussian/constants.h"
-#include "gaussian/power_of_two.h"
+#include "base/constants.h"
+#include "base/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {

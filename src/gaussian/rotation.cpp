@@ -5,9 +5,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/pose_error.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob {
 namespace detail {

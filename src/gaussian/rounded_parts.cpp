@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/directed_edges.h"
 
 namespace fcl_prob::detail {

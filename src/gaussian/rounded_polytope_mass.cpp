@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/part_cubature.h"
 #include "gaussian/polytope_effort.h"
 #include "gaussian/rounded_parts.h"

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "base/interruption.h"
 #include "fcl_prob/polytope_mass.h"
-#include "gaussian/interruption.h"
 #include "gaussian/rounded_parts.h"
 
 namespace fcl_prob::detail {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/polytope_clip.h"
 #include "gaussian/tetrahedron_mass.h"
 

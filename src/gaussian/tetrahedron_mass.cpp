@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/constants.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/narrow_interval.h"
 #include "gaussian/normal_density.h"

@@ -4,7 +4,7 @@
 
 #include <fcl/geometry/octree/octree.h>
 
-#include "gaussian/number_text.h"
+#include "base/number_text.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/random_words.h"
 #include "montecarlo/obstacle_cover.h"
-#include "montecarlo/random_samples.h"
 
 namespace fcl_prob::detail {
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/random_words.h"
 #include "fcl_prob/mixture.h"
 #include "montecarlo/counting_run.h"
 #include "montecarlo/displaced_collider.h"
-#include "montecarlo/random_samples.h"
 
 namespace fcl_prob {
 namespace {

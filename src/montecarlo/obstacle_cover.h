@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "gaussian/interruption.h"
+#include "base/interruption.h"
 
 namespace fcl_prob::detail {
 

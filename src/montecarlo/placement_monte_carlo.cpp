@@ -5,10 +5,10 @@
 #include <Eigen/Eigenvalues>
 #include <string>
 
+#include "base/random_words.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/validation.h"
 #include "montecarlo/counting_run.h"
-#include "montecarlo/random_samples.h"
 
 namespace fcl_prob {
 namespace detail {

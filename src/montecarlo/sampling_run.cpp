@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/sampling_run.h"
-#include "request/answered.h"
+#include "base/answered.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "base/interruption.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/whitening.h"
-#include "gaussian/interruption.h"
 #include "montecarlo/obstacle_cover.h"
 
 namespace fcl_prob::detail {

@@ -3,8 +3,8 @@
 // The mass and the bounds of a convex pair for a caller who may not have the time.
 #pragma once
 
+#include "base/interruption.h"
 #include "fcl_prob/convex_pcd.h"
-#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 

@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/convex_pcd.h"
 
+#include "base/constants.h"
 #include "cobstacle/convex_body_data.h"
 #include "cobstacle/nearest.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/pair_bounds.h"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/constants.h"
+#include "base/power_of_two.h"
 #include "cobstacle/minkowski_sum.h"
-#include "gaussian/constants.h"
-#include "gaussian/power_of_two.h"
 #include "geometry/exact_sum.h"
 
 namespace fcl_prob::detail {

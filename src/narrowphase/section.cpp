@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/constants.h"
+#include "base/power_of_two.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
-#include "gaussian/power_of_two.h"
 #include "narrowphase/exact_hull.h"
 
 namespace fcl_prob::detail {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
+#include "base/number_text.h"
 #include "cobstacle/support_shape.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/prior_methods.h"
-#include "gaussian/constants.h"
-#include "gaussian/number_text.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/length.h"
 #include "geometry/mesh_visitor.h"

@@ -28,7 +28,7 @@ double truncatedNormal(double lo, double hi, double u) {
 
 // The axis along which the plane of a cell is steepest; -1 without a plane.
 int steepestAxis(const OpenCell& open) {
-  if (!open.has_plane) return -1;
+  if (!open.hasPlane()) return -1;
   int steepest = 0;
   for (int k = 1; k < open.cell.rank; ++k) {
     if (std::fabs(open.plane.m[k]) > std::fabs(open.plane.m[steepest])) steepest = k;
@@ -47,12 +47,12 @@ CellDraw drawFrom(const OpenCell& open, const Eigen::Vector3d& uniform) {
     if (k == steepest) continue;
     result.point[k] = truncatedNormal(cell.lo[k], cell.hi[k], uniform[k]);
     result.weight *= normalIntervalMass(cell.lo[k], cell.hi[k]);
-    if (open.has_plane) along += open.plane.m[k] * result.point[k];
+    if (open.hasPlane()) along += open.plane.m[k] * result.point[k];
   }
   if (steepest < 0) return result;
   const double slope = open.plane.m[steepest];
   double lo = (open.possible_from - along) / slope;
-  const double end = open.plane_covers ? open.plane.s : 2 * kReach;
+  const double end = open.planeCovers() ? open.plane.s : 2 * kReach;
   double hi = (end - along) / slope;
   if (slope < 0) std::swap(lo, hi);
   lo = std::clamp(lo, cell.lo[steepest], cell.hi[steepest]);
@@ -71,7 +71,7 @@ double largestWeight(const OpenCell& open) {
   double weight = 1.0 + kRounding;
   for (int k = 0; k < open.cell.rank; ++k) {
     double mass = normalIntervalMass(open.cell.lo[k], open.cell.hi[k]);
-    if (k == steepest && open.plane_covers) {
+    if (k == steepest && open.planeCovers()) {
       const double nearest = std::clamp(0.0, open.cell.lo[k], open.cell.hi[k]);
       const double density = kLargestDensity * std::exp(-0.5 * nearest * nearest);
       const double length =

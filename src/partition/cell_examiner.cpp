@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "partition/cell_layer.h"
+#include "cells/cell_layer.h"
 
 namespace fcl_prob::detail {
 
@@ -286,7 +286,7 @@ ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& m
   for (ObstaclePart& candidate : best) {
     if (candidate.share < kLeastCovered) break;
     CoveredPart& part = candidate.part;
-    if (open.plane_covers) part.planes[part.count++] = {-open.plane.m, -open.plane.s};
+    if (open.planeCovers()) part.planes[part.count++] = {-open.plane.m, -open.plane.s};
     const double covered = measure.mass(part, cutter_);
     const double gap = open.gap() - covered;
     if (with_moments_ && covered * measure.bend() > kMomentShare * gap) continue;
@@ -305,7 +305,7 @@ double CellExaminer::lowestOfFront(const OpenCell& open, const Eigen::Vector3d& 
   for (const FrontPair& pair : open.front) {
     if (result <= least) return result;
     double lowest = front_.lowestOfBox(pair, m);
-    if (lowest < result && pair.obstacle >= 0) {
+    if (lowest < result && pair.hasObstacle()) {
       lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
     }
     result = std::min(result, lowest);
@@ -326,7 +326,7 @@ void CellExaminer::addPart(OpenCell& open) {
   }
   const Eigen::Vector3d& m = possible.planes[0].m;
   open.possible_from = possible.planes[0].s;
-  open.has_plane = true;
+  open.tells = OpenCell::PlaneTells::possible;
   open.plane = best.part.planes[0];
   open.part = best.part;
   claim("part of a cell", true, open.cell, best.part);
@@ -398,7 +398,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   const auto consider = [&](const FrontPair& pair) {
     below_.pairs.clear();
     double lowest = front_.lowestOfBox(pair, m);
-    if (lowest < enough && pair.obstacle >= 0) {
+    if (lowest < enough && pair.hasObstacle()) {
       lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
     } else if (lowest < enough && budget > 0) {
       lowest = std::max(
@@ -434,8 +434,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   if (nothing_below) return settlePart(cell, leader.inner, 1.0);
 
   open.cell = cell;
-  open.has_plane = true;
-  open.plane_covers = true;
+  open.tells = OpenCell::PlaneTells::covered;
   open.plane = leader.inner;
   if (isCutBack(box)) {
     settlePart(cell, leader.inner, 1.0);
@@ -449,7 +448,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
 SettledMass CellExaminer::coveredPart(const OpenCell& open) const {
   SettledMass covered;
   covered.mass = {open.lower, open.lower};
-  if (open.plane_covers) {
+  if (open.planeCovers()) {
     const Moment moment = cellHalfSpaceMoment(open.cell, open.plane.m, open.plane.s);
     covered.moment += moment.value;
     covered.moment_error += moment.error;

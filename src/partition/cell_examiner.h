@@ -5,10 +5,10 @@
 
 #include <optional>
 
+#include "cells/claim_observer.h"
 #include "partition/cell_front.h"
-#include "partition/claim_observer.h"
-#include "partition/containment.h"
 #include "partition/crossing_witness.h"
+#include "pieces/containment.h"
 
 namespace fcl_prob::detail {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "gaussian/constants.h"
-#include "partition/band_margin.h"
+#include "base/constants.h"
+#include "pieces/band_margin.h"
 
 namespace fcl_prob::detail {
 
@@ -70,7 +70,7 @@ void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) 
 // The leaves first: for what they cover, the other pairs need not be refined.
 void CellFront::gather(const std::vector<FrontPair>& inherited) {
   for (const FrontPair& pair : inherited) {
-    if (pair.obstacle < 0) continue;
+    if (!pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
     if (meetsCell(obstacleBoxOf(pair))) gatherLeaf(pair);
     if (cell_.empty()) return;
@@ -106,7 +106,7 @@ void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
 }
 
 CuttingPair CellFront::addHalfSpace(const CellPlane& plane) {
-  const FrontPair pair{{-1, -1}, obstacles_.addHalfSpace(plane.m, plane.s)};
+  const FrontPair pair = FrontPair::ofHalfSpace(obstacles_.addHalfSpace(plane.m, plane.s));
   CuttingPair cutting{pair, 1, 0.0, {}, 0.0, 2.0};
   setPlane({CellRelation::cut, 1, 0, false, 0.0}, cutting);
   return cutting;
@@ -192,13 +192,12 @@ void CellFront::noteDepth(const CuttingPair& cutting) {
 void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
   ordered_.clear();
   for (const FrontPair& pair : inherited) {
-    if (pair.obstacle >= 0) continue;
+    if (pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
     const NodeBox box = obstacleBox(pair_, pair.nodes);
     if (!meetsCell(box)) continue;
     if (largerThanCell(pair, box, kProbeRatio)) {
-      const int obstacle = areLeaves(pair_, pair.nodes) ? obstacles_.find(pair.nodes) : -1;
-      ordered_.emplace_back(eccentricity(box), BoxedPair{{pair.nodes, obstacle}, box});
+      ordered_.emplace_back(eccentricity(box), BoxedPair{obstacles_.frontPair(pair.nodes), box});
     } else {
       coarse_.push_back(pair);
     }
@@ -220,7 +219,7 @@ void CellFront::refine(const BoxedPair& coarse, int& probes) {
     stack_.pop_back();
     ++statistics_.pairs_tested;
     if (!meetsCell(boxed.box)) continue;
-    if (pair.obstacle >= 0) {
+    if (pair.hasObstacle()) {
       --probes;
       const std::size_t before = cutting_.size();
       gatherLeaf(pair);
@@ -244,8 +243,7 @@ void CellFront::expand(const BoxedPair& boxed) {
   const int last = eccentricity(boxes[0]) < eccentricity(boxes[1]) ? 0 : 1;
   for (const int i : {1 - last, last}) {
     if (!meetsCell(boxes[i])) continue;
-    const int obstacle = areLeaves(pair_, children[i]) ? obstacles_.find(children[i]) : -1;
-    stack_.push_back({{children[i], obstacle}, boxes[i]});
+    stack_.push_back({obstacles_.frontPair(children[i]), boxes[i]});
   }
 }
 
@@ -386,7 +384,7 @@ double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& 
     }
     if (lowest >= result || areLeaves(pair_, nodes) || budget <= 0) {
       result = std::min({result, lowest, sought.known});
-      below.pairs.push_back({nodes, -1});
+      below.pairs.push_back(FrontPair::ofNodes(nodes));
       continue;
     }
     --budget;
@@ -394,7 +392,8 @@ double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& 
     const std::array<NodeBox, 2> boxes{obstacleBox(pair_, children[0]),
                                        obstacleBox(pair_, children[1])};
     const int last = lowestInCell(boxes[0], m) < lowestInCell(boxes[1], m) ? 0 : 1;
-    for (const int i : {1 - last, last}) stack_.push_back({{children[i], -1}, boxes[i]});
+    for (const int i : {1 - last, last})
+      stack_.push_back({FrontPair::ofNodes(children[i]), boxes[i]});
   }
   return std::min(result, below.lowest_of_others);
 }
@@ -406,7 +405,7 @@ bool CellFront::clip(const FrontPair& pair, Cell& part) const {
     part.lo[k] = std::max(box.lo[k], cell_.lo[k]);
     part.hi[k] = std::min(box.hi[k], cell_.hi[k]);
   }
-  if (pair.obstacle < 0) return !part.empty();
+  if (!pair.hasObstacle()) return !part.empty();
   for (int round = 0; round < kClipRounds && !part.empty(); ++round) {
     double lo[3] = {part.lo[0], part.lo[1], part.lo[2]};
     double hi[3] = {part.hi[0], part.hi[1], part.hi[2]};

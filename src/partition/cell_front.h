@@ -7,9 +7,9 @@
 
 #include "cobstacle/cell_section.h"
 #include "fcl_prob/probability_result.h"
-#include "partition/node_support.h"
-#include "partition/obstacle_table.h"
 #include "partition/open_cell.h"
+#include "pieces/node_support.h"
+#include "pieces/obstacle_table.h"
 
 namespace fcl_prob::detail {
 

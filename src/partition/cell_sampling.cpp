@@ -2,13 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/cell_sampling.h"
 
-#include <Random123/philox.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/random_words.h"
 #include "partition/cell_draw.h"
 
 namespace fcl_prob::detail {
@@ -34,16 +33,8 @@ constexpr std::size_t kCellsBetweenPolls = 16;
 
 // A point of the unit cube for one set of samples of a cell.
 Eigen::Vector3d uniformPoint(std::uint64_t seed, std::uint64_t cell, std::uint64_t set) {
-  using Generator = r123::Philox4x64;
-  Generator generator;
-  const Generator::ctr_type counter = {{cell, set, 0x63656c6c, 0}};
-  const Generator::key_type key = {{seed, 0}};
-  const Generator::ctr_type bits = generator(counter, key);
-  Eigen::Vector3d point;
-  for (int k = 0; k < 3; ++k) {
-    point[k] = (static_cast<double>(bits[static_cast<std::size_t>(k)] >> 11) + 0.5) * 0x1p-53;
-  }
-  return point;
+  const std::array<std::uint64_t, 4> words = randomWords({seed}, cell, set, 0x63656c6c);
+  return {unitUniform(words[0]), unitUniform(words[1]), unitUniform(words[2])};
 }
 
 // Point `index` of an additive sequence that fills the unit cube evenly: multiples of the powers of

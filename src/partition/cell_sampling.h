@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gaussian/interruption.h"
+#include "base/interruption.h"
 #include "partition/point_tester.h"
 
 namespace fcl_prob::detail {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/constants.h"
-#include "partition/band_margin.h"
+#include "base/constants.h"
+#include "pieces/band_margin.h"
 
 namespace fcl_prob::detail {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "partition/capped_tree.h"
 #include "partition/open_cell.h"
+#include "pieces/capped_tree.h"
 
 namespace fcl_prob::detail {
 

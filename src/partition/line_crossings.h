@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "partition/obstacle_table.h"
+#include "pieces/obstacle_table.h"
 
 namespace fcl_prob::detail {
 

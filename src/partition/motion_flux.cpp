@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/motion_flux.h"
 
-#include <Random123/philox.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -13,11 +12,11 @@
 #include <cmath>
 #include <memory>
 
+#include "base/random_words.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/normal_density.h"
-#include "partition/containment.h"
 #include "partition/line_crossings.h"
-#include "partition/unit_uniform.h"
+#include "pieces/containment.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -42,8 +41,7 @@ struct RandomLine {
 };
 
 RandomLine randomLine(std::uint64_t seed, std::uint64_t number, int rank) {
-  r123::Philox4x64 generator;
-  const r123::Philox4x64::ctr_type words = generator({{number, 0, 0, 0}}, {{seed, 0x6c696e65}});
+  const std::array<std::uint64_t, 4> words = randomWords({seed, 0x6c696e65}, number);
   if (rank == 1) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()};
   const double radius = std::sqrt(-2.0 * std::log(unitUniform(words[0])));
   const double turn = kTwoPi * unitUniform(words[1]);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
-#include "partition/partition_object.h"
+#include "pieces/partition_object.h"
 
 namespace fcl_prob::detail {
 

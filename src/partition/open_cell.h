@@ -8,28 +8,26 @@
 #include <cstddef>
 #include <vector>
 
-#include "partition/covered_part.h"
-#include "partition/whitened_tree.h"
+#include "cells/covered_part.h"
+#include "pieces/front_pair.h"
 
 namespace fcl_prob::detail {
 
-/// A pair of nodes whose C-obstacle may meet a cell. At two leaves `obstacle` is its index in the
-/// ObstacleTable, otherwise -1. Without nodes (a = b = -1) it is a half-space of which the part
-/// within the cell is known to collide, whatever pairs cause that.
-struct FrontPair {
-  NodePair nodes;
-  int obstacle;
-
-  bool isHalfSpace() const { return nodes.a < 0; }
-};
-
-/// An unresolved cell. With a plane, nothing below `possible_from` along its normal collides; if it
-/// covers, all above it certainly does. So does `part`, which has none of that.
+/// An unresolved cell. `part` of it certainly collides, and has none of what the plane covers.
 struct OpenCell {
+  /// What its plane tells of it.
+  enum class PlaneTells {
+    nothing,   ///< there is none
+    possible,  ///< nothing below `possible_from` along its normal collides
+    covered    ///< that, and that all above the plane collides
+  };
+
+  bool hasPlane() const { return tells != PlaneTells::nothing; }
+  bool planeCovers() const { return tells == PlaneTells::covered; }
+
   Cell cell;
   std::vector<FrontPair> front;
-  bool has_plane = false;
-  bool plane_covers = false;
+  PlaneTells tells = PlaneTells::nothing;
   CellPlane plane;
   CoveredPart part;
   double possible_from = 0.0;

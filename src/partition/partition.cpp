@@ -10,12 +10,12 @@
 #include <string>
 #include <utility>
 
+#include "base/number_text.h"
+#include "carving/carved_partition.h"
+#include "cells/claim_observer.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
-#include "partition/carved_partition.h"
 #include "partition/cell_sampling.h"
-#include "partition/claim_observer.h"
 #include "partition/partition_engine.h"
 #include "partition/query_frame.h"
 #include "partition/without_contact.h"

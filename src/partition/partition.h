@@ -7,8 +7,8 @@
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "partition/ball_truncation.h"
-#include "partition/containment.h"
-#include "partition/piece_tree.h"
+#include "pieces/containment.h"
+#include "pieces/piece_tree.h"
 
 namespace fcl_prob::detail {
 

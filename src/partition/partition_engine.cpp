@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/constants.h"
-#include "partition/band_margin.h"
-#include "partition/cell_split.h"
-#include "partition/rounded_sum.h"
+#include "base/constants.h"
+#include "base/rounded_sum.h"
+#include "cells/cell_split.h"
+#include "partition/band_stall.h"
 
 namespace fcl_prob::detail {
 
@@ -76,8 +76,7 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
     root.hi[i] = reach;
   }
   // Two single pieces are a pair of leaves from the start: there is nothing to expand.
-  const NodePair roots{0, 0};
-  add(examine(root, {{roots, areLeaves(pair, roots) ? obstacles_.find(roots) : -1}}));
+  add(examine(root, {obstacles_.frontPair({0, 0})}));
 }
 
 Examination PartitionEngine::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
@@ -90,7 +89,7 @@ void PartitionEngine::add(Examination&& examination) {
   settled_ += examination.settled;
   if (!examination.open) return;
   OpenCell& cell = *examination.open;
-  if (band_ && band_->isAllThatIsLeft(cell)) {
+  if (band_ && isAllBand(cell, *band_)) {
     left_by_band_ += cell.gap();
     return settleAsItIs(cell);
   }
@@ -127,7 +126,8 @@ void PartitionEngine::divideLargest() {
 // Children whose gap is not much smaller would soon be taken from the queue: dividing them at once,
 // as long as the data of their front are at hand, saves most of the memory traffic.
 void PartitionEngine::divide(const OpenCell& parent, double soon, int levels, std::size_t awaited) {
-  const CellSplit split = chooseSplit(parent, scales_);
+  const CellSplit split = chooseSplit(
+      parent.cell, scales_, parent.hasPlane() ? parent.plane.m : Eigen::Vector3d::Zero().eval());
   if (split.axis < 0) {
     indivisible_ = true;
     return settleAsItIs(parent);

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/engine_limits.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "partition/ball_truncation.h"
 #include "partition/cell_sampling.h"
-#include "partition/engine_limits.h"
 
 namespace fcl_prob::detail {
 

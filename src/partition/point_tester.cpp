@@ -51,7 +51,7 @@ void PointTester::decide(const std::vector<FrontPair>& front, std::vector<Tested
   for (const bool leaves : {true, false}) {
     for (const FrontPair& pair : front) {
       if (undecided_.empty()) return;
-      if ((pair.obstacle >= 0) == leaves) testPair(pair, points);
+      if ((pair.hasObstacle()) == leaves) testPair(pair, points);
     }
   }
   decideContainment(points);
@@ -139,7 +139,7 @@ PointTester::Range PointTester::choose(const FrontPair& pair) {
 void PointTester::testParts(const FrontPair& coarse, Range all, std::vector<TestedPoint>& points) {
   const auto open = [this](const FrontPair& pair, Range chosen) {
     for (const NodePair& child : childrenOf(pair_, pair.nodes)) {
-      stack_.push_back({{child, -1}, chosen});
+      stack_.push_back({FrontPair::ofNodes(child), chosen});
     }
   };
   stack_.clear();
@@ -179,12 +179,12 @@ PointTester::Range PointTester::dropExcluded(const FaceSlabs& slabs, Range chose
 
 void PointTester::testLeaves(const FrontPair& pair, Range chosen,
                              std::vector<TestedPoint>& points) {
-  if (pair.obstacle < 0 && obstacles_.areTriangles(pair.nodes)) {
+  if (!pair.hasObstacle() && obstacles_.areTriangles(pair.nodes)) {
     chosen = dropExcluded(obstacles_.faceSlabs(pair.nodes), chosen, points);
     if (chosen.begin == chosen.end) return;
   }
   const SlabArrays slabs =
-      pair.obstacle >= 0 ? obstacles_.slabs(pair.obstacle) : obstacles_.slabsOnce(pair.nodes);
+      pair.hasObstacle() ? obstacles_.slabs(pair.obstacle) : obstacles_.slabsOnce(pair.nodes);
   for (std::size_t i = chosen.begin; i < chosen.end; ++i) {
     TestedPoint& point = points[chosen_[i]];
     const CellRelation relation = slabKernels().classifyPoint(slabs, point.y.data());

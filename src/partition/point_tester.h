@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "partition/claim_observer.h"
-#include "partition/containment.h"
-#include "partition/obstacle_table.h"
+#include "carving/whole_body_tester.h"
+#include "cells/claim_observer.h"
 #include "partition/open_cell.h"
-#include "partition/whole_body_tester.h"
+#include "pieces/containment.h"
+#include "pieces/obstacle_table.h"
 
 namespace fcl_prob::detail {
 

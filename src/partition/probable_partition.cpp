@@ -2,13 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/probable_partition.h"
 
-#include <Random123/philox.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
-#include "partition/unit_uniform.h"
+#include "base/random_words.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -37,11 +36,9 @@ struct RandomSample {
 };
 
 RandomSample randomSample(std::uint64_t seed, std::uint64_t number) {
-  using Generator = r123::Philox4x64;
-  Generator generator;
-  const Generator::key_type key = {{seed, 0x70726f62}};
-  const Generator::ctr_type point = generator({{number, 0, 0, 0}}, key);
-  const Generator::ctr_type other = generator({{number, 1, 0, 0}}, key);
+  const RandomStream stream{seed, 0x70726f62};
+  const std::array<std::uint64_t, 4> point = randomWords(stream, number, 0);
+  const std::array<std::uint64_t, 4> other = randomWords(stream, number, 1);
   return {unitUniform(other[0]),
           unitUniform(other[1]),
           {unitUniform(point[0]), unitUniform(point[1]), unitUniform(point[2])}};
@@ -49,7 +46,7 @@ RandomSample randomSample(std::uint64_t seed, std::uint64_t number) {
 
 // More of what one plane covers than the open cell counts.
 double uncountedOf(const OpenCell& open) {
-  if (!open.plane_covers) return 0.0;
+  if (!open.planeCovers()) return 0.0;
   const Bounds mass = cellHalfSpaceMass(open.cell, open.plane.m, open.plane.s, kCoveredAccuracy);
   return mass.upper - mass.lower;
 }

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "fcl_prob/exceptions.h"
-#include "partition/band_margin.h"
-#include "partition/closest_approach.h"
+#include "pieces/band_margin.h"
+#include "pieces/closest_approach.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/whitening.h"
-#include "partition/whitened_tree.h"
+#include "pieces/whitened_tree.h"
 
 namespace fcl_prob::detail {
 

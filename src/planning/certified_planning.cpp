@@ -6,12 +6,12 @@
 #include <chrono>
 #include <functional>
 
+#include "base/number_text.h"
+#include "base/refuse_band.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "planning/motion_descent.h"
 #include "planning/moving_joints.h"
 #include "planning/state_screen.h"
-#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {

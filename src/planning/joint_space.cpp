@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "planning/moving_joints.h"
 
 namespace fcl_prob::detail {

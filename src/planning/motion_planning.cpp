@@ -9,8 +9,8 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "planning/joint_space.h"
 #include "planning/quiet_ompl.h"
 #include "planning/shorten_path.h"

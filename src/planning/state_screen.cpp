@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/random_words.h"
 #include "fcl_prob/monte_carlo.h"
-#include "montecarlo/random_samples.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "query/prepared_geometry.h"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "montecarlo/random_samples.h"
+#include "base/random_words.h"
 
 namespace fcl_prob::detail {
 namespace {

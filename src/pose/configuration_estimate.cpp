@@ -6,12 +6,12 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "base/answered.h"
+#include "base/constants.h"
 #include "pose/counting_source.h"
 #include "pose/pair_source.h"
 #include "pose/query_costs.h"
 #include "query/single_collide.h"
-#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -5,17 +5,17 @@
 #include <cmath>
 #include <functional>
 
+#include "base/constants.h"
+#include "base/number_text.h"
+#include "base/random_words.h"
+#include "base/refuse_band.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/pose_probability.h"
-#include "gaussian/constants.h"
-#include "gaussian/number_text.h"
 #include "montecarlo/placement_monte_carlo.h"
-#include "montecarlo/random_samples.h"
 #include "montecarlo/sample_loop.h"
 #include "pose/configuration_estimate.h"
 #include "pose/sampled_configuration.h"
 #include "query/single_collide.h"
-#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/random_words.h"
 #include "fcl_prob/triangle_mesh.h"
 #include "fcl_prob/whitening.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
-#include "montecarlo/random_samples.h"
-#include "partition/whitened_tree.h"
+#include "pieces/whitened_tree.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/constants.h"
+#include "base/random_words.h"
 #include "fcl_prob/monte_carlo.h"
-#include "gaussian/constants.h"
-#include "montecarlo/random_samples.h"
 #include "pose/query_costs.h"
 #include "pose/sampled_configuration.h"
 

@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/pose_probability.h"
 
+#include "base/refuse_band.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/validation.h"
 #include "pose/configuration_estimate.h"
 #include "pose/pose_interval.h"
 #include "query/pair_query.h"
-#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {

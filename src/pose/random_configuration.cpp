@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "pose/moved_frame.h"
 

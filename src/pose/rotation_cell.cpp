@@ -7,8 +7,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "base/constants.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/normal_density.h"
 #include "gaussian/rotation.h"
 #include "partition/ball_truncation.h"

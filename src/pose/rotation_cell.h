@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_prob/bounds.h"
-#include "partition/point_motion.h"
+#include "pieces/point_motion.h"
 #include "pose/moved_frame.h"
 
 namespace fcl_prob::detail {

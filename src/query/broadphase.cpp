@@ -6,13 +6,13 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/refuse_band.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "query/call_budget.h"
 #include "query/object_pairs.h"
 #include "query/pair_query.h"
-#include "request/refuse_band.h"
 
 namespace fcl_prob {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/constants.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/constants.h"
 
 namespace fcl_prob {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/normal_density.h"
 
 namespace fcl_prob::detail {

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "gaussian/constants.h"
+#include "base/answered.h"
+#include "base/constants.h"
 #include "query/call_budget.h"
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
-#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {

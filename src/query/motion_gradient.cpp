@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "montecarlo/sampling_run.h"
 
 namespace fcl_prob {

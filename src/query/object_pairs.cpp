@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 
 namespace fcl_prob::detail {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/pair_query.h"
 
+#include "base/answered.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/occupancy.h"
@@ -15,7 +16,6 @@
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
 #include "query/unbounded_pair.h"
-#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {

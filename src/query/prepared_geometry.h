@@ -14,7 +14,7 @@
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/probability_request.h"
 #include "geometry/closed_mesh.h"
-#include "partition/piece_tree.h"
+#include "pieces/piece_tree.h"
 
 namespace fcl_prob::detail {
 

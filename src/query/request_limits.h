@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/interruption.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
-#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 

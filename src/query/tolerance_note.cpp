@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/tolerance_note.h"
 
-#include "gaussian/number_text.h"
+#include "base/number_text.h"
 
 namespace fcl_prob::detail {
 

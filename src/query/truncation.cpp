@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/answered.h"
+#include "base/constants.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/constants.h"
 #include "query/single_collide.h"
-#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "geometry/exact_sum.h"
 #include "geometry/geometry_kind.h"
 #include "query/line_intervals.h"

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "fcl_prob/robot.h"
-#include "partition/point_motion.h"
+#include "pieces/point_motion.h"
 #include "robot/body_balls.h"
 
 namespace fcl_prob::detail {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_query.h"
-#include "gaussian/number_text.h"
 #include "robot/waypoint_steps.h"
 
 namespace fcl_prob {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "robot/urdf_values.h"
 
 namespace fcl_prob::detail {

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <utility>
 
+#include "base/answered.h"
 #include "fcl_prob/combined_bounds.h"
 #include "query/call_budget.h"
 #include "query/single_collide.h"
-#include "request/answered.h"
 
 namespace fcl_prob::detail {
 namespace {

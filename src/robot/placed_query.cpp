@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/answered.h"
 #include "query/call_budget.h"
 #include "query/groups_query.h"
 #include "query/single_collide.h"
-#include "request/answered.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
 #include "robot/sum_above.h"

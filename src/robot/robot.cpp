@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "robot/kinematics.h"
 #include "robot/urdf_shapes.h"

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
+#include "base/refuse_band.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "query/call_budget.h"
 #include "query/motion_gradient.h"
 #include "query/prepared_geometry.h"
-#include "request/refuse_band.h"
 #include "robot/gradient_parts.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/answered.h"
 #include "query/call_budget.h"
 #include "query/single_collide.h"
-#include "request/answered.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {

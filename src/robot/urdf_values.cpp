@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob::detail {
 

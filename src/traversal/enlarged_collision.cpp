@@ -5,10 +5,10 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "cobstacle/nearest.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/prior_methods.h"
-#include "gaussian/number_text.h"
 #include "geometry/validation.h"
 #include "narrowphase/sphere_methods.h"
 #include "traversal/geometry_tree.h"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/interruption.h"
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/interruption.h"
-#include "gaussian/number_text.h"
 
 namespace fcl_prob::detail {
 namespace {

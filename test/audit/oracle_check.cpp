@@ -6,7 +6,7 @@
 
 #include "oracle/oracle.h"
 // The audit can be built on versions of the library that do not hand out what they claim.
-#if __has_include("partition/claim_observer.h")
+#if __has_include("cells/claim_observer.h")
 #include "oracle/claim_checker.h"
 #define FCL_PROB_AUDIT_CLAIMS 1
 #endif

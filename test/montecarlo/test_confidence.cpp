@@ -3,11 +3,11 @@
 #include <cmath>
 #include <random>
 
+#include "base/random_words.h"
 #include "catch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "montecarlo/confidence.h"
-#include "montecarlo/random_samples.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob::detail;

@@ -7,8 +7,8 @@
 
 #include <sstream>
 
+#include "cells/claim_observer.h"
 #include "claim_region.h"
-#include "partition/claim_observer.h"
 #include "whitened_frame.h"
 
 namespace oracle {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <random>
 
-#include "partition/covered_part.h"
+#include "cells/covered_part.h"
 
 namespace oracle {
 

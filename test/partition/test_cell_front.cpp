@@ -116,7 +116,7 @@ TEST_CASE("parts of a pair that may reach below a level are all told", "[front]"
     const double known = random.integer(0, 1) ? level - random.uniform(0, 1) : 1e300;
     CellFront::PartsBelow below;
     int budget = random.integer(0, 1) ? 1000000 : random.integer(0, 50);
-    const FrontPair roots{{0, 0}, -1};
+    const FrontPair roots = FrontPair::ofNodes({0, 0});
     const double lowest = front.lowestOfParts(roots, m, {level, known}, budget, below);
     std::set<std::pair<int, int>> told;
     for (const FrontPair& pair : below.pairs) {

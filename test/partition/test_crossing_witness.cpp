@@ -44,7 +44,8 @@ class WitnessCase {
     for (int a : level(*meshes_.tree_a)) {
       for (int b : level(*meshes_.tree_b)) {
         const NodeBox box = obstacleBox(meshes_.pair.a.boxes[a], meshes_.pair.b.boxes[b]);
-        if (!isClearOf(box, cell.lo.data(), cell.hi.data())) pairs.push_back({{a, b}, -1});
+        if (!isClearOf(box, cell.lo.data(), cell.hi.data()))
+          pairs.push_back(FrontPair::ofNodes({a, b}));
       }
     }
     return pairs;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "carving/carved_partition.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "carving/carving_engine.h"
+#include "pieces/whole_body.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Masses of cells are not computed to more digits than a tolerance of this needs.
+constexpr double kLeastTolerance = 1e-4;
+
+// Pieces of nearly convex meshes may take one part in so many of the memory.
+constexpr std::size_t kShareOfPieces = 8;
+
+std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
+  const std::string name = fan_is_a ? "A" : "B";
+  const std::string triangles = std::to_string(body.tree->triangles.size());
+  const std::string faces = std::to_string(obstacles.faceCount());
+  const auto& parts = body.tree->parts;
+  const auto nearly = std::count_if(parts.begin(), parts.end(),
+                                    [](const PieceTree::Part& part) { return !part.fan; });
+  if (nearly > 0) {
+    return std::to_string(nearly) + " of " + std::to_string(parts.size()) + " members of " + name +
+           " nearly convex, the others convex: taken between two polytopes, or as one, of " +
+           faces + " faces together, no tree of their " + triangles + " triangles";
+  }
+  if (obstacles.count() == 1) {
+    return "object " + name + " is convex: one piece of " + faces + " faces, no tree of its " +
+           triangles + " triangles";
+  }
+  return "the " + std::to_string(obstacles.count()) + " members of " + name +
+         " are convex: a piece each, of " + faces + " faces together, no tree of their " +
+         triangles + " triangles";
+}
+
+}  // namespace
+
+bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
+                 const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
+  if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
+  if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
+  return wholeBodyOf(a, b, displacement, Convexity::nearly).has_value();
+}
+
+bool carve(const PartitionObject& a, const PartitionObject& b,
+           const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+           ProbabilityResult& result) {
+  const auto whole = wholeBodyOf(a, b, displacement, Convexity::nearly);
+  if (!whole) return false;
+  const auto& [body, mesh, fan_is_a] = *whole;
+  if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
+  const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
+  const Whitening whitening(displacement, unit);
+  const WhitenedPair pair = whiten(a, b, whitening);
+  FatMembers obstacles(pair, body, fan_is_a, whitening.matrix());
+  if (!obstacles.usable()) return false;
+  if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
+    obstacles.keepHullsClosed();
+  }
+  std::optional<SolidContact> solids;
+  if (a.hasSolid() || b.hasSolid()) solids.emplace(a, b, whitening, pair);
+  for (int member = 0; member < obstacles.count(); ++member) {
+    if (mayHoldPart(*whole, obstacles.partOf(member), obstacles.of(member))) return false;
+  }
+  if (claim_observer) claim_observer->frame(whitening, displacement);
+  CarvingEngine engine(obstacles, solids ? &*solids : nullptr, request, result.statistics);
+  result.method = ProbabilityMethod::interval;
+  result.status = engine.run();
+  if (obstacles.failed()) return false;
+  const Bounds interval = engine.interval();
+  result.lower = interval.lower;
+  result.upper = interval.upper;
+  if (result.status == ProbabilityStatus::resolution_limit) return false;
+  result.plan.push_back(convexNote(body, obstacles, fan_is_a));
+  result.plan.push_back("partition of the displacement space along the C-obstacles' own planes: " +
+                        std::to_string(result.statistics.cells) + " cells, " +
+                        std::to_string(result.statistics.leaf_pairs) + " C-obstacles");
+  if (solids) result.plan.push_back("containment decided once for every free cell");
+  return true;
+}
+
+}  // namespace fcl_prob::detail

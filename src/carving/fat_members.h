@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The C-obstacles of several convex bodies that move as one, and the triangles of another mesh.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "carving/fat_obstacles.h"
+
+namespace fcl_prob::detail {
+
+/// One V_t = P ⊕ T_t.
+struct FatObstacle {
+  int member = -1;    ///< whose P it is; -1: none at all
+  int triangle = -1;  ///< t
+};
+
+/// P ⊕ a box of the tree of the mesh.
+struct FatNode {
+  int member;
+  int node;
+};
+
+/// FatObstacles of every member, in the same frame and of the same mesh. A part that is convex is
+/// one member; one that is nearly convex two, its core and the hull around it.
+class FatMembers {
+ public:
+  /// \param body    of which every part is convex, or nearly; A if `fan_is_a`
+  /// \param matrix  that of the whitening
+  ///
+  /// Keeps references to the pair and the body.
+  FatMembers(const WhitenedPair& pair, const PartitionObject& body, bool fan_is_a,
+             const Eigen::Matrix3d& matrix);
+
+  /// Of one that has not been asked for anything.
+  static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);
+
+  /// What all piecesWithin() take in addition.
+  static std::size_t memoryOfPieces(const PartitionObject& body, const PartitionObject& mesh);
+
+  /// From here on there are no pieces.
+  void keepHullsClosed() { hulls_stay_closed_ = true; }
+
+  FatObstacles& of(int member) { return members_[member]; }
+  const FatObstacles& of(int member) const { return members_[member]; }
+  int count() const { return static_cast<int>(members_.size()); }
+
+  /// The part that it is, or is in, or is around.
+  std::size_t partOf(int member) const { return parts_[member].index; }
+
+  /// Whether it is a hull: what does not touch it does not touch its part, and no more is said.
+  /// What touches any other member touches the body.
+  bool encloses(int member) const { return parts_[member].encloses; }
+
+  /// The members beside its core that a hull is around: what touches none of all these does not
+  /// touch the part. They are made when they are first asked for; empty if there are none.
+  const std::vector<int>& piecesWithin(int hull);
+
+  const WhitenedTree& mesh() const { return members_.front().mesh(); }
+
+  /// Where the faces of a member begin among those of all.
+  int firstFace(int member) const { return first_faces_[member]; }
+  int faceCount() const { return first_faces_.back(); }
+
+  bool usable() const;
+  bool failed() const;
+  std::size_t memory() const;
+  std::size_t built() const;
+
+ private:
+  struct OfPart {
+    std::size_t index;
+    bool encloses;
+    std::optional<std::vector<int>> pieces;
+  };
+
+  void add(std::size_t part, const ConvexFan& fan, bool encloses);
+
+  const WhitenedPair& pair_;
+  const PartitionObject& body_;
+  const bool fan_is_a_;
+  const Eigen::Matrix3d matrix_;
+  bool hulls_stay_closed_ = false;
+  std::deque<FatObstacles> members_;
+  std::vector<OfPart> parts_;  ///< by member
+  std::vector<int> first_faces_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The C-obstacles of one convex mesh, taken whole, and the triangles of another mesh.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "pieces/whitened_fan.h"
+
+namespace fcl_prob::detail {
+
+/// A plane of a C-obstacle V in the whitened frame: V lies in { n·y <= outer }, |n| = 1. What lies
+/// in { n·y <= outer - margin } for all planes of V belongs to V.
+struct ObstaclePlane {
+  Eigen::Vector3d n;
+  double outer;
+  double margin;
+
+  double inner() const { return outer - margin; }
+};
+
+/// V_t = P ⊕ T_t for every triangle t of the mesh (docs/rounding.md tells what its planes are):
+/// planes across the normals of P, offset by the triangle's extent, are shared by all; those across
+/// an edge of the triangle and one of P, and the triangle's own, are made when they are first asked
+/// for. All is relative to the centre of P, which is within P.
+class FatObstacles : public WhitenedFan {
+ public:
+  FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
+               bool fan_is_a, const Eigen::Matrix3d& linear);
+
+  /// Of one of so many triangles that has not been asked for anything.
+  static std::size_t leastMemory(std::size_t triangles) {
+    return triangles * sizeof(std::unique_ptr<Details>);
+  }
+
+  ObstaclePlane facePlane(int triangle, int face) const;
+
+  /// The offsets of the face planes of V_t (see ObstaclePlane::outer), without what is added for
+  /// rounding.
+  const std::vector<double>& faceOffsets(int triangle);
+
+  /// All other planes.
+  const std::vector<ObstaclePlane>& otherPlanes(int triangle);
+
+  /// Not below the margin of any face plane of V_t.
+  double mostMargin(int triangle) const { return largestMargin() + details_[triangle]->loss; }
+
+  /// Whether a triangle or an edge turned out too degenerate for anything to be said of what its
+  /// obstacle contains.
+  bool failed() const { return failed_; }
+
+  /// In which half of the doubled middle of T ⊕ P: a point of V_t.
+  Eigen::Vector3d middle(int triangle) const { return corners(triangle).rowwise().mean(); }
+
+  std::size_t memory() const { return memory_; }
+  std::size_t built() const { return built_; }
+
+ private:
+  struct Details {
+    std::vector<double> offsets;
+    std::vector<ObstaclePlane> planes;
+    bool has_planes = false;
+    double loss = 0.0;  ///< added to all margins
+  };
+
+  Details& details(int triangle);
+  void buildPlanes(int triangle, Details& into);
+  void addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const;
+  void addEdge(const Eigen::Matrix3d& corners, int edge, Details& into);
+  ObstaclePlane planeAcross(const Eigen::Matrix3d& corners, const Eigen::Vector3d& n,
+                            double of_p) const;
+
+  bool failed_ = false;
+  std::vector<std::unique_ptr<Details>> details_;
+  Eigen::VectorXd along_;  // of an edge, on every normal
+  std::size_t memory_ = 0;
+  std::size_t built_ = 0;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cells/cell_layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fcl_prob::detail {
+
+Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to) {
+  Cell box = cell;
+  const double least = m.dot(cell.lowestCorner(m));
+  const double most = m.dot(cell.lowestCorner(-m));
+  for (int k = 0; k < cell.rank; ++k) {
+    const double slope = std::fabs(m[k]);
+    const double own = slope * (cell.hi[k] - cell.lo[k]);
+    // What the other axes add up to is often nothing, but for rounding of either sign: the margin
+    // pays for it only where it comes off before anything is known to be positive.
+    const double others = most - least - own;
+    // Starting at either end of the cell along m, the planes are met after at least so much of k.
+    const double from_least = std::max(from - least - others - kLayerMargin, 0.0);
+    const double from_most = std::max(most - to - others - kLayerMargin, 0.0);
+    if (!(from_least + from_most < own)) continue;
+    double& near = m[k] > 0 ? box.lo[k] : box.hi[k];
+    double& far = m[k] > 0 ? box.hi[k] : box.lo[k];
+    const double sign = m[k] > 0 ? 1.0 : -1.0;
+    near += sign * from_least / slope;
+    far -= sign * from_most / slope;
+  }
+  return box;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "partition/band_stall.h"
+
+#include <algorithm>
+
+namespace fcl_prob::detail {
+namespace {
+
+// Shares of the band's thickness: of the widths of a cell that is small beside it, and of a layer
+// that is not worth making thinner.
+constexpr double kSmallCell = 0.7;
+constexpr double kThinnestLayer = 1.2;
+
+double thicknessAlong(const Eigen::Vector3d& m, const OpenCell& open, const BandMargin& band) {
+  if (!band.isOfSweeps()) return band.thicknessAlong(m);
+  double most = 0.0;
+  for (const FrontPair& pair : open.front) {
+    if (!pair.isHalfSpace()) most = std::max(most, band.outwardAlong(m, pair.nodes));
+  }
+  return most;
+}
+
+}  // namespace
+
+bool isAllBand(const OpenCell& open, const BandMargin& band) {
+  bool small = true;
+  for (int k = 0; k < open.cell.rank && small; ++k) {
+    const double thickness = thicknessAlong(Eigen::Vector3d::Unit(k), open, band);
+    small = open.cell.hi[k] - open.cell.lo[k] <= kSmallCell * thickness;
+  }
+  if (small) return true;
+  if (!open.planeCovers()) return false;
+  const double layer = open.plane.s - open.possible_from;
+  return layer <= kThinnestLayer * thicknessAlong(open.plane.m, open, band);
+}
+
+}  // namespace fcl_prob::detail

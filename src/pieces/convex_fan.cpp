@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "pieces/convex_fan.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "base/constants.h"
+#include "gaussian/directed_edges.h"
+#include "geometry/surface_caps.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Every group's plane is held against every vertex.
+constexpr int kMostTriangles = 20'000;
+
+// What coordinates in single precision, as STL has them, are rounded by, twice over: relative to
+// the largest one.
+constexpr double kFileRounding = 4 * 5.96e-8;
+
+// Three normals of a vertex with a smaller determinant count as coplanar.
+constexpr double kLeastDeterminant = 1e-6;
+
+// Of a mesh with more connected parts nothing is said.
+constexpr std::size_t kMostParts = 64;
+
+class FanBuilder {
+ public:
+  FanBuilder(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices)
+      : view_(view), vertices_(vertices), welded_(weldVertices(view)) {}
+
+  std::shared_ptr<ConvexFan> build() {
+    if (!readSurface() || !readNeighbours() || !groupTriangles()) return nullptr;
+    placeCentre();
+    for (std::size_t f = 0; f < fan_.normals.size(); ++f) {
+      // As far as this the centre must be inside of every plane.
+      if (!(fan_.offsets[f] > 1e3 * fan_.depths[f]) || !(fan_.offsets[f] > 0.0)) return nullptr;
+    }
+    findArcs();
+    return std::make_shared<ConvexFan>(std::move(fan_));
+  }
+
+ private:
+  const Eigen::Vector3d& corner(int triangle, int k) const {
+    return vertices_[corners_[triangle][k]];
+  }
+
+  bool readSurface() {
+    double largest = 0.0;
+    for (int t = 0; t < view_.triangle_count; ++t) {
+      Eigen::Vector3i corners;
+      for (int k = 0; k < 3; ++k) {
+        corners[k] = welded_[view_.triangles[t][k]];
+        // Rounding is that of the file's coordinates, which may be far from the origin.
+        largest = std::max(largest, view_.vertex(t, k).cwiseAbs().maxCoeff());
+        used_.push_back(corners[k]);
+      }
+      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+        continue;
+      corners_.push_back(corners);
+    }
+    if (corners_.size() < 4) return false;
+    tolerance_ = kFileRounding * largest;
+    std::sort(used_.begin(), used_.end());
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+    for (const int v : used_) points_.push_back(vertices_[v]);
+    return true;
+  }
+
+  bool readNeighbours() {
+    std::vector<DirectedEdge> edges;
+    for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
+      for (int k = 0; k < 3; ++k) edges.push_back({corners_[t][k], corners_[t][(k + 1) % 3], t});
+    }
+    const EdgePairing pairing = pairEdges(std::move(edges));
+    if (pairing.fault) return false;
+    neighbours_.resize(corners_.size());
+    for (const EdgeMatch& match : pairing.matches) {
+      neighbours_[match.forward.polygon].push_back(match.backward.polygon);
+      neighbours_[match.backward.polygon].push_back(match.forward.polygon);
+      matches_.push_back(match);
+    }
+    return true;
+  }
+
+  // Large triangles first: their planes are known best. A mesh that is not convex mostly shows it
+  // at the first of them.
+  bool groupTriangles() {
+    std::vector<Eigen::Vector3d> areas;
+    for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
+      const Eigen::Vector3d first = corner(t, 1) - corner(t, 0);
+      areas.push_back(first.cross(corner(t, 2) - corner(t, 0)));
+    }
+    std::vector<int> order(corners_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&areas](int x, int y) {
+      const double size_x = areas[x].squaredNorm();
+      const double size_y = areas[y].squaredNorm();
+      return size_x != size_y ? size_x > size_y : x < y;
+    });
+    group_.assign(corners_.size(), -1);
+    for (const int t : order) {
+      if (group_[t] < 0 && !startGroup(t, areas[t])) return false;
+    }
+    return true;
+  }
+
+  bool startGroup(int seed, const Eigen::Vector3d& area) {
+    const double size = area.norm();
+    if (!(size > 0.0)) return false;
+    const Eigen::Vector3d n = area / size;
+    double highest = -kInfinity;
+    for (const Eigen::Vector3d& point : points_) highest = std::max(highest, n.dot(point));
+    double lowest = highest;
+    const int index = static_cast<int>(fan_.normals.size());
+    const auto take = [&](int t) {
+      double least = highest;
+      for (int k = 0; k < 3; ++k) least = std::min(least, n.dot(corner(t, k)));
+      if (!(highest - least <= tolerance_)) return false;
+      lowest = std::min(lowest, least);
+      group_[t] = index;
+      return true;
+    };
+    if (!take(seed)) return false;
+    std::vector<int> rim{seed};
+    while (!rim.empty()) {
+      const int from = rim.back();
+      rim.pop_back();
+      for (const int to : neighbours_[from]) {
+        if (group_[to] < 0 && take(to)) rim.push_back(to);
+      }
+    }
+    fan_.normals.push_back(n);
+    fan_.offsets.push_back(highest);
+    fan_.depths.push_back(highest - lowest);
+    return true;
+  }
+
+  // The centre of gravity, to which offsets are relative from here on.
+  void placeCentre() {
+    const Eigen::Vector3d apex = points_.front();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double volume = 0.0;
+    for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
+      const Eigen::Vector3d a = corner(t, 0) - apex;
+      const Eigen::Vector3d b = corner(t, 1) - apex;
+      const Eigen::Vector3d c = corner(t, 2) - apex;
+      const double part = a.dot(b.cross(c));
+      volume += part;
+      sum += 0.25 * part * (a + b + c);
+    }
+    fan_.centre = apex;
+    if (std::fabs(volume) > 0.0) fan_.centre += sum / volume;
+    for (const Eigen::Vector3d& point : points_) {
+      fan_.vertices.push_back(point - fan_.centre);
+      fan_.radius = std::max(fan_.radius, fan_.vertices.back().norm());
+    }
+    const double rounding = 16 * kEpsilon * (fan_.radius + fan_.centre.norm());
+    for (std::size_t f = 0; f < fan_.normals.size(); ++f) {
+      fan_.offsets[f] += rounding - fan_.normals[f].dot(fan_.centre);
+      fan_.depths[f] += 2 * rounding;
+    }
+  }
+
+  void findArcs() {
+    std::vector<std::vector<int>> groups_at(vertices_.size());
+    std::vector<std::vector<std::pair<int, int>>> arcs_at(vertices_.size());
+    for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
+      for (int k = 0; k < 3; ++k) groups_at[corners_[t][k]].push_back(group_[t]);
+    }
+    for (const EdgeMatch& match : matches_) {
+      const int f = group_[match.forward.polygon];
+      const int g = group_[match.backward.polygon];
+      if (f == g) continue;
+      const std::pair<int, int> arc = std::minmax(f, g);
+      fan_.arcs.push_back(arc);
+      for (const int v : {match.forward.from, match.forward.to}) arcs_at[v].push_back(arc);
+    }
+    for (const int v : used_) completeArcs(groups_at[v], arcs_at[v]);
+    std::sort(fan_.arcs.begin(), fan_.arcs.end());
+    fan_.arcs.erase(std::unique(fan_.arcs.begin(), fan_.arcs.end()), fan_.arcs.end());
+  }
+
+  // Where the arcs around a vertex are not clearly the edges of the cone of its normals, all pairs
+  // of them are taken.
+  void completeArcs(std::vector<int>& groups, std::vector<std::pair<int, int>>& arcs) {
+    const auto once = [](auto& list) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    once(groups);
+    once(arcs);
+    const bool few = groups.size() <= 3;
+    if (!few && arcs.size() == groups.size() &&
+        std::all_of(arcs.begin(), arcs.end(),
+                    [&](const auto& arc) { return isEdgeOfCone(groups, arc); })) {
+      return;
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) fan_.arcs.emplace_back(groups[j], groups[i]);
+    }
+  }
+
+  bool isEdgeOfCone(const std::vector<int>& groups, const std::pair<int, int>& arc) const {
+    const Eigen::Vector3d across = fan_.normals[arc.first].cross(fan_.normals[arc.second]);
+    int above = 0;
+    int below = 0;
+    for (const int g : groups) {
+      if (g == arc.first || g == arc.second) continue;
+      const double side = across.dot(fan_.normals[g]);
+      above += side > kLeastDeterminant;
+      below += side < -kLeastDeterminant;
+    }
+    const int others = static_cast<int>(groups.size()) - 2;
+    return above == others || below == others;
+  }
+
+  const MeshView& view_;
+  const std::vector<Eigen::Vector3d>& vertices_;
+  std::vector<int> welded_;
+  std::vector<Eigen::Vector3i> corners_;  // welded, of the triangles with three different ones
+  std::vector<int> used_;
+  std::vector<Eigen::Vector3d> points_;  // of used_
+  std::vector<EdgeMatch> matches_;
+  std::vector<std::vector<int>> neighbours_;
+  std::vector<int> group_;
+  double tolerance_ = 0.0;
+  ConvexFan fan_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
+                                             const std::vector<Eigen::Vector3d>& vertices,
+                                             const Eigen::Vector3d& moved_by) {
+  if (view.triangle_count < 4 || view.triangle_count > kMostTriangles) return nullptr;
+  std::shared_ptr<ConvexFan> fan = FanBuilder(view, vertices).build();
+  if (!fan) return nullptr;
+  if (!hasCentreWithin(*fan, ClosedMesh(view, "mesh"), moved_by)) return nullptr;
+  return fan;
+}
+
+bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,
+                     const Eigen::Vector3d& moved_by) {
+  const double rounding = 16 * kEpsilon * (moved_by.norm() + fan.centre.norm() + fan.radius);
+  return solid.contains(moved_by + fan.centre, rounding) == Containment::inside;
+}
+
+std::vector<std::pair<int, int>> spansOf(const MeshView& view) {
+  const SurfaceComponents components = componentsOf(view, weldVertices(view));
+  const std::vector<int>& part = components.of_vertex;
+  const auto count = static_cast<std::size_t>(components.count);
+  if (count > kMostParts) return {};
+  std::vector<std::pair<int, int>> spans(count, {-1, -1});
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    std::vector<double> farthest(count, -1.0);
+    std::vector<int> end(count, -1);
+    for (int v = 0; v < view.vertex_count; ++v) {
+      if (part[v] < 0) continue;
+      const auto i = static_cast<std::size_t>(part[v]);
+      const int from = spans[i].second;
+      const double distance =
+          from < 0 ? 0.0 : (view.vertices[v] - view.vertices[from]).squaredNorm();
+      if (distance > farthest[i]) {
+        farthest[i] = distance;
+        end[i] = v;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) spans[i] = {spans[i].second, end[i]};
+  }
+  return spans;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "pieces/mesh_reach.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "base/constants.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// The farthest that the mesh may reach into a body, as a share of it.
+constexpr double kMostReach = 1e-5;
+
+// Planes that separate as well as this are not improved upon.
+constexpr double kLittleReach = 1e-12;
+
+class ReachSearch {
+ public:
+  ReachSearch(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
+              const MeshView& view, const std::vector<Eigen::Vector3d>& vertices)
+      : fan_(fan), view_(view), vertices_(vertices) {
+    for (const Eigen::Vector3d& n : fan.normals) planes_.emplace_back(n, height(n));
+    for (const Eigen::Vector3d& n : normals) planes_.emplace_back(n, height(n));
+    for (const auto& [f, g] : fan.arcs) {
+      directions_.push_back(fan.normals[f].cross(fan.normals[g]));
+    }
+  }
+
+  double of(int t) {
+    size_ = fan_.radius + fan_.centre.norm();
+    for (int k = 0; k < 3; ++k) {
+      corners_[k] = vertices_[view_.triangles[t][k]] - fan_.centre;
+      size_ = std::max(size_, 2 * view_.vertex(t, k).norm());
+    }
+    best_ = 1.0;
+    for (const auto& [n, height] : planes_) {
+      if (tryPlane(n, height)) return best_;
+    }
+    const Eigen::Vector3d across = (corners_[1] - corners_[0]).cross(corners_[2] - corners_[0]);
+    if (tryDirection(across)) return best_;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d edge = corners_[(k + 1) % 3] - corners_[k];
+      for (const Eigen::Vector3d& other : directions_) {
+        if (tryDirection(edge.cross(other))) return best_;
+      }
+    }
+    return best_;
+  }
+
+ private:
+  double height(const Eigen::Vector3d& n) const {
+    double highest = 0.0;
+    for (const Eigen::Vector3d& v : fan_.vertices) highest = std::max(highest, n.dot(v));
+    return highest;
+  }
+
+  bool tryPlane(const Eigen::Vector3d& n, double height) {
+    if (!(height > 0.0)) return false;
+    const double lowest = std::min({n.dot(corners_[0]), n.dot(corners_[1]), n.dot(corners_[2])});
+    best_ = std::min(best_, 1.0 - (lowest - 32 * kEpsilon * size_) / height);
+    return best_ <= kLittleReach;
+  }
+
+  bool tryDirection(const Eigen::Vector3d& across) {
+    const double length = across.norm();
+    if (!(length > 0.0)) return false;
+    const Eigen::Vector3d n = across / length;
+    return tryPlane(n, height(n)) || tryPlane(-n, height(-n));
+  }
+
+  const ConvexFan& fan_;
+  const MeshView& view_;
+  const std::vector<Eigen::Vector3d>& vertices_;
+  std::vector<std::pair<Eigen::Vector3d, double>> planes_;  ///< normals, how far P reaches
+  std::vector<Eigen::Vector3d> directions_;                 ///< of the edges of P
+  Eigen::Vector3d corners_[3];
+  double size_ = 0.0;
+  double best_ = 1.0;
+};
+
+// The share λ of P that the mesh reaches into; where it is more than kMostReach it means no more
+// than that.
+double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
+                 const MeshView& view, const std::vector<Eigen::Vector3d>& vertices) {
+  ReachSearch search(fan, normals, view, vertices);
+  double farthest = 0.0;
+  for (int t = 0; t < view.triangle_count && farthest <= kMostReach; ++t) {
+    farthest = std::max(farthest, search.of(t));
+  }
+  return farthest;
+}
+
+}  // namespace
+
+SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
+                                 const Eigen::Vector3d& moved_by)
+    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {}
+
+bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const {
+  const double reach = reachInto(fan, normals, view_, vertices_);
+  if (!(reach <= kMostReach) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
+  for (std::size_t f = 0; f < fan.depths.size(); ++f) {
+    fan.depths[f] = std::max(fan.depths[f], reach * fan.offsets[f]);
+  }
+  return true;
+}
+
+}  // namespace fcl_prob::detail

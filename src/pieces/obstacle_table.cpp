@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "pieces/obstacle_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "pieces/band_margin.h"
+#include "pieces/piece_slabs.h"
+#include "pieces/support_slabs.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+
+constexpr std::size_t kBlockDoubles = 1 << 16;
+
+// With more slabs than this two polytopes are quicker examined by their support functions.
+constexpr std::size_t kMostSlabs = 128;
+
+// Of slabs across the normal of a face: at less rounding may no longer be relative, from the most
+// on the products of a normal and a corner, 1e14 times as large, may overflow.
+constexpr double kLeastPadding = 1e-300;
+constexpr double kMostPadding = 1e280;
+
+bool isTriangle(const WhitenedTree& tree, int node) {
+  return tree.tree->isTriangle(tree.tree->nodes[node].piece);
+}
+
+const PieceShape& shapeOf(const WhitenedTree& tree, int body) {
+  return tree.shapes[tree.tree->bodies[body].shape].shape;
+}
+
+SupportBody bodyAt(const WhitenedTree& tree, int node) {
+  const int piece = tree.tree->nodes[node].piece;
+  if (!tree.tree->isTriangle(piece)) {
+    const int body = tree.tree->bodyOf(piece);
+    return {shapeOf(tree, body).body, tree.positions[body]};
+  }
+  const Eigen::Vector3i& t = tree.tree->triangles[piece];
+  return {tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]};
+}
+
+// A corner a column.
+Eigen::Matrix3d cornersOf(const WhitenedTree& whitened, int leaf) {
+  const Eigen::Vector3i& t = whitened.tree->triangles[whitened.tree->nodes[leaf].piece];
+  Eigen::Matrix3d corners;
+  corners << whitened.vertices[t[0]], whitened.vertices[t[1]], whitened.vertices[t[2]];
+  return corners;
+}
+
+Eigen::Vector3d normalOf(const Eigen::Matrix3d& corners) {
+  const Eigen::Vector3d first = corners.col(1) - corners.col(0);
+  return first.cross(corners.col(2) - corners.col(0));
+}
+
+Eigen::Vector3d largestCoordinates(const NodeBox& box) {
+  Eigen::Vector3d largest;
+  for (int k = 0; k < 3; ++k) largest[k] = std::max(std::fabs(box.lo[k]), std::fabs(box.hi[k]));
+  return largest;
+}
+
+}  // namespace
+
+ObstacleTable::ObstacleTable(const WhitenedPair& pair) : pair_(pair) {}
+
+// The doubles of a block are left uninitialized: most of the last one is never used.
+double* ObstacleTable::allocate(int count) {
+  const std::size_t needed = static_cast<std::size_t>(count) * kSlabFields;
+  if (needed > block_left_) {
+    block_left_ = std::max(kBlockDoubles, needed);
+    doubles_reserved_ += block_left_;
+    blocks_.emplace_back(new double[block_left_]);
+    block_end_ = blocks_.back().get() + block_left_;
+  }
+  double* data = block_end_ - block_left_;
+  block_left_ -= needed;
+  return data;
+}
+
+int ObstacleTable::find(NodePair leaves) {
+  const std::uint64_t key =
+      (static_cast<std::uint64_t>(leaves.a) << 32) | static_cast<std::uint32_t>(leaves.b);
+  const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(obstacles_.size()));
+  if (is_new) {
+    obstacles_.push_back(areTriangles(leaves) ? buildTriangles(leaves, allocate(kTriangleSlabs))
+                                              : buildPieces(leaves));
+  }
+  return entry.value();
+}
+
+FrontPair ObstacleTable::frontPair(NodePair nodes) {
+  return areLeaves(pair_, nodes) ? FrontPair::ofLeaves(nodes, find(nodes))
+                                 : FrontPair::ofNodes(nodes);
+}
+
+SlabArrays ObstacleTable::slabsOnce(NodePair leaves) {
+  return areTriangles(leaves) ? buildTriangles(leaves, once_.data()) : slabs(find(leaves));
+}
+
+bool ObstacleTable::areTriangles(NodePair leaves) const {
+  return isTriangle(pair_.a, leaves.a) && isTriangle(pair_.b, leaves.b);
+}
+
+int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
+  constexpr int kLanes = 4;
+  const double padding = 32 * kEpsilon * kReach;
+  double* data = allocate(kLanes);
+  std::fill_n(data, kSlabFields * kLanes, 0.0);
+  for (int k = 0; k < 3; ++k) data[k * kLanes] = m[k];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    data[3 * kLanes + lane] = -kUnbounded;
+    data[4 * kLanes + lane] = kUnbounded;
+  }
+  data[3 * kLanes] = s - padding;
+  data[5 * kLanes] = 2 * padding;
+  obstacles_.push_back({data, kLanes});
+  return static_cast<int>(obstacles_.size()) - 1;
+}
+
+SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
+  const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
+  const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
+  const Eigen::Vector3d error = slabError(pair_, leaves);
+  slabKernels().triangleSlabs(a.data(), b.data(), error.data(), data);
+  if (pair_.band) pair_.band->widen(data, kTriangleSlabs, leaves);
+  return {data, kTriangleSlabs};
+}
+
+SlabArrays ObstacleTable::buildPieces(NodePair leaves) {
+  const bool few = hasFewSlabs(leaves);
+  const PieceSlabs slabs = few ? pieceSlabs(pair_, leaves) : supportSlabs(support(leaves));
+  double* data = allocate(slabs.count);
+  std::copy(slabs.data.begin(), slabs.data.end(), data);
+  if (pair_.band) pair_.band->widen(data, slabs.count, leaves);
+  return {data, slabs.count, !few};
+}
+
+bool ObstacleTable::hasFewSlabs(NodePair leaves) const {
+  struct Counts {
+    std::size_t faces = 1;
+    std::size_t edges = 3;
+    bool curved = false;
+  };
+  const auto count = [](const WhitenedTree& tree, int node) -> Counts {
+    if (isTriangle(tree, node)) return {};
+    const PieceShape& shape = shapeOf(tree, tree.tree->bodyOf(tree.tree->nodes[node].piece));
+    return {shape.faces.size(), shape.edges.size(), shape.body.curved()};
+  };
+  const Counts of_a = count(pair_.a, leaves.a);
+  const Counts of_b = count(pair_.b, leaves.b);
+  if (of_a.curved || of_b.curved) return false;
+  return of_a.faces + of_b.faces + of_a.edges * of_b.edges <= kMostSlabs;
+}
+
+// Bound on the error of b - a, axis by axis, and on the rounding of sums of such terms.
+Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
+  const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
+                                largestCoordinates(pair_.b.boxes[leaves.b]) +
+                                Eigen::Vector3d::Constant(kReach);
+  return 4 * slabError(pair_, leaves) + 32 * kEpsilon * reach;
+}
+
+SupportObstacle ObstacleTable::support(NodePair leaves) const {
+  return {bodyAt(pair_.a, leaves.a), bodyAt(pair_.b, leaves.b), errorOf(leaves)};
+}
+
+// However a normal was rounded, V lies between its extreme values along it.
+FaceSlabs ObstacleTable::faceSlabs(NodePair leaves) const {
+  const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
+  const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
+  const Eigen::Vector3d error = errorOf(leaves);
+  FaceSlabs slabs;
+  slabs.n = {normalOf(a), normalOf(b)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Eigen::Vector3d& n = slabs.n[i];
+    const double padding = n.cwiseAbs().dot(error) + kLeastPadding;
+    if (!(padding < kMostPadding)) {
+      slabs.lo[i] = -kInfinity;
+      slabs.hi[i] = kInfinity;
+      continue;
+    }
+    const Eigen::RowVector3d along_a = n.transpose() * a;
+    const Eigen::RowVector3d along_b = n.transpose() * b;
+    slabs.lo[i] = along_b.minCoeff() - along_a.maxCoeff() - padding;
+    slabs.hi[i] = along_b.maxCoeff() - along_a.minCoeff() + padding;
+  }
+  return slabs;
+}
+
+std::size_t ObstacleTable::memory() const {
+  constexpr std::size_t kEntryBytes = 3 * sizeof(std::uint64_t);
+  return obstacles_.capacity() * sizeof(SlabArrays) + index_.bucket_count() * kEntryBytes +
+         doubles_reserved_ * sizeof(double);
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "pieces/piece_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_prob/convex_polytope.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/geometry_kind.h"
+#include "geometry/length.h"
+#include "geometry/mesh_visitor.h"
+#include "geometry/surface_caps.h"
+#include "pieces/octree_pieces.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+
+// With fewer triangles a mesh's own pairs cover what there is to cover.
+constexpr int kFewestForCaps = 500;
+
+template <typename Visit>
+void visitPoints(PieceTree& tree, const Visit& visit) {
+  for (Eigen::Vector3d& v : tree.vertices) visit(v, 0.0);
+  for (PieceTree::Body& body : tree.bodies) {
+    visit(body.position, tree.shapes[body.shape].body.radius());
+  }
+}
+
+void moveOrigin(PieceTree& tree, PieceTree::Part& part) {
+  Eigen::Vector3d lo = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d hi = -lo;
+  visitPoints(tree, [&](const Eigen::Vector3d& point, double) {
+    lo = lo.cwiseMin(point);
+    hi = hi.cwiseMax(point);
+  });
+  part.origin = lo + 0.5 * (hi - lo);
+  visitPoints(tree, [&part](Eigen::Vector3d& point, double radius) {
+    point -= part.origin;
+    part.radius = std::max(part.radius, lengthOf(point) + radius);
+  });
+}
+
+// Makes one part of everything. Its origin moves to the middle of the vertices, so that a geometry
+// far from its own frame's origin loses nothing to rounding in the products that follow.
+void makePart(double error, PieceTree& tree) {
+  PieceTree::Part part;
+  part.error = error;
+  part.vertices.end = static_cast<int>(tree.vertices.size());
+  part.bodies.end = static_cast<int>(tree.bodies.size());
+  part.shapes.end = static_cast<int>(tree.shapes.size());
+  if (!tree.isEmpty()) {
+    part.root = 0;
+    moveOrigin(tree, part);
+  }
+  tree.parts.push_back(part);
+}
+
+template <typename BV>
+std::vector<PieceTree::Node> copyTopology(const fcl::BVHModel<BV>& model) {
+  std::vector<PieceTree::Node> nodes(model.getNumBVs());
+  for (int i = 0; i < model.getNumBVs(); ++i) {
+    const fcl::BVNode<BV>& from = model.getBV(i);
+    PieceTree::Node& to = nodes[i];
+    if (from.isLeaf()) {
+      to.piece = from.primitiveId();
+    } else {
+      to.left = from.leftChild();
+      to.right = from.rightChild();
+      if (to.left <= i || to.right <= i) {
+        throw InvalidGeometry("bounding volume tree with a child before its parent at node " +
+                              std::to_string(i));
+      }
+    }
+  }
+  return nodes;
+}
+
+// The apexes become vertices of the tree, so that they move with it.
+void fillCaps(const MeshView& view, PieceTree& tree) {
+  SurfaceCaps surface = capsOf(view);
+  MeshCaps caps;
+  caps.components = std::move(surface.components);
+  for (const SurfaceCaps::Cap& cap : surface.caps) {
+    const int apex = static_cast<int>(tree.vertices.size());
+    tree.vertices.push_back(cap.apex);
+    const int first = static_cast<int>(caps.triangles.size());
+    for (const auto& [i, j] : cap.rim) caps.triangles.emplace_back(i, j, apex);
+    caps.caps.push_back({first, static_cast<int>(caps.triangles.size())});
+  }
+  tree.caps = std::move(caps);
+}
+
+void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
+  const MeshView view = meshView(geometry);
+  tree.vertices.assign(view.vertices, view.vertices + view.vertex_count);
+  tree.triangles.reserve(view.triangle_count);
+  for (int i = 0; i < view.triangle_count; ++i) {
+    const fcl::Triangle& t = view.triangles[i];
+    tree.triangles.emplace_back(static_cast<int>(t[0]), static_cast<int>(t[1]),
+                                static_cast<int>(t[2]));
+  }
+  tree.nodes = visitMesh(geometry, [](const auto& model) { return copyTopology(model); });
+  if (view.triangle_count >= kFewestForCaps) fillCaps(view, tree);
+}
+
+// Exact but for components below 1e-308 of the largest.
+Eigen::Vector3d scaledToOne(const Eigen::Vector3d& v) {
+  int exponent = 0;
+  std::frexp(v.cwiseAbs().maxCoeff(), &exponent);
+  return v.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+}
+
+// Whether two vectors are parallel but for one rounding of each component. That stays so however a
+// linear map stretches them, and counts as what edges are rounded by.
+bool areParallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  for (int k = 0; k < 3; ++k) {
+    const int u = (k + 1) % 3, v = (k + 2) % 3;
+    if (a[u] * b[v] != a[v] * b[u]) return false;
+  }
+  return true;
+}
+
+// Adds the direction unless one that is known is parallel to it; says whether it did.
+bool addDirection(const Eigen::Vector3d& along, std::vector<Eigen::Vector3d>& known) {
+  const Eigen::Vector3d direction = scaledToOne(along);
+  const bool old = std::any_of(known.begin(), known.end(), [&](const Eigen::Vector3d& other) {
+    return areParallel(direction, other);
+  });
+  if (!old) known.push_back(direction);
+  return !old;
+}
+
+// Whether p × q keeps nearly all of its digits.
+bool isWellShaped(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+  return p.cross(q).norm() > 0.25 * p.norm() * q.norm();
+}
+
+// Faces and edges of the hull; parallel ones once, since a slab has two sides. Nearly parallel ones
+// all stay: what is near before whitening need not be after it.
+PieceShape shapeOfHull(const ConvexPolytope& hull) {
+  PieceShape piece{{hull.vertices, 0}, {}, {}};
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<Eigen::Vector3d> directions;
+  for (const ConvexPolytope::Face& face : hull.faces) {
+    const int count = static_cast<int>(face.vertices.size());
+    for (int i = 0; i < count; ++i) {
+      const Eigen::Vector3d edge =
+          hull.vertices[face.vertices[(i + 1) % count]] - hull.vertices[face.vertices[i]];
+      if (addDirection(edge, directions)) piece.edges.push_back(edge);
+    }
+    const Eigen::Vector3d& corner = hull.vertices[face.vertices[0]];
+    const Eigen::Vector3d p = hull.vertices[face.vertices[1]] - corner;
+    const Eigen::Vector3d q = hull.vertices[face.vertices[count - 1]] - corner;
+    if (isWellShaped(p, q) && !addDirection(p.cross(q), normals)) continue;
+    piece.faces.emplace_back(p, q);
+  }
+  return piece;
+}
+
+// A hull without volume: every pair of vertices may be an edge, which gives more slabs than needed
+// and none too few.
+PieceShape shapeOfFlatHull(const ConvexPolytope& hull) {
+  PieceShape piece{{hull.vertices, 0}, {}, {}};
+  const int count = static_cast<int>(hull.vertices.size());
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < i; ++j) piece.edges.push_back(hull.vertices[i] - hull.vertices[j]);
+  }
+  for (std::size_t i = 1; i < piece.edges.size(); ++i) {
+    piece.faces.emplace_back(piece.edges[0], piece.edges[i]);
+  }
+  return piece;
+}
+
+PieceShape shapeOfPolytope(const std::vector<Eigen::Vector3d>& vertices) {
+  const ConvexPolytope hull = convexHull(vertices);
+  return hull.faces.empty() ? shapeOfFlatHull(hull) : shapeOfHull(hull);
+}
+
+// The middle of the body is its position, so that a body far from its frame's origin loses nothing
+// to rounding.
+void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
+  SupportShape body = supportShape(geometry);
+  const Eigen::Vector3d position = body.centre();
+  for (Eigen::Vector3d& point : body.points) point -= position;
+  tree.shapes.push_back(body.curved() ? PieceShape{std::move(body), {}, {}}
+                                      : shapeOfPolytope(body.points));
+  tree.bodies.push_back({position, 0});
+  tree.nodes.resize(1);
+  tree.nodes[0].piece = 0;
+}
+
+}  // namespace
+
+std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry) {
+  auto tree = std::make_shared<PieceTree>();
+  double error = 0.0;
+  switch (kindOf(geometry)) {
+    case GeometryKind::mesh:
+      fillMesh(geometry, *tree);
+      break;
+    case GeometryKind::octree:
+      error = fillOcTree(static_cast<const fcl::OcTreed&>(geometry), *tree);
+      break;
+    default:
+      fillConvex(geometry, *tree);
+  }
+  makePart(error, *tree);
+  if (kindOf(geometry) == GeometryKind::mesh) {
+    const MeshView view = meshView(geometry);
+    PieceTree::Part& part = tree->parts[0];
+    part.fan = convexFanOf(view, tree->vertices, part.origin);
+    if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
+    part.spans = spansOf(view);
+  }
+  return tree;
+}
+
+double PieceTree::radius() const {
+  double largest = 0.0;
+  for (const Part& part : parts) largest = std::max(largest, part.radius);
+  return largest;
+}
+
+double PieceTree::error() const {
+  double largest = 0.0;
+  for (const Part& part : parts) largest = std::max(largest, part.error);
+  return largest;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Geometries as a binary tree over convex pieces: what the partition keeps of them between queries.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cobstacle/support_shape.h"
+#include "geometry/surface_caps.h"
+#include "pieces/convex_fan.h"
+#include "pieces/nearly_convex.h"
+
+namespace fcl_prob::detail {
+
+/// A convex piece relative to its position, with what its C-obstacles need: if it is a polytope,
+/// every face as a pair of spanning vectors, and the directions of the edges. All of it transforms
+/// linearly.
+struct PieceShape {
+  SupportShape body;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> faces;
+  std::vector<Eigen::Vector3d> edges;
+};
+
+/// What closes a mesh, for the question which points are inside: caps over its open boundaries.
+struct MeshCaps {
+  struct Cap {
+    int first;  ///< of its triangles
+    int last;   ///< one behind the last
+  };
+  std::vector<Cap> caps;
+  std::vector<Eigen::Vector3i> triangles;  ///< indices into the tree's vertices
+  SurfaceComponents components;            ///< of the mesh's own vertices only
+};
+
+/// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
+/// refits axis-aligned boxes in the whitened frame of each query. An octree without occupied cells
+/// has no nodes.
+///
+/// A group of geometries is one tree, with a few nodes above their own: the C-obstacle of two
+/// groups, the union of those of their parts, then needs nothing that one pair does not need.
+struct PieceTree {
+  struct Node {
+    int left = -1;   ///< index of the first child, always greater than the node's own; -1 at a leaf
+    int right = -1;  ///< index of the second child; -1 at a leaf
+    int piece = -1;  ///< at a leaf: its triangle; from triangles.size() on, its body
+    bool isLeaf() const { return left < 0; }
+  };
+
+  /// A convex piece that is no triangle of a mesh.
+  struct Body {
+    Eigen::Vector3d position;  ///< metres, relative to the origin of its part
+    int shape;                 ///< index into `shapes`
+  };
+
+  struct Range {
+    int begin = 0;
+    int end = 0;
+  };
+
+  /// One geometry: what has a pose of its own.
+  struct Part {
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, geometry's frame
+    double radius = 0.0;  ///< metres: of a ball around `origin` with everything
+    double error = 0.0;   ///< metres: by how much coordinates differ from those of the geometry
+    int root = -1;        ///< its topmost node, -1 if it has none
+    Range vertices;
+    Range bodies;
+    Range shapes;
+
+    /// Of a mesh that is convex, relative to `origin`; else null.
+    std::shared_ptr<const ConvexFan> fan;
+    /// Of one that is so nearly, relative to `origin`; else null.
+    std::shared_ptr<const NearlyConvex> nearly;
+    /// Of a mesh, indices into the tree's vertices: see spansOf().
+    std::vector<std::pair<int, int>> spans;
+  };
+
+  std::vector<Node> nodes;  ///< nodes[0] is the root
+  std::vector<Part> parts;
+  std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to the origin of their part
+  std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
+  std::vector<Body> bodies;
+  std::vector<PieceShape> shapes;  ///< in the axes of their part
+  std::optional<MeshCaps> caps;    ///< of a single mesh of many triangles
+
+  /// Of an octree: a cell is both occupied and free.
+  bool any_cell_also_free = false;
+
+  bool isMesh() const { return bodies.empty(); }
+  bool isEmpty() const { return nodes.empty(); }
+  bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
+  int bodyOf(int piece) const { return piece - static_cast<int>(triangles.size()); }
+
+  /// Of the largest part, metres.
+  double radius() const;
+
+  /// The largest of those of the parts, metres.
+  double error() const;
+};
+
+/// A tree of one part. \throws UnsupportedGeometry for unbounded shapes, InvalidGeometry for broken
+/// ones.
+std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry);
+
+/// One tree of many, part by part in their order.
+std::shared_ptr<const PieceTree> joinPieceTrees(const std::vector<const PieceTree*>& trees);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What of a mesh the core of a nearly convex one does not hold, as tetrahedra.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fcl_prob/triangle_mesh.h"
+#include "geometry/mesh_visitor.h"
+#include "pieces/convex_fan.h"
+#include "pieces/mesh_reach.h"
+
+namespace fcl_prob::detail {
+
+/// Of every triangle that has a corner which is none of the core's, a tetrahedron below it, so that
+/// the core and these hold the whole mesh; each with what is told of NearlyConvex::core. Empty
+/// where one of them cannot be found.
+/// \param apex  deep inside
+std::vector<ConvexFan> shellPieces(const MeshView& view,
+                                   const std::vector<Eigen::Vector3d>& vertices,
+                                   const SurroundingMesh& mesh, const TriangleMesh& core,
+                                   const Eigen::Vector3d& apex);
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Where convex meshes can be taken whole, not triangle by triangle.
+#pragma once
+
+#include <optional>
+
+#include "fcl_prob/gaussian_displacement.h"
+#include "pieces/partition_object.h"
+#include "pieces/whitened_fan.h"
+
+namespace fcl_prob::detail {
+
+/// A mesh of which every member is convex (or nearly), and the mesh beside it.
+struct WholeBody {
+  const PartitionObject& body;
+  const PartitionObject& mesh;
+  bool body_is_a;
+};
+
+enum class Convexity { exact, nearly };
+
+/// Nothing unless both are meshes that hold still, one of them is convex (or nearly), and the
+/// displacement has rank 3 and is not so stretched that planes across its edges would be known
+/// poorly. Of two that are convex the one with more triangles is taken whole; one that is nearly
+/// convex only if there is no other. Refers to the arguments.
+std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
+                                     const GaussianDisplacement& displacement, Convexity convexity);
+
+/// Whether part of the mesh may be within a member and not touch its surface, where surfaces count.
+/// \param fan  the member, or a body around it
+bool mayHoldPart(const WholeBody& whole, std::size_t member, const WhitenedFan& fan);
+
+}  // namespace fcl_prob::detail
