@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "base/decision.h"
 #include "base/refuse_band.h"
 #include "cli/number_text.h"
 #include "fcl_prob/exceptions.h"
@@ -16,9 +17,7 @@ ProbabilityResult boundedBy(double upper, const ProbabilityRequest& request) {
   result.method = request.method;
   result.upper = upper;
   result.status = ProbabilityStatus::bound_only;
-  if (request.threshold) {
-    result.decision = upper < *request.threshold ? Decision::below : Decision::undecided;
-  }
+  result.decision = detail::decisionOf({0.0, upper}, request);
   return result;
 }
 
@@ -107,7 +106,7 @@ ProbabilityResult PartsScene::bothSides(const ProbabilityRequest& request) const
                         " intersections");
   if (!a_.tree && !b_.tree) {
     result.lower = parts.any.lower;
-    if (request.threshold && *result.lower > *request.threshold) result.decision = Decision::above;
+    result.decision = detail::decisionOf({*result.lower, *result.upper}, request);
   } else {
     result.plan.push_back("the parts themselves touch with a probability of at least " +
                           numberText(parts.any.lower, 6) + " (Bonferroni)");

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <future>
 
+#include "base/decision.h"
 #include "cli/number_text.h"
 #include "cli/stopwatch.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -35,9 +35,7 @@ ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest
   result.method = request.method;
   result.upper = pcd.upper;
   result.status = pcd.complete ? ProbabilityStatus::bound_only : ProbabilityStatus::cell_limit;
-  if (request.threshold) {
-    result.decision = pcd.upper < *request.threshold ? Decision::below : Decision::undecided;
-  }
+  result.decision = detail::decisionOf({0.0, pcd.upper}, request);
   result.statistics.raw_sum = pcd.raw_sum;
   result.statistics.pairs_tested = pcd.pairs_bounded;
   result.statistics.leaf_pairs = pcd.leaf_pairs;

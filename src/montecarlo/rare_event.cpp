@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/decision.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "montecarlo/displaced_collider.h"
@@ -204,9 +205,7 @@ ProbabilityResult certainlyFree(const ProbabilityRequest& request) {
   result.confidence_interval = Bounds{0.0, 0.0};
   result.statistics.effective_samples = 0.0;
   result.status = ProbabilityStatus::exact;
-  if (request.threshold) {
-    result.decision = *request.threshold > 0.0 ? Decision::below : Decision::undecided;
-  }
+  result.decision = decisionOf({0.0, 0.0}, request);
   result.plan.push_back("no displacement with a mass in double precision can collide");
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/sampling_run.h"
-#include "base/answered.h"
+#include "base/decision.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ ProbabilityResult SamplingRun::run(const Stopwatch& watch) {
     }
   }
   result.confidence_interval = interval(confidence);
-  result.decision = decisionOf(*result.confidence_interval);
+  result.decision = decisionOf(*result.confidence_interval, request_);
   result.statistics.samples = counted_;
   return result;
 }
@@ -67,7 +67,7 @@ ProbabilityProgress SamplingRun::progress(const Stopwatch& watch) const {
 }
 
 std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interval) const {
-  const Decision decision = decisionOf(interval);
+  const Decision decision = decisionOf(interval, request_);
   if (isDecided(decision)) {
     return ProbabilityStatus::decided;
   }
@@ -75,13 +75,6 @@ std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interva
       std::max(absolute_tolerance_, request_.relative_tolerance * interval.upper);
   if (0.5 * interval.width() <= tolerance) return ProbabilityStatus::converged;
   return std::nullopt;
-}
-
-Decision SamplingRun::decisionOf(const Bounds& interval) const {
-  if (!request_.threshold) return Decision::none;
-  if (interval.upper < *request_.threshold) return Decision::below;
-  if (interval.lower > *request_.threshold) return Decision::above;
-  return Decision::undecided;
 }
 
 void GradientSum::add(const Whitening& whitening, const Eigen::Vector3d& y, double weight) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/decision.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/whitening.h"
@@ -52,7 +53,6 @@ class SamplingRun {
   bool countUpTo(std::size_t done, const Stopwatch& watch);
   ProbabilityProgress progress(const Stopwatch& watch) const;
   std::optional<ProbabilityStatus> reasonToStop(const Bounds& interval) const;
-  Decision decisionOf(const Bounds& interval) const;
 
   const ProbabilityRequest& request_;
   std::size_t samples_;

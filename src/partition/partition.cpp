@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "base/decision.h"
 #include "base/number_text.h"
 #include "carving/carved_partition.h"
 #include "cells/claim_observer.h"
@@ -83,13 +84,6 @@ void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
   const Eigen::Vector3d variance =
       moving.cwiseAbs2().transpose() * of_moment.cwiseAbs2() + doubt.cwiseAbs2();
   result.gradient_standard_error = variance.cwiseSqrt();
-}
-
-void decide(const ProbabilityRequest& request, ProbabilityResult& result) {
-  if (!request.threshold) return;
-  result.decision = *result.upper < *request.threshold   ? Decision::below
-                    : *result.lower > *request.threshold ? Decision::above
-                                                         : Decision::undecided;
 }
 
 void describe(const QueryFrame& frame, bool solids, const ProbabilityRequest& request,
@@ -178,7 +172,7 @@ bool carveInTime(const PartitionObject& a, const PartitionObject& b,
   known.upper = std::min(known.upper, result.upper.value_or(1.0));
   result.lower = known.lower;
   result.upper = known.upper;
-  if (reached) decide(request, result);
+  if (reached) result.decision = decisionOf({*result.lower, *result.upper}, request);
   return reached;
 }
 
@@ -256,7 +250,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const bool with_gradient = request.gradient && frame.whitening.rank() == 3;
   if (with_gradient) fillGradient(frame, engine.moment(), result);
   if (estimate) fillEstimate(frame, engine, sampled, with_gradient, result);
-  decide(request, result);
+  result.decision = decisionOf({*result.lower, *result.upper}, request);
   describe(frame, solids != nullptr, request, result);
   return result;
 }

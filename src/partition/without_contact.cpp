@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/without_contact.h"
 
+#include "base/decision.h"
+
 namespace fcl_prob::detail {
 
 ProbabilityResult withoutContact(const ProbabilityRequest& request, const std::string& why) {
@@ -18,9 +20,7 @@ ProbabilityResult withoutContact(const ProbabilityRequest& request, const std::s
   if (request.gradient) {
     result.gradient = result.gradient_lower = result.gradient_upper = Eigen::Vector3d::Zero();
   }
-  if (request.threshold) {
-    result.decision = *request.threshold > 0.0 ? Decision::below : Decision::undecided;
-  }
+  result.decision = decisionOf({0.0, 0.0}, request);
   result.plan.push_back(why);
   return result;
 }

@@ -6,12 +6,11 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "base/answered.h"
 #include "base/constants.h"
+#include "base/decision.h"
 #include "pose/counting_source.h"
 #include "pose/pair_source.h"
 #include "pose/query_costs.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/constants.h"
+#include "base/decision.h"
 #include "base/number_text.h"
 #include "base/random_words.h"
 #include "base/refuse_band.h"
@@ -15,7 +16,6 @@
 #include "montecarlo/sample_loop.h"
 #include "pose/configuration_estimate.h"
 #include "pose/sampled_configuration.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob {
 namespace {

@@ -12,13 +12,12 @@
 #include <string>
 #include <thread>
 
-#include "base/answered.h"
 #include "base/constants.h"
+#include "base/decision.h"
 #include "fcl_prob/exceptions.h"
 #include "partition/partition.h"
 #include "pose/contact_point.h"
 #include "pose/rotation_cell.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "base/decision.h"
 #include "fcl_prob/exceptions.h"
 #include "python/arrays.h"
 

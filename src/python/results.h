@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "base/decision.h"
 #include "fcl_prob/probability_result.h"
 #include "python/running.h"
 

@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "base/decision.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_query.h"
 #include "fcl_prob/robot_scene.h"

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/answered.h"
+#include "base/decision.h"
 #include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/rounded_pair.h"
 #include "query/request_limits.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

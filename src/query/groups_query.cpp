@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/decision.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/parts_bounds.h"

@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/answered.h"
 #include "base/constants.h"
+#include "base/decision.h"
 #include "query/call_budget.h"
-#include "query/single_collide.h"
 #include "query/tolerance_note.h"
 
 namespace fcl_prob::detail {
@@ -91,9 +90,7 @@ class MixtureQuery {
     double squares = 0.0;
     for (const auto& component : components_) squares += component.weight * component.weight;
     const double estimate = estimateOfAll().first;
-    return std::max(request_.absolute_tolerance,
-                    kReserve * request_.relative_tolerance * estimate) /
-           std::sqrt(squares);
+    return request_.toleranceAt(kReserve * estimate) / std::sqrt(squares);
   }
 
   /// The threshold is that of the sum, and so is the progress. The error probabilities of

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/pair_query.h"
 
-#include "base/answered.h"
+#include "base/decision.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/occupancy.h"

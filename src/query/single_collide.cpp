@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/single_collide.h"
 
+#include "base/decision.h"
 #include "montecarlo/displaced_collider.h"
 
 namespace fcl_prob::detail {
@@ -19,13 +20,6 @@ ProbabilityResult singleCollide(const fcl::CollisionGeometryd& a, const fcl::Tra
   result.status = ProbabilityStatus::exact;
   result.decision = decisionOf({probability, probability}, request);
   return result;
-}
-
-Decision decisionOf(const Bounds& certified, const ProbabilityRequest& request) {
-  if (!request.threshold) return Decision::none;
-  if (certified.upper < *request.threshold) return Decision::below;
-  if (certified.lower > *request.threshold) return Decision::above;
-  return Decision::undecided;
 }
 
 }  // namespace fcl_prob::detail

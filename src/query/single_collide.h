@@ -19,7 +19,4 @@ ProbabilityResult singleCollide(const fcl::CollisionGeometryd& a, const fcl::Tra
                                 const Eigen::Vector3d& displacement,
                                 const ProbabilityRequest& request);
 
-/// On which side of request.threshold an interval that certainly contains P lies.
-Decision decisionOf(const Bounds& certified, const ProbabilityRequest& request);
-
 }  // namespace fcl_prob::detail

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/answered.h"
 #include "base/constants.h"
+#include "base/decision.h"
 #include "fcl_prob/exceptions.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

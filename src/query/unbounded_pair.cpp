@@ -10,10 +10,10 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/decision.h"
 #include "geometry/exact_sum.h"
 #include "geometry/geometry_kind.h"
 #include "query/line_intervals.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/decision.h"
 #include "fcl_prob/general_pcd.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "query/request_limits.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -7,10 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "base/answered.h"
+#include "base/decision.h"
 #include "fcl_prob/combined_bounds.h"
 #include "query/call_budget.h"
-#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {

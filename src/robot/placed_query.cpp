@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/answered.h"
+#include "base/decision.h"
 #include "query/call_budget.h"
 #include "query/groups_query.h"
-#include "query/single_collide.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
 #include "robot/sum_above.h"

@@ -7,9 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/answered.h"
+#include "base/decision.h"
 #include "query/call_budget.h"
-#include "query/single_collide.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
