@@ -20,23 +20,24 @@ constexpr std::size_t kShareOfPieces = 8;
 
 std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
   const std::string name = fan_is_a ? "A" : "B";
-  const std::string triangles = std::to_string(body.tree->triangles.size());
+  const std::size_t triangles = body.tree->triangles.size();
   const std::string faces = std::to_string(obstacles.faceCount());
+  const bool alone = obstacles.count() == 1;
+  const std::string left_out = triangles == 0
+                                   ? ""
+                                   : std::string(", no tree of ") + (alone ? "its " : "their ") +
+                                         std::to_string(triangles) + " triangles";
   const auto& parts = body.tree->parts;
   const auto nearly = std::count_if(parts.begin(), parts.end(),
                                     [](const PieceTree::Part& part) { return !part.fan; });
   if (nearly > 0) {
     return std::to_string(nearly) + " of " + std::to_string(parts.size()) + " members of " + name +
            " nearly convex, the others convex: taken between two polytopes, or as one, of " +
-           faces + " faces together, no tree of their " + triangles + " triangles";
+           faces + " faces together" + left_out;
   }
-  if (obstacles.count() == 1) {
-    return "object " + name + " is convex: one piece of " + faces + " faces, no tree of its " +
-           triangles + " triangles";
-  }
+  if (alone) return "object " + name + " is convex: one piece of " + faces + " faces" + left_out;
   return "the " + std::to_string(obstacles.count()) + " members of " + name +
-         " are convex: a piece each, of " + faces + " faces together, no tree of their " +
-         triangles + " triangles";
+         " are convex: a piece each, of " + faces + " faces together" + left_out;
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ class FanBuilder {
   FanBuilder(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices)
       : view_(view), vertices_(vertices), welded_(weldVertices(view)) {}
 
+  /// P is to hold these, too.
+  void include(const std::vector<Eigen::Vector3d>& points) { points_ = points; }
+
   std::shared_ptr<ConvexFan> build() {
     if (!readSurface() || !readNeighbours() || !groupTriangles()) return nullptr;
     placeCentre();
@@ -68,6 +71,7 @@ class FanBuilder {
     tolerance_ = kFileRounding * largest;
     std::sort(used_.begin(), used_.end());
     used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+    if (!points_.empty()) return true;
     for (const int v : used_) points_.push_back(vertices_[v]);
     return true;
   }
@@ -225,7 +229,7 @@ class FanBuilder {
   std::vector<int> welded_;
   std::vector<Eigen::Vector3i> corners_;  // welded, of the triangles with three different ones
   std::vector<int> used_;
-  std::vector<Eigen::Vector3d> points_;  // of used_
+  std::vector<Eigen::Vector3d> points_;  // of used_, or what was included
   std::vector<EdgeMatch> matches_;
   std::vector<std::vector<int>> neighbours_;
   std::vector<int> group_;
@@ -243,6 +247,31 @@ std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
   if (!fan) return nullptr;
   if (!hasCentreWithin(*fan, ClosedMesh(view, "mesh"), moved_by)) return nullptr;
   return fan;
+}
+
+std::shared_ptr<const ConvexFan> convexFanOf(const ConvexPolytope& hull,
+                                             const std::vector<Eigen::Vector3d>& points) {
+  std::vector<fcl::Triangle> triangles;
+  for (const ConvexPolytope::Face& face : hull.faces) {
+    const auto corner = [&face](std::size_t k) {
+      return static_cast<std::size_t>(face.vertices[k]);
+    };
+    for (std::size_t k = 2; k < face.vertices.size(); ++k) {
+      triangles.emplace_back(corner(0), corner(k - 1), corner(k));
+    }
+  }
+  MeshView view;
+  view.vertices = hull.vertices.data();
+  view.vertex_count = static_cast<int>(hull.vertices.size());
+  view.triangles = triangles.data();
+  view.triangle_count = static_cast<int>(triangles.size());
+  if (view.triangle_count < 4 || view.triangle_count > kMostTriangles) return nullptr;
+  FanBuilder builder(view, hull.vertices);
+  builder.include(points);
+  std::shared_ptr<ConvexFan> fan = builder.build();
+  if (!fan) return nullptr;
+  const ClosedMesh solid(view, "polytope");
+  return hasCentreWithin(*fan, solid, Eigen::Vector3d::Zero()) ? fan : nullptr;
 }
 
 bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A closed mesh that is convex up to the rounding of its vertices, as one polytope.
+// A closed mesh that is convex up to the rounding of its vertices, or a solid one, as one polytope.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fcl_prob/convex_polytope.h"
 #include "geometry/closed_mesh.h"
 #include "geometry/mesh_visitor.h"
 
@@ -36,6 +37,11 @@ struct ConvexFan {
 std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
                                              const std::vector<Eigen::Vector3d>& vertices,
                                              const Eigen::Vector3d& moved_by);
+
+/// The same of a solid polytope, P being the hull of all points. Null if it is flat, or has too
+/// many faces. \param hull  theirs
+std::shared_ptr<const ConvexFan> convexFanOf(const ConvexPolytope& hull,
+                                             const std::vector<Eigen::Vector3d>& points);
 
 /// Whether the centre of a fan is certainly within a solid.
 /// \param moved_by  added to what is relative to the fan's frame, up to rounding

@@ -192,6 +192,20 @@ void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
   tree.nodes[0].piece = 0;
 }
 
+// The slabs of a polytope of so few faces and a triangle are looked at sooner than polytope cells
+// are cut. Measured beside an arm of 2,000 triangles, 10 % and 1 %: of 6 faces 34 and 195 ms (boxes:
+// 29 and 130), of 8 faces 12 and 31 (8 and 34), of 12 faces 12 and 32 (19 and 79), of 76 faces 13
+// and 29 (89 and 498).
+constexpr std::size_t kFewFaces = 8;
+
+// The part's origin is where its only body is.
+void fillFanOfShape(PieceTree& tree) {
+  const SupportShape& body = tree.shapes[0].body;
+  if (body.curved()) return;
+  const ConvexPolytope hull = convexHull(body.points);
+  if (hull.faces.size() > kFewFaces) tree.parts[0].fan = convexFanOf(hull, body.points);
+}
+
 }  // namespace
 
 std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry) {
@@ -214,6 +228,8 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     part.fan = convexFanOf(view, tree->vertices, part.origin);
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
     part.spans = spansOf(view);
+  } else if (kindOf(geometry) == GeometryKind::convex) {
+    fillFanOfShape(*tree);
   }
   return tree;
 }

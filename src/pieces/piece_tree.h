@@ -72,7 +72,7 @@ struct PieceTree {
     Range bodies;
     Range shapes;
 
-    /// Of a mesh that is convex, relative to `origin`; else null.
+    /// Of a mesh that is convex, or a convex polytope, relative to `origin`; else null.
     std::shared_ptr<const ConvexFan> fan;
     /// Of one that is so nearly, relative to `origin`; else null.
     std::shared_ptr<const NearlyConvex> nearly;

@@ -10,6 +10,18 @@
 namespace fcl_prob::detail {
 namespace {
 
+/// A point of a part, in the tree's frame and in the whitened one.
+struct Anchor {
+  Eigen::Vector3d of_tree;
+  Eigen::Vector3d whitened;
+};
+
+Anchor anchorOf(const WhitenedTree& body, const PieceTree::Part& part) {
+  const int vertex = part.vertices.begin, shape = part.bodies.begin;
+  if (vertex < part.vertices.end) return {body.tree->vertices[vertex], body.vertices[vertex]};
+  return {body.tree->bodies[shape].position, body.positions[shape]};
+}
+
 // Beyond this share of P nothing is certified of its inside.
 constexpr double kLargestShare = 1e-3;
 
@@ -35,8 +47,8 @@ WhitenedFan::WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part,
 // rounded, the offset follows from how far Lᵀm is off n.
 void WhitenedFan::moveFan(const WhitenedTree& body, const PieceTree::Part& part,
                           const ConvexFan& fan, const Eigen::Matrix3d& linear) {
-  const int anchor = part.vertices.begin;
-  centre_ = body.vertices[anchor] + linear * (fan.centre - body.tree->vertices[anchor]);
+  const Anchor anchor = anchorOf(body, part);
+  centre_ = anchor.whitened + linear * (fan.centre - anchor.of_tree);
   for (int k = 0; k < 3; ++k) {
     box_.lo[k] = kInfinity;
     box_.hi[k] = -kInfinity;

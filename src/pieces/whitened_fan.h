@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A convex mesh, taken whole, in the whitened frame of one query.
+// A convex mesh or polytope, taken whole, in the whitened frame of one query.
 #pragma once
 
 #include <Eigen/Core>

@@ -16,11 +16,12 @@ bool isMesh(const PartitionObject& object) {
   return object.tree->isMesh() && !object.tree->isEmpty();
 }
 
-bool isConvex(const PartitionObject& object, Convexity convexity) {
+/// Whether it can be the body beside that mesh.
+bool isBodyBeside(const PartitionObject& mesh, const PartitionObject& object, Convexity convexity) {
   const auto& parts = object.tree->parts;
-  return std::all_of(parts.begin(), parts.end(), [convexity](const PieceTree::Part& part) {
-    return part.fan || (part.nearly && convexity == Convexity::nearly);
-  });
+  return isMesh(mesh) && std::all_of(parts.begin(), parts.end(), [convexity](const auto& part) {
+           return part.fan || (part.nearly && convexity == Convexity::nearly);
+         });
 }
 
 }  // namespace
@@ -28,11 +29,13 @@ bool isConvex(const PartitionObject& object, Convexity convexity) {
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
                                      const GaussianDisplacement& displacement,
                                      Convexity convexity) {
-  if (!isMesh(a) || !isMesh(b)) return std::nullopt;
+  if (a.tree->isEmpty() || b.tree->isEmpty()) return std::nullopt;
   if (a.motion || b.motion || a.isSwept() || b.isSwept()) return std::nullopt;
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() != 3 || sigma[0] > kMostAnisotropic * sigma[2]) return std::nullopt;
-  const auto which = [&](Convexity how) { return std::pair(isConvex(a, how), isConvex(b, how)); };
+  const auto which = [&](Convexity how) {
+    return std::pair(isBodyBeside(b, a, how), isBodyBeside(a, b, how));
+  };
   auto [a_is_convex, b_is_convex] = which(Convexity::exact);
   if (!a_is_convex && !b_is_convex) std::tie(a_is_convex, b_is_convex) = which(convexity);
   if (!a_is_convex && !b_is_convex) return std::nullopt;
@@ -42,7 +45,9 @@ std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionOb
 }
 
 bool mayHoldPart(const WholeBody& whole, std::size_t member, const WhitenedFan& fan) {
-  if (whole.body.parts[member].solid) return false;
+  const PieceTree::Range& shapes = whole.body.tree->parts[member].bodies;
+  const bool is_shape = shapes.begin < shapes.end;
+  if (is_shape || whole.body.parts[member].solid) return false;
   const auto& parts = whole.mesh.tree->parts;
   return std::any_of(parts.begin(), parts.end(),
                      [&](const PieceTree::Part& part) { return !fan.isTooSmallFor(part.spans); });

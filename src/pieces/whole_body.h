@@ -11,7 +11,8 @@
 
 namespace fcl_prob::detail {
 
-/// A mesh of which every member is convex (or nearly), and the mesh beside it.
+/// An object of which every member is convex (or nearly), a mesh or a polytope, and the mesh beside
+/// it.
 struct WholeBody {
   const PartitionObject& body;
   const PartitionObject& mesh;
@@ -20,14 +21,14 @@ struct WholeBody {
 
 enum class Convexity { exact, nearly };
 
-/// Nothing unless both are meshes that hold still, one of them is convex (or nearly), and the
+/// Nothing unless both hold still, one is a mesh, the other one convex (or nearly), and the
 /// displacement has rank 3 and is not so stretched that planes across its edges would be known
 /// poorly. Of two that are convex the one with more triangles is taken whole; one that is nearly
 /// convex only if there is no other. Refers to the arguments.
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
                                      const GaussianDisplacement& displacement, Convexity convexity);
 
-/// Whether part of the mesh may be within a member and not touch its surface, where surfaces count.
+/// Whether part of the mesh may be within a member and not touch it, where its surface counts.
 /// \param fan  the member, or a body around it
 bool mayHoldPart(const WholeBody& whole, std::size_t member, const WhitenedFan& fan);
 
