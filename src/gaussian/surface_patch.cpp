@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/complex_disc.h"
+#include "gaussian/taylor_model.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -131,22 +131,29 @@ Jet<Number> evaluate(const SurfacePatch& patch, const Number& s, const Number& t
   return sum;
 }
 
-/// No less than the length of any vector within.
-double mostLength(const Triple<ComplexDisc>& v) {
-  double middle = 0.0, radius = 0.0;
-  for (const ComplexDisc& z : v) {
+/// No less than the length of any vector within, and of its mean over a segment from the middle.
+double mostLength(const Triple<TaylorModel>& v) {
+  double middle = 0.0, spread = 0.0;
+  for (const TaylorModel& z : v) {
     middle += z.middle * z.middle;
-    radius += z.radius * z.radius;
+    spread += z.spread() * z.spread();
   }
-  return (std::sqrt(middle) + std::sqrt(radius)) * kPatchSlack;
+  return (std::sqrt(middle) + std::sqrt(spread)) * kPatchSlack;
 }
 
-double mostAlong(const Eigen::Vector3d& normal, const Triple<ComplexDisc>& v) {
-  return (normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2]).most() * kPatchSlack;
+TaylorModel along(const Eigen::Vector3d& normal, const Triple<TaylorModel>& v) {
+  return normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2];
 }
 
-ComplexDisc parameterDisc(const ParameterBox& box, std::size_t k) {
-  return {box.centre[k], box.half[k] * kPatchSlack};
+/// The largest mean along a normal over a segment from the middle.
+double mostMean(const Eigen::Vector3d& normal, const Triple<TaylorModel>& v) {
+  const TaylorModel z = along(normal, v);
+  return (std::abs(z.middle) + z.meanSpread()) * kPatchSlack;
+}
+
+Triple<TaylorModel> parameters(const ParameterBox& box) {
+  return {TaylorModel(box.centre[0], box.half[0] * kPatchSlack, 0.0, 0.0),
+          TaylorModel(box.centre[1], 0.0, box.half[1] * kPatchSlack, 0.0), TaylorModel()};
 }
 
 double mostNorm(const BilinearVector& corners) {
@@ -165,20 +172,19 @@ PatchPoint pointOf(const SurfacePatch& patch, double s, double t) {
 PatchCell::PatchCell(const SurfacePatch& patch, const ParameterBox& box,
                      const Eigen::Vector3d& normal)
     : patch_(patch), normal_(normal) {
-  const Jet<ComplexDisc> middle =
-      evaluate(patch, ComplexDisc(box.centre[0]), ComplexDisc(box.centre[1]));
-  const ComplexDisc height =
-      normal[0] * middle.value[0] + normal[1] * middle.value[1] + normal[2] * middle.value[2];
+  const Jet<TaylorModel> middle =
+      evaluate(patch, TaylorModel(box.centre[0]), TaylorModel(box.centre[1]));
+  const TaylorModel height = along(normal, middle.value);
   reach_ = mostLength(middle.value);
   height_ = height.middle - height.radius - 4.0 * kEpsilon * reach_;
 }
 
 PartBound PatchCell::bound(const ComplexBox& box) const {
-  const Jet<ComplexDisc> jet =
-      evaluate(patch_, parameterDisc(box.real, 0), parameterDisc(box.real, 1));
-  const ComplexDisc area = jet.first[0] * jet.second[1] - jet.first[1] * jet.second[0];
-  const double fall = mostAlong(normal_, jet.first) * box.real.half[0] +
-                      mostAlong(normal_, jet.second) * box.real.half[1];
+  const Triple<TaylorModel> at = parameters(box.real);
+  const Jet<TaylorModel> jet = evaluate(patch_, at[0], at[1]);
+  const TaylorModel area = jet.first[0] * jet.second[1] - jet.first[1] * jet.second[0];
+  const double fall = mostMean(normal_, jet.first) * box.real.half[0] +
+                      mostMean(normal_, jet.second) * box.real.half[1];
   const double first = mostLength(jet.first), second = mostLength(jet.second);
   const double reach = reach_ + first * box.real.half[0] + second * box.real.half[1];
   const double imaginary =
@@ -192,18 +198,18 @@ PartBound PatchCell::bound(const ComplexBox& box) const {
 // Of g, next to |g|, it is a few ε times how much larger its terms are; and as much of g/|g|, since
 // derivatives of that are (I - ĝĝᵀ) g'/|g|.
 PatchRounding PatchCell::rounding(const ParameterBox& box) const {
-  const ComplexDisc s = parameterDisc(box, 0), t = parameterDisc(box, 1);
-  const Jet<ComplexDisc> all = evaluate(patch_, s, t);
+  const auto [s, t, none] = parameters(box);
+  const Jet<TaylorModel> all = evaluate(patch_, s, t);
   PatchRounding result;
   result.first_length = mostLength(all.first);
   result.second_length = mostLength(all.second);
   const double corners = 16.0 * kEpsilon * mostNorm(patch_.position);
   result.position = result.first = result.second = corners;
-  BaseLength<ComplexDisc> length{};
+  BaseLength<TaylorModel> length{};
   if (patch_.lifted) length = baseLength(patch_, s);
   for (int k = 0; k < patch_.count; ++k) {
     const CurvedTerm& term = patch_.terms[static_cast<std::size_t>(k)];
-    Jet<ComplexDisc> g = bilinear(term.direction, s, t);
+    Jet<TaylorModel> g = bilinear(term.direction, s, t);
     if (patch_.lifted) addLift(term, length, t, g);
     const double inverse = inverseSquareRoot(dot(g.value, g.value)).most();
     const double lift =

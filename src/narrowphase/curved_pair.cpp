@@ -18,6 +18,9 @@
 namespace fcl_prob::detail {
 namespace {
 
+/// Of the mass of the half-space around a body.
+constexpr double kGuess = 0.01;
+
 /// By support functions, for GJK to propose directions.
 class ShapeObstacle final : public CObstacle {
  public:
@@ -134,7 +137,8 @@ Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const
   // A reflection leaves N(0, I) as it is.
   if (sum.map.determinant() < 0.0L) sum.map.row(0) *= -1.0L;
   sum.centre = sum.map * centre;
-  const double guess = normalTailMass(std::max(0.0, -obstacle.support(-direction)));
+  // Too small rather than too large: then one attempt is enough.
+  const double guess = kGuess * normalTailMass(std::max(0.0, -obstacle.support(-direction)));
   const Bounds mass = massWithin(surfaceOf(sum), guess, interruption);
   const double inradius =
       body.inradius / displacement.standardDeviations().maxCoeff() * (1.0 - 8.0 * kEpsilon);
