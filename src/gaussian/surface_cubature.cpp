@@ -15,7 +15,7 @@ constexpr int kMostSurfaceDepth = 60;
 constexpr std::size_t kMostSurfaceBoxes = 20000;
 
 /// Of the error of all rules, next to the mass.
-constexpr double kSurfaceTarget = 2e-8;
+constexpr double kSurfaceTarget = 1e-7;
 constexpr double kSurfaceEnough = 2e-7;
 constexpr int kSurfaceAttempts = 6;
 
@@ -30,31 +30,66 @@ constexpr double kFluxUnderflow = 1e-306;
 /// Where Q(z) φ(x) φ(y) is less than the smallest double.
 constexpr double kFarthestPoint = 39.0;
 
-/// 2π times the length of F.
-double fieldAt(const std::array<double, 3>& x) {
-  return 0.5 * std::exp(-0.5 * (x[0] * x[0] + x[1] * x[1])) * std::erfc(x[2] * kInverseSqrtTwo);
-}
-
 /// The third parameter is none: of length 1, so that volumes are areas.
 ParameterBox wholePatch() { return {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}; }
 
 /// A normal with n_z >= 0 along which the box is far from the origin.
 Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
-  Eigen::Vector3d nearest = Eigen::Vector3d::Constant(kInfinity);
+  Lanes t(box.centre[1]);
+  t[0] -= box.half[1];
+  t[2] += box.half[1];
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
   double least = kInfinity;
-  for (const auto& [i, j] :
-       {std::array<double, 2>{0.0, 0.0}, {-1.0, -1.0}, {-1.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}}) {
-    const PatchPoint point =
-        pointOf(patch, box.centre[0] + i * box.half[0], box.centre[1] + j * box.half[1]);
-    const Eigen::Vector3d up(point.x[0], point.x[1], std::max(point.x[2], 0.0));
-    if (const double square = up.squaredNorm(); square < least) {
-      least = square;
-      nearest = up;
+  for (const double step : {0.0, -1.0, 1.0}) {
+    const PatchPoints points = pointsOf(patch, box.centre[0] + step * box.half[0], t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d up(points.x[0][k], points.x[1][k], std::max(points.x[2][k], 0.0));
+      if (const double square = up.squaredNorm(); square < least) {
+        least = square;
+        nearest = up;
+      }
     }
   }
   return least > 0.0 && least < kInfinity ? Eigen::Vector3d(nearest / std::sqrt(least))
                                           : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
 }
+
+/// The rule of one parameter in lanes; what is beyond its points has no weight.
+struct LaneRule {
+  LaneRule(const PartRule& rule, const ParameterBox& box) {
+    const std::size_t points = rule.nodes.size();
+    count = (points + Lanes::kCount - 1) / Lanes::kCount;
+    for (std::size_t k = 0; k < count * Lanes::kCount; ++k) {
+      const std::size_t group = k / Lanes::kCount, lane = k % Lanes::kCount;
+      nodes[group][lane] = box.centre[1] + (k < points ? box.half[1] * rule.nodes[k] : 0.0);
+      weights[group][lane] = k < points ? rule.weights[k] : 0.0;
+    }
+  }
+
+  static constexpr std::size_t kMostGroups = (kMostPartPoints + Lanes::kCount - 1) / Lanes::kCount;
+  std::array<Lanes, kMostGroups> nodes, weights;
+  std::size_t count;
+};
+
+/// Sums of 2π F and of what its rounding is told from.
+struct FluxSums {
+  double flux = 0.0, magnitude = 0.0, density = 0.0, farthest_square = 0.0;
+
+  void add(const PatchPoints& points, double weight, const Lanes& weights) {
+    const Lanes area = points.first[0] * points.second[1] - points.first[1] * points.second[0];
+    const Lanes across = points.x[0] * points.x[0] + points.x[1] * points.x[1];
+    for (std::size_t k = 0; k < Lanes::kCount; ++k) {
+      if (!(weights[k] > 0.0)) continue;
+      const double z = points.x[2][k];
+      const double field =
+          weight * weights[k] * 0.5 * std::exp(-0.5 * across[k]) * std::erfc(z * kInverseSqrtTwo);
+      flux -= field * area[k];
+      magnitude += field * std::abs(area[k]);
+      density += field;
+      farthest_square = std::max(farthest_square, across[k] + z * z);
+    }
+  }
+};
 
 PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target,
                    EllipseGuess& guess) {
@@ -93,33 +128,26 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
 
 void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
                                const ParameterBox& box, const std::array<double, 3>& points) {
-  const PartRule &first = partRule(points[0]), &second = partRule(points[1]);
-  double flux = 0.0, magnitude = 0.0, density = 0.0, farthest = 0.0;
+  const PartRule& first = partRule(points[0]);
+  const LaneRule second(partRule(points[1]), box);
+  FluxSums sums;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     const double s = box.centre[0] + box.half[0] * first.nodes[i];
-    for (std::size_t j = 0; j < second.nodes.size(); ++j) {
-      const PatchPoint point = pointOf(patch, s, box.centre[1] + box.half[1] * second.nodes[j]);
-      const double field = first.weights[i] * second.weights[j] * fieldAt(point.x);
-      const double area = point.first[0] * point.second[1] - point.first[1] * point.second[0];
-      flux -= field * area;
-      magnitude += field * std::abs(area);
-      density += field;
-      const double square =
-          point.x[0] * point.x[0] + point.x[1] * point.x[1] + point.x[2] * point.x[2];
-      farthest = std::max(farthest, square);
+    for (std::size_t j = 0; j < second.count; ++j) {
+      sums.add(pointsOf(patch, s, second.nodes[j]), first.weights[i], second.weights[j]);
     }
   }
   const double scale = kInverseTwoPi * box.half[0] * box.half[1];
   const PatchRounding rounding = cell.rounding(box);
-  const double reach = std::min(std::sqrt(farthest), kFarthestPoint);
+  const double reach = std::min(std::sqrt(sums.farthest_square), kFarthestPoint);
   // |∇ log F| is at most reach + 1.
   const double relative =
       (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach + kFluxRounding;
   const double of_area = rounding.first * rounding.second_length +
                          rounding.second * rounding.first_length +
                          kFluxRounding * rounding.first_length * rounding.second_length;
-  sum_.mass += scale * flux;
-  sum_.error += scale * (magnitude * relative + density * of_area) + kFluxUnderflow;
+  sum_.mass += scale * sums.flux;
+  sum_.error += scale * (sums.magnitude * relative + sums.density * of_area) + kFluxUnderflow;
   if (!(rounding.position < 1e-3)) sum_.error = kInfinity;
 }
 

@@ -164,8 +164,8 @@ double mostNorm(const BilinearVector& corners) {
 
 }  // namespace
 
-PatchPoint pointOf(const SurfacePatch& patch, double s, double t) {
-  const Jet<double> jet = evaluate(patch, s, t);
+PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t) {
+  const Jet<Lanes> jet = evaluate(patch, Lanes(s), t);
   return {jet.value, jet.first, jet.second};
 }
 

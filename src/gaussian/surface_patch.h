@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "gaussian/lanes.h"
 #include "gaussian/solid_part.h"
 
 namespace fcl_prob::detail {
@@ -38,14 +39,14 @@ struct SurfacePatch {
   std::array<Eigen::Vector3d, 2> base;  ///< w at s = 0 and at 1
 };
 
-/// A point of a patch and its derivatives.
-struct PatchPoint {
-  std::array<double, 3> x, first, second;
+/// Points of a patch and their derivatives.
+struct PatchPoints {
+  std::array<Lanes, 3> x, first, second;
 };
 
-PatchPoint pointOf(const SurfacePatch& patch, double s, double t);
+PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t);
 
-/// Bounds on how much rounding can change of what pointOf() finds in a box, and on the derivatives
+/// Bounds on how much rounding can change of what pointsOf() finds in a box, and on the derivatives
 /// there, for real parameters.
 struct PatchRounding {
   double position = 0.0, first = 0.0, second = 0.0;
