@@ -15,7 +15,7 @@ constexpr int kMostSurfaceDepth = 60;
 constexpr std::size_t kMostSurfaceBoxes = 20000;
 
 /// Of the error of all rules, next to the mass.
-constexpr double kSurfaceTarget = 1e-7;
+constexpr double kSurfaceTarget = 4e-8;
 constexpr double kSurfaceEnough = 2e-7;
 constexpr int kSurfaceAttempts = 6;
 
@@ -102,6 +102,13 @@ PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target
   return plan;
 }
 
+/// Of a box that is half of another one, cut across the parameter that was not.
+std::array<ParameterBox, 2> halvesAcross(const ParameterBox& half, const ParameterBox& whole) {
+  PartPlan plan;
+  plan.points[half.half[0] < whole.half[0] ? 1 : 0] = 1.0;
+  return halves(half, plan);
+}
+
 }  // namespace
 
 void SurfaceCubature::add(const SurfacePatch& patch) { addBox(patch, wholePatch(), 0); }
@@ -119,7 +126,14 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
   }
   const PartPlan plan = planPatch(cell, box, target, guess_);
   if (!plan.exists()) {
-    for (const ParameterBox& half : halves(box, plan)) addBox(patch, half, depth + 1);
+    for (const ParameterBox& half : halves(box, plan)) {
+      if (plan.points[plan.worst()] < kInfinity) {
+        addBox(patch, half, depth + 1);
+      } else {
+        for (const ParameterBox& quarter : halvesAcross(half, box))
+          addBox(patch, quarter, depth + 2);
+      }
+    }
     return;
   }
   sum_.error += kInverseTwoPi * plan.error * kBoundSlack;

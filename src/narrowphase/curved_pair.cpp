@@ -18,8 +18,8 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// Of the mass of the half-space around a body.
-constexpr double kGuess = 0.01;
+/// Of the mass of the box around a body.
+constexpr double kGuess = 0.05;
 
 /// By support functions, for GJK to propose directions.
 class ShapeObstacle final : public CObstacle {
@@ -58,6 +58,19 @@ Eigen::Vector3d directionTo(const CObstacle& obstacle, const Eigen::Vector3d& ce
   if (nearest.squaredNorm() > 0.0 && nearest.allFinite()) return nearest;
   const double distance = centre.stableNorm();
   return distance > 0.0 ? Eigen::Vector3d(centre / distance) : Eigen::Vector3d::UnitZ();
+}
+
+/// About the mass, rather too small than too large: then one attempt is enough.
+double guessOf(const CObstacle& obstacle, const Eigen::Vector3d& direction) {
+  const auto widthAlong = [&](const Eigen::Vector3d& d) {
+    return obstacle.support(d) + obstacle.support(-d);
+  };
+  const Eigen::Vector3d across = direction.unitOrthogonal();
+  const double distance = std::max(0.0, -obstacle.support(-direction));
+  return kGuess * normalTailMass(distance) *
+         std::min(1.0, std::max(distance, 0.5) * widthAlong(direction)) *
+         std::min(1.0, 0.4 * widthAlong(across)) *
+         std::min(1.0, 0.4 * widthAlong(direction.cross(across)));
 }
 
 /// B ⊕ (−A), not yet mapped, and a ball within it.
@@ -137,8 +150,7 @@ Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const
   // A reflection leaves N(0, I) as it is.
   if (sum.map.determinant() < 0.0L) sum.map.row(0) *= -1.0L;
   sum.centre = sum.map * centre;
-  // Too small rather than too large: then one attempt is enough.
-  const double guess = kGuess * normalTailMass(std::max(0.0, -obstacle.support(-direction)));
+  const double guess = guessOf(obstacle, direction);
   const Bounds mass = massWithin(surfaceOf(sum), guess, interruption);
   const double inradius =
       body.inradius / displacement.standardDeviations().maxCoeff() * (1.0 - 8.0 * kEpsilon);
