@@ -8,12 +8,14 @@
 #include <cmath>
 
 #include "cobstacle/nearest.h"
+#include "cobstacle/perturbation.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/constants.h"
 #include "gaussian/surface_cubature.h"
 #include "geometry/exact_sum.h"
-#include "narrowphase/curved_surface.h"
+#include "narrowphase/curved_parts.h"
 #include "narrowphase/long_whitening.h"
+#include "narrowphase/rim_surface.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -73,47 +75,9 @@ double guessOf(const CObstacle& obstacle, const Eigen::Vector3d& direction) {
          std::min(1.0, 0.4 * widthAlong(direction.cross(across)));
 }
 
-/// B ⊕ (−A), not yet mapped, and a ball within it.
-struct SumWithBall {
-  CurvedSum sum;
-  double inradius = 0.0;  ///< around its centre, metres
-};
-
-/// At most one of both has a frustum. −A is A turned upside down, since both are symmetric about
-/// the axis and ellipsoids about their centres.
-SumWithBall sumOf(const CurvedBody& a, const CurvedBody& b) {
-  SumWithBall result;
-  for (const CurvedBody* body : {&a, &b}) {
-    if (!body->ellipsoid) continue;
-    result.sum.ellipsoids.push_back(*body->ellipsoid);
-    result.inradius += body->least_axis;
-  }
-  if (b.frustum) {
-    result.sum.frustum = *b.frustum;
-    result.sum.frame = b.frame;
-  } else if (a.frustum) {
-    result.sum.frustum = {a.frustum->half_height, a.frustum->top, a.frustum->bottom};
-    result.sum.frame = a.frame;
-  } else {
-    // In the frame of a ellipsoid its own normals are even.
-    result.sum.frame = result.sum.ellipsoids.front();
-  }
-  result.inradius += result.sum.frustum.inradius();
-  return result;
-}
-
 /// Of where the bodies are, known to 2⁻⁶² of a long double.
 double farRounding(const CurvedSum& sum) {
   return 0x1p-58 * static_cast<double>(sum.centre.norm());
-}
-
-LongVector3 centreBetween(const CurvedBody& a, const fcl::Transform3d& pose_a, const CurvedBody& b,
-                          const fcl::Transform3d& pose_b, const Eigen::Vector3d& mean) {
-  ExactPosition centre;
-  centre.add(pose_b, b.centre);
-  centre.add(pose_a, a.centre, -1.0);
-  centre.add(mean, -1.0);
-  return centre.value();
 }
 
 /// With V' within δ of a convex V, and V' holding a ball of radius ϱ about c: c + λ(V' - c) is in V
@@ -126,36 +90,74 @@ Bounds widened(const Bounds& mass, double error, double inradius, double centre)
   return {mass.lower * (1.0 - share), mass.upper * (1.0 + 1.1 * share)};
 }
 
+/// The difference of the points that the bodies are seen from, less the mean.
+LongVector3 offsetOf(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                     const fcl::Transform3d& pose_b, const Eigen::Vector3d& mean) {
+  const auto middleOf = [](const ConvexBody& body) -> Eigen::Vector3d {
+    const auto curved = curvedBody(body, Eigen::Matrix3d::Identity());
+    return curved ? curved->centre : Eigen::Vector3d::Zero();
+  };
+  ExactPosition offset;
+  offset.add(pose_b, middleOf(b));
+  offset.add(pose_a, middleOf(a), -1.0);
+  offset.add(mean, -1.0);
+  return offset.value();
+}
+
+/// The patches of parts that are placed, and how far what they enclose may be from the true sum.
+struct PlacedSurface {
+  std::vector<SurfacePatch> patches;
+  double error;
+};
+
+std::optional<PlacedSurface> placedSurface(const CurvedParts& parts) {
+  const double rounding = parts.sum.rounding() + farRounding(parts.sum);
+  if (!parts.polytope) return PlacedSurface{surfaceOf(parts.sum), rounding};
+  auto surface = rimSurface(parts.sum, *parts.polytope);
+  if (!surface) return std::nullopt;
+  const LongMatrix3 frame = parts.sum.map * parts.sum.frame;
+  double size = 0.0;
+  for (const Eigen::Vector3d& v : parts.polytope->vertices) size = std::max(size, v.norm());
+  const double metres = parts.error + surface->defect + 32.0 * kEpsilon * size;
+  return PlacedSurface{std::move(surface->patches),
+                       rounding + metres * static_cast<double>(frame.norm())};
+}
+
 }  // namespace
 
 bool isCurvedPair(const ConvexBody& a, const ConvexBody& b) {
-  const auto body_a = curvedBody(a, Eigen::Matrix3d::Identity());
-  const auto body_b = curvedBody(b, Eigen::Matrix3d::Identity());
-  return body_a && body_b && !(body_a->frustum && body_b->frustum);
+  const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  return curvedParts(a, turn, b, turn, 0).has_value();
 }
 
 Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                       const Interruption& interruption) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  const auto body_a = curvedBody(a, frame.rotation_a), body_b = curvedBody(b, frame.rotation_b);
-  if (!frame.fits || frame.rank < 3 || !body_a || !body_b) return {0.0, 1.0};
-  const SumWithBall body = sumOf(*body_a, *body_b);
-  const LongVector3 centre = centreBetween(*body_a, pose_a, *body_b, pose_b, displacement.mean());
+  if (!frame.fits || frame.rank < 3) return {0.0, 1.0};
+  const LongVector3 offset = offsetOf(a, pose_a, b, pose_b, displacement.mean());
   const LongMatrix3 whitening = longWhitening(displacement);
   const ShapeObstacle obstacle(frame, shapeOf(a), shapeOf(b));
-  const Eigen::Vector3d direction = directionTo(obstacle, (whitening * centre).cast<double>());
-  CurvedSum sum = body.sum;
-  sum.map = rotationToAxis(direction) * whitening;
+  const Eigen::Vector3d direction = directionTo(obstacle, (whitening * offset).cast<double>());
+  LongMatrix3 map = rotationToAxis(direction) * whitening;
   // A reflection leaves N(0, I) as it is.
-  if (sum.map.determinant() < 0.0L) sum.map.row(0) *= -1.0L;
-  sum.centre = sum.map * centre;
-  const double guess = guessOf(obstacle, direction);
-  const Bounds mass = massWithin(surfaceOf(sum), guess, interruption);
-  const double inradius =
-      body.inradius / displacement.standardDeviations().maxCoeff() * (1.0 - 8.0 * kEpsilon);
-  return widened(mass, sum.rounding() + farRounding(sum), inradius,
-                 static_cast<double>(sum.centre.norm()) * (1.0 + kEpsilon));
+  if (map.determinant() < 0.0L) map.row(0) *= -1.0L;
+  for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
+    auto parts = curvedParts(a, frame.rotation_a, b, frame.rotation_b, attempt);
+    if (!parts) return {0.0, 1.0};
+    parts->sum.map = map;
+    parts->sum.centre = map * offset;
+    const auto surface = placedSurface(*parts);
+    if (!surface) continue;
+    const double guess = guessOf(obstacle, direction);
+    const Bounds mass = massWithin(surface->patches, guess, interruption);
+    const double inradius = parts->inradius / displacement.standardDeviations().maxCoeff();
+    const LongVector3 middle =
+        parts->sum.centre + map * (parts->sum.frame * parts->middle.cast<long double>());
+    return widened(mass, surface->error, inradius * (1.0 - 8.0 * kEpsilon),
+                   static_cast<double>(middle.norm()) * (1.0 + kEpsilon));
+  }
+  return {0.0, 1.0};
 }
 
 }  // namespace fcl_prob::detail
