@@ -125,10 +125,7 @@ std::optional<PlacedSurface> placedSurface(const CurvedParts& parts) {
 
 }  // namespace
 
-bool isCurvedPair(const ConvexBody& a, const ConvexBody& b) {
-  const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  return curvedParts(a, turn, b, turn, 0).has_value();
-}
+bool isCurvedPair(const ConvexBody& a, const ConvexBody& b) { return haveCurvedParts(a, b); }
 
 Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,

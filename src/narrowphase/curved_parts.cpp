@@ -78,6 +78,13 @@ bool isFrustum(const std::optional<CurvedBody>& body) {
 
 }  // namespace
 
+bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b) {
+  const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  const auto body_a = curvedBody(a, turn), body_b = curvedBody(b, turn);
+  if (body_a && body_b) return !(body_a->frustum && body_b->frustum);
+  return (isFrustum(body_a) && isPolytope(b)) || (isFrustum(body_b) && isPolytope(a));
+}
+
 std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3d& rotation_a,
                                        const ConvexBody& b, const Eigen::Matrix3d& rotation_b,
                                        int attempt) {

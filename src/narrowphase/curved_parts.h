@@ -18,6 +18,9 @@ struct CurvedParts {
   double error = 0.0;  ///< how far the polytope may be from the true one, metres
 };
 
+/// Whether curvedParts() knows the pair.
+bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b);
+
 /// Of ellipsoids, spheres, capsules, cylinders and cones, not more than one of which has an axis,
 /// or of a cylinder or a cone and a polytope; nothing for other pairs. Parts are those of the
 /// bodies turned by their rotations. \param attempt  a polytope is turned by the perturbation() of

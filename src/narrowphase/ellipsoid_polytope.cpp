@@ -63,8 +63,9 @@ Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a
   const LongVector3 semi_axes = ellipsoid.semi_axes.diagonal().cast<long double>();
   const LongMatrix3 rotation = (first ? frame.rotation_a : frame.rotation_b).cast<long double>();
   const LongMatrix3 to_ball = semi_axes.cwiseInverse().asDiagonal() * rotation.inverse();
-  ConvexMesh mesh = (first ? b : a).data().set().outerMesh();
-  if (!first) reflect(mesh, Eigen::Matrix3d::Identity(), mesh);
+  const ConvexMesh& flat = (first ? b : a).data().set().outerMesh();
+  ConvexMesh mesh = flat;
+  if (!first) reflect(flat, Eigen::Matrix3d::Identity(), mesh);
   const LongMatrix3 turn = (first ? frame.rotation_b : frame.rotation_a).cast<long double>();
   ExactPosition offset;
   offset.add(pose_b.translation());

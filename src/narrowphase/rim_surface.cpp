@@ -17,6 +17,9 @@ using Vector = Eigen::Vector3d;
 /// the size, is a tie.
 constexpr double kTie = 1e-13;
 
+/// Every normal is tried on every corner.
+constexpr std::size_t kMostRimFaces = 2000;
+
 /// By how much turns around a corner may be off whole ones.
 constexpr double kTurnError = 1e-4;
 
@@ -68,7 +71,9 @@ class RimSurfaceBuilder {
   }
 
   std::optional<RimSurface> build() {
-    if (mesh_.faces.empty() || !(size_ > 0.0)) return std::nullopt;
+    if (mesh_.faces.empty() || mesh_.faces.size() > kMostRimFaces || !(size_ > 0.0)) {
+      return std::nullopt;
+    }
     for (const ConvexMesh::Face& face : mesh_.faces) {
       const auto normal = rimNormal(face.normal);
       if (!normal) return std::nullopt;
