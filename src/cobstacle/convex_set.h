@@ -23,6 +23,9 @@ class ConvexSet {
   virtual const ConvexMesh& outerMesh() const = 0;
   virtual const ConvexMesh& innerMesh() const = 0;
 
+  /// The shape that the set is, for a curved one.
+  virtual const SupportShape* curvedShape() const { return nullptr; }
+
   bool isPolytope() const { return &outerMesh() == &innerMesh(); }
 
   /// The set reaches out of outerMesh() by no more than this (metres): 0 or rounding.
@@ -55,6 +58,7 @@ class SweptSet final : public ConvexSet {
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const override {
     return shape_.supportPoint(direction);
   }
+  const SupportShape* curvedShape() const override { return &shape_; }
   const ConvexMesh& outerMesh() const override { return outer_; }
   const ConvexMesh& innerMesh() const override { return inner_; }
 

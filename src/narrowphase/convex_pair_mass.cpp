@@ -11,6 +11,8 @@
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/agreed_bounds.h"
 #include "narrowphase/ball_pair.h"
+#include "narrowphase/curved_pair.h"
+#include "narrowphase/ellipsoid_polytope.h"
 #include "narrowphase/pair_bounds.h"
 #include "narrowphase/rounded_pair.h"
 
@@ -60,6 +62,14 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   if (frame.rank == 3 && isRoundedPair(a, b)) {
     const RoundedEffort effort{false, interruption};
     known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (frame.rank == 3 && isEllipsoidWithPolytope(a, b)) {
+    known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, interruption));
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (frame.rank == 3 && isCurvedPair(a, b)) {
+    known = agreed(known, curvedPairMass(a, pose_a, b, pose_b, displacement, interruption));
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;

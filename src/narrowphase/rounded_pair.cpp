@@ -10,6 +10,7 @@
 #include "base/power_of_two.h"
 #include "cobstacle/minkowski_sum.h"
 #include "geometry/exact_sum.h"
+#include "narrowphase/long_whitening.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -99,16 +100,6 @@ std::optional<CoreFaces> sumOfMeshes(const PairFrame& frame, const ConvexBody& a
   result.error =
       2.0 * kShapeRoundings * kEpsilon * size + *defect + a.data().slack() + b.data().slack();
   return result;
-}
-
-/// D⁻¹ Q⁻¹ of a displacement Q D ξ whose axes Q are a rotation to rounding: Q⁻¹ is (2 - QᵀQ) Qᵀ but
-/// for the square of that.
-LongMatrix3 longWhitening(const GaussianDisplacement& displacement) {
-  const LongMatrix3 axes = displacement.axes().cast<long double>();
-  const LongMatrix3 inverse =
-      (2.0L * LongMatrix3::Identity() - axes.transpose() * axes) * axes.transpose();
-  const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
-  return deviations.cwiseInverse().asDiagonal() * inverse;
 }
 
 /// A mean that moves by d moves the whitened body by -W d, and the mass changes by moment·W d.

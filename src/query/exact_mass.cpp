@@ -18,6 +18,9 @@ namespace {
 /// gaps.
 constexpr int kFineResolution = 4 * ConvexBody::kDefaultResolution;
 
+/// More is left only where a body is enclosed between polytopes.
+constexpr double kQuadratureWidth = 1e-4;
+
 /// What rounding leaves of the mass of a polytope.
 constexpr double kRoundingWidth = 1e-9;
 
@@ -57,7 +60,7 @@ class ExactMass {
     } else if (request_.gradient) {
       result.plan.push_back("no gradient: the interval method has one");
     }
-    if (!flat_ && result.status != ProbabilityStatus::exact) {
+    if (!flat_ && mass_.width() > kQuadratureWidth * mass_.upper) {
       result.plan.push_back("curved sides enclosed between polytopes");
     }
     return result;

@@ -5,6 +5,8 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/geometry_kind.h"
+#include "narrowphase/curved_pair.h"
+#include "narrowphase/ellipsoid_polytope.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -25,7 +27,14 @@ struct QueryPair {
   bool haveExactMass(const GaussianDisplacement& displacement) const {
     if (!areConvex()) return false;
     if (isPolytope(typeOf(a)) && isPolytope(typeOf(b))) return true;
-    return areSpheres() || (areRounded() && displacement.rank() == 3);
+    return areSpheres() || (displacement.rank() == 3 && (areRounded() || areCurved()));
+  }
+
+  /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
+  bool areCurved() const {
+    return areConvex() && !areRounded() &&
+           (isCurvedPair(a.rootBody(), b.rootBody()) ||
+            isEllipsoidWithPolytope(a.rootBody(), b.rootBody()));
   }
 
   /// Their C-obstacle is a polytope swept by a ball.
@@ -113,6 +122,9 @@ std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& d
     return "round and flat shapes: their C-obstacle is a polytope swept by a ball, mass by "
            "quadrature";
   }
+  if (displacement.rank() == 3 && pair.areCurved()) {
+    return "curved shapes: mass of their C-obstacle by quadrature over its boundary";
+  }
   return "both shapes are convex: exact mass of their C-obstacle, no tree";
 }
 
@@ -134,7 +146,8 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
   const bool has_gradient = displacement.rank() == 3 && pair.areRounded();
   if (exact && (has_gradient || !request.gradient)) {
     QueryPlan plan = planExact(pair, displacement, request);
-    plan.partition_if_unresolved = pair.areRounded() && (request.gradient || !pair.areSpheres());
+    plan.partition_if_unresolved =
+        pair.areRounded() ? request.gradient || !pair.areSpheres() : pair.areCurved();
     return plan;
   }
   QueryPlan plan = planPartition(pair, displacement, request);

@@ -231,17 +231,44 @@ TEST_CASE("rounded pairs that move along two axes only are left to the partition
   CHECK(result.status == ProbabilityStatus::converged);
 }
 
-TEST_CASE("asked for by name, the exact method encloses curved shapes between polytopes") {
+TEST_CASE("the exact method integrates over the boundaries of curved shapes") {
   const fcl::Cylinderd cylinder(0.3, 0.5);
+  const fcl::Ellipsoidd ellipsoid(0.3, 0.2, 0.4);
   const fcl::Boxd box(0.5, 0.4, 0.3);
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.05});
   ProbabilityRequest request;
-  request.relative_tolerance = 1e-4;
+  request.relative_tolerance = 1e-6;
+  const auto with_box =
+      answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  CHECK(with_box.method == ProbabilityMethod::exact);
+  CHECK(with_box.status == ProbabilityStatus::converged);
+  CHECK(planMentions(with_box, "quadrature over its boundary"));
+  CHECK_FALSE(planMentions(with_box, "enclosed"));
+  const auto with_ellipsoid =
+      answer(ellipsoid, kIdentity, cylinder, at({0.8, 0.2, 0.1}), displacement, request);
+  CHECK(with_ellipsoid.method == ProbabilityMethod::exact);
+  CHECK(*with_ellipsoid.upper - *with_ellipsoid.lower <= 1e-6 * *with_ellipsoid.upper);
+  request.method = ProbabilityMethod::interval;
+  request.relative_tolerance = 1e-3;
   const auto interval =
       answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  CHECK(*with_box.lower <= *interval.upper);
+  CHECK(*with_box.upper >= *interval.lower);
+  // The quadrature has no gradient.
+  request.method = ProbabilityMethod::automatic;
+  request.gradient = true;
+  CHECK(answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request).method ==
+        ProbabilityMethod::interval);
+}
+
+TEST_CASE("asked for by name, the exact method encloses other curved shapes between polytopes") {
+  const fcl::Coned cone(0.3, 0.5), other(0.3, 0.4);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.05});
+  ProbabilityRequest request;
+  request.relative_tolerance = 1e-4;
+  const auto interval = answer(cone, kIdentity, other, at({0.7, 0.2, 0.1}), displacement, request);
   request.method = ProbabilityMethod::exact;
-  const auto enclosed =
-      answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  const auto enclosed = answer(cone, kIdentity, other, at({0.7, 0.2, 0.1}), displacement, request);
   CHECK(enclosed.method == ProbabilityMethod::exact);
   CHECK(enclosed.status == ProbabilityStatus::resolution_limit);
   CHECK(planMentions(enclosed, "enclosed between polytopes"));

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "gaussian/surface_cubature.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gaussian/normal_density.h"
+#include "gaussian/part_rules.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+constexpr int kMostSurfaceDepth = 60;
+constexpr std::size_t kMostSurfaceBoxes = 20000;
+
+/// Of the error of all rules, next to the mass.
+constexpr double kSurfaceTarget = 4e-8;
+constexpr double kSurfaceEnough = 2e-7;
+constexpr int kSurfaceAttempts = 6;
+
+constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
+
+/// Of a term, besides that of the point: exp, erfc, weights and sums.
+constexpr double kFluxRounding = 512.0 * kEpsilon;
+
+/// Below the smallest normal double, for every term of a rule.
+constexpr double kFluxUnderflow = 1e-306;
+
+/// Where Q(z) φ(x) φ(y) is less than the smallest double.
+constexpr double kFarthestPoint = 39.0;
+
+/// The third parameter is none: of length 1, so that volumes are areas.
+ParameterBox wholePatch() { return {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}; }
+
+/// A normal with n_z >= 0 along which the box is far from the origin.
+Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
+  Lanes t(box.centre[1]);
+  t[0] -= box.half[1];
+  t[2] += box.half[1];
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
+  double least = kInfinity;
+  for (const double step : {0.0, -1.0, 1.0}) {
+    const PatchPoints points = pointsOf(patch, box.centre[0] + step * box.half[0], t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d up(points.x[0][k], points.x[1][k], std::max(points.x[2][k], 0.0));
+      if (const double square = up.squaredNorm(); square < least) {
+        least = square;
+        nearest = up;
+      }
+    }
+  }
+  return least > 0.0 && least < kInfinity ? Eigen::Vector3d(nearest / std::sqrt(least))
+                                          : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+}
+
+/// The rule of one parameter in lanes; what is beyond its points has no weight.
+struct LaneRule {
+  LaneRule(const PartRule& rule, const ParameterBox& box) {
+    const std::size_t points = rule.nodes.size();
+    count = (points + Lanes::kCount - 1) / Lanes::kCount;
+    for (std::size_t k = 0; k < count * Lanes::kCount; ++k) {
+      const std::size_t group = k / Lanes::kCount, lane = k % Lanes::kCount;
+      nodes[group][lane] = box.centre[1] + (k < points ? box.half[1] * rule.nodes[k] : 0.0);
+      weights[group][lane] = k < points ? rule.weights[k] : 0.0;
+    }
+  }
+
+  static constexpr std::size_t kMostGroups = (kMostPartPoints + Lanes::kCount - 1) / Lanes::kCount;
+  std::array<Lanes, kMostGroups> nodes, weights;
+  std::size_t count;
+};
+
+/// Sums of 2π F and of what its rounding is told from.
+struct FluxSums {
+  double flux = 0.0, magnitude = 0.0, density = 0.0, farthest_square = 0.0;
+
+  void add(const PatchPoints& points, double weight, const Lanes& weights) {
+    const Lanes area = points.first[0] * points.second[1] - points.first[1] * points.second[0];
+    const Lanes across = points.x[0] * points.x[0] + points.x[1] * points.x[1];
+    for (std::size_t k = 0; k < Lanes::kCount; ++k) {
+      if (!(weights[k] > 0.0)) continue;
+      const double z = points.x[2][k];
+      const double field =
+          weight * weights[k] * 0.5 * std::exp(-0.5 * across[k]) * std::erfc(z * kInverseSqrtTwo);
+      flux -= field * area[k];
+      magnitude += field * std::abs(area[k]);
+      density += field;
+      farthest_square = std::max(farthest_square, across[k] + z * z);
+    }
+  }
+};
+
+PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target,
+                   EllipseGuess& guess) {
+  PartPlan plan;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ParameterRule rule = fewestPoints(cell, box, k, target, guess[k]);
+    plan.points[k] = rule.points;
+    plan.error += rule.error;
+  }
+  return plan;
+}
+
+/// Of a box that is half of another one, cut across the parameter that was not.
+std::array<ParameterBox, 2> halvesAcross(const ParameterBox& half, const ParameterBox& whole) {
+  PartPlan plan;
+  plan.points[half.half[0] < whole.half[0] ? 1 : 0] = 1.0;
+  return halves(half, plan);
+}
+
+}  // namespace
+
+void SurfaceCubature::add(const SurfacePatch& patch) { addBox(patch, wholePatch(), 0); }
+
+void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box, int depth) {
+  ++cells_;
+  const double target = limits_.tolerance / kInverseTwoPi;
+  const PatchCell cell(patch, box, farNormal(patch, box));
+  const double all = volumeOf(box) * supremumOf(cell.bound(ComplexBox(box))) * kBoundSlack;
+  const bool is_last = depth >= kMostSurfaceDepth || cells_ >= limits_.most_cells;
+  if (all <= target || is_last) {
+    sum_.error += kInverseTwoPi * all + kFluxUnderflow;
+    if (!(all < kInfinity)) sum_.error = kInfinity;
+    return;
+  }
+  const PartPlan plan = planPatch(cell, box, target, guess_);
+  if (!plan.exists()) {
+    for (const ParameterBox& half : halves(box, plan)) {
+      if (plan.points[plan.worst()] < kInfinity) {
+        addBox(patch, half, depth + 1);
+      } else {
+        for (const ParameterBox& quarter : halvesAcross(half, box))
+          addBox(patch, quarter, depth + 2);
+      }
+    }
+    return;
+  }
+  sum_.error += kInverseTwoPi * plan.error * kBoundSlack;
+  evaluate(patch, cell, box, plan.points);
+}
+
+void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
+                               const ParameterBox& box, const std::array<double, 3>& points) {
+  const PartRule& first = partRule(points[0]);
+  const LaneRule second(partRule(points[1]), box);
+  FluxSums sums;
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+    const double s = box.centre[0] + box.half[0] * first.nodes[i];
+    for (std::size_t j = 0; j < second.count; ++j) {
+      sums.add(pointsOf(patch, s, second.nodes[j]), first.weights[i], second.weights[j]);
+    }
+  }
+  const double scale = kInverseTwoPi * box.half[0] * box.half[1];
+  const PatchRounding rounding = cell.rounding(box);
+  const double reach = std::min(std::sqrt(sums.farthest_square), kFarthestPoint);
+  // |∇ log F| is at most reach + 1.
+  const double relative =
+      (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach + kFluxRounding;
+  const double of_area = rounding.first * rounding.second_length +
+                         rounding.second * rounding.first_length +
+                         kFluxRounding * rounding.first_length * rounding.second_length;
+  sum_.mass += scale * sums.flux;
+  sum_.error += scale * (sums.magnitude * relative + sums.density * of_area) + kFluxUnderflow;
+  if (!(rounding.position < 1e-3)) sum_.error = kInfinity;
+}
+
+Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
+                  const Interruption& interruption) {
+  const double count = static_cast<double>(surface.size()) + 30.0;
+  SurfaceSum best{0.0, kInfinity};
+  double about = std::clamp(guess, kUnderflow, 0.1);
+  for (int attempt = 0; attempt < kSurfaceAttempts; ++attempt) {
+    SurfaceCubature cubature({kSurfaceTarget * about / count, kMostSurfaceBoxes});
+    for (const SurfacePatch& patch : surface) {
+      if (isDue(interruption)) cubature.leave();
+      if (!(cubature.sum().error < kInfinity)) break;
+      cubature.add(patch);
+    }
+    if (cubature.sum().error < best.error) best = cubature.sum();
+    if (best.error <= kSurfaceEnough * best.mass || cubature.exhausted()) break;
+    // As far as it is known.
+    const double most = best.mass + best.error;
+    const double next = best.mass > 2.0 * best.error ? best.mass : std::min(1e-6 * about, most);
+    if (!(next < 0.5 * about) || isDue(interruption)) break;
+    about = std::max(next, kUnderflow);
+  }
+  const double error = best.error * (1.0 + 1e-9) + 1e-13 * std::abs(best.mass) + kUnderflow;
+  return {best.mass - error, best.mass + error};
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Patches that the boundaries of sums of curved convex bodies are made of.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "gaussian/lanes.h"
+#include "gaussian/solid_part.h"
+
+namespace fcl_prob::detail {
+
+/// What a vector is at the corners (s, t) = (0,0), (1,0), (0,1), (1,1) of a square, on which it is
+/// bilinear. Corners, not slopes, so that neighbours agree along the edge that they share.
+using BilinearVector = std::array<Eigen::Vector3d, 4>;
+
+/// A point of the ellipsoid { H u : |u| = 1 }, flat if a column of H is 0: size H g/|g|, the
+/// support point of the normal that g = Hᵀn stands for. Linear in t is `size`; g is bilinear, with
+/// |w(s)| lift(t) added, w being the patch's: normals of a cone's side.
+struct CurvedTerm {
+  Eigen::Matrix3d image;
+  BilinearVector direction;
+  std::array<Eigen::Vector3d, 2> lift{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  std::array<double, 2> size{1.0, 1.0};
+};
+
+/// x(s, t) for s and t from 0 to 1: a bilinear vector and up to two curved terms. ∂x/∂s × ∂x/∂t is
+/// towards the outside.
+struct SurfacePatch {
+  static constexpr int kMostTerms = 3;
+
+  void add(const CurvedTerm& term) { terms[static_cast<std::size_t>(count++)] = term; }
+
+  BilinearVector position;
+  std::array<CurvedTerm, kMostTerms> terms;
+  int count = 0;
+  bool lifted = false;                  ///< whether any term has a lift
+  std::array<Eigen::Vector3d, 2> base;  ///< w at s = 0 and at 1
+};
+
+/// Points of a patch and their derivatives.
+struct PatchPoints {
+  std::array<Lanes, 3> x, first, second;
+};
+
+PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t);
+
+/// Bounds on how much rounding can change of what pointsOf() finds in a box, and on the derivatives
+/// there, for real parameters.
+struct PatchRounding {
+  double position = 0.0, first = 0.0, second = 0.0;
+  double first_length = 0.0, second_length = 0.0;
+};
+
+/// Bounds over a box of a patch (the third parameter of boxes is none) along a unit normal.
+class PatchCell {
+ public:
+  PatchCell(const SurfacePatch& patch, const ParameterBox& box, const Eigen::Vector3d& normal);
+
+  /// Of the integrand ∂x/∂s × ∂x/∂t · e_z exp(-x·x/2) and of what it is made of. With the mean
+  /// value theorem x(s, t) - x(middle) is a mean of ∂x/∂s times one step and a mean of ∂x/∂t times
+  /// another, both within discs around what they are at the middle; and Im x(s + iη) is η times a
+  /// mean of Re ∂x/∂s, since x is real where the parameters are.
+  PartBound bound(const ComplexBox& box) const;
+
+  PatchRounding rounding(const ParameterBox& box) const;
+
+ private:
+  const SurfacePatch& patch_;
+  Eigen::Vector3d normal_;
+  double height_ = 0.0;  ///< of the middle, along the normal, less its rounding
+  double reach_ = 0.0;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "narrowphase/curved_parts.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "cobstacle/perturbation.h"
+#include "gaussian/constants.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// −A is A turned upside down, since frustums are symmetric about their axis and ellipsoids about
+/// their centres.
+void addFrustum(const CurvedBody& body, bool reflected, CurvedParts& parts) {
+  Frustum frustum = *body.frustum;
+  if (reflected) std::swap(frustum.bottom, frustum.top);
+  parts.sum.frustum = frustum;
+  parts.sum.frame = body.frame;
+  parts.inradius += frustum.inradius();
+}
+
+/// At most one of both has a frustum.
+CurvedParts partsOf(const CurvedBody& a, const CurvedBody& b) {
+  CurvedParts parts;
+  for (const CurvedBody* body : {&a, &b}) {
+    if (!body->ellipsoid) continue;
+    parts.sum.ellipsoids.push_back(*body->ellipsoid);
+    parts.inradius += body->least_axis;
+  }
+  if (b.frustum) {
+    addFrustum(b, false, parts);
+  } else if (a.frustum) {
+    addFrustum(a, true, parts);
+  } else {
+    // In the frame of an ellipsoid its own normals are even.
+    parts.sum.frame = parts.sum.ellipsoids.front();
+  }
+  return parts;
+}
+
+/// A polytope seen from the frame of a frustum, turned a little: about its own origin, by a
+/// perturbation() that decides ties.
+void placePolytope(const ConvexMesh& mesh, const LongMatrix3& rotation, int attempt,
+                   CurvedParts& parts) {
+  const Eigen::Vector3d turn = perturbation(0, attempt);
+  LongMatrix3 turned = rotation;
+  for (int k = 0; k < 3; ++k) {
+    turned.col(k) += turn.cast<long double>().cross(LongVector3(rotation.col(k)));
+  }
+  const LongMatrix3 of_normals = turned.inverse().transpose();
+  ConvexMesh image = mesh;
+  double size = 0.0;
+  parts.middle.setZero();
+  for (Eigen::Vector3d& v : image.vertices) {
+    size = std::max(size, v.norm());
+    v = (turned * v.cast<long double>()).cast<double>();
+    parts.middle += v / static_cast<double>(image.vertices.size());
+  }
+  for (ConvexMesh::Face& face : image.faces) {
+    face.normal = (of_normals * face.normal.cast<long double>()).cast<double>().normalized();
+  }
+  parts.error = (8.0 * kEpsilon + 1.01 * turn.norm()) * size + mesh.slack;
+  parts.polytope = std::move(image);
+}
+
+bool isPolytope(const ConvexBody& body) {
+  if (body.data().rounded && body.data().rounded->radius > 0.0) return false;
+  return body.data().set().isPolytope();
+}
+
+/// A cylinder or a cone.
+bool isFrustum(const std::optional<CurvedBody>& body) {
+  return body && body->frustum && !body->ellipsoid;
+}
+
+}  // namespace
+
+bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b) {
+  const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  const auto body_a = curvedBody(a, turn), body_b = curvedBody(b, turn);
+  if (body_a && body_b) return !(body_a->frustum && body_b->frustum);
+  return (isFrustum(body_a) && isPolytope(b)) || (isFrustum(body_b) && isPolytope(a));
+}
+
+std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3d& rotation_a,
+                                       const ConvexBody& b, const Eigen::Matrix3d& rotation_b,
+                                       int attempt) {
+  const auto body_a = curvedBody(a, rotation_a), body_b = curvedBody(b, rotation_b);
+  if (body_a && body_b) {
+    if (body_a->frustum && body_b->frustum) return std::nullopt;
+    return partsOf(*body_a, *body_b);
+  }
+  CurvedParts parts;
+  if (isFrustum(body_b) && isPolytope(a)) {
+    addFrustum(*body_b, false, parts);
+    ConvexMesh reflected;
+    reflect(a.data().set().outerMesh(), Eigen::Matrix3d::Identity(), reflected);
+    placePolytope(reflected, body_b->frame.inverse() * rotation_a.cast<long double>(), attempt,
+                  parts);
+    return parts;
+  }
+  if (isFrustum(body_a) && isPolytope(b)) {
+    addFrustum(*body_a, true, parts);
+    placePolytope(b.data().set().outerMesh(),
+                  body_a->frame.inverse() * rotation_b.cast<long double>(), attempt, parts);
+    return parts;
+  }
+  return std::nullopt;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The map to the whitened frame in more than double precision.
+#pragma once
+
+#include "fcl_prob/gaussian_displacement.h"
+#include "gaussian/rounded_parts.h"
+
+namespace fcl_prob::detail {
+
+/// D⁻¹ Q⁻¹ of a displacement Q D ξ of rank 3 whose axes Q are a rotation to rounding: Q⁻¹ is
+/// (2 - QᵀQ) Qᵀ but for the square of that.
+inline LongMatrix3 longWhitening(const GaussianDisplacement& displacement) {
+  const LongMatrix3 axes = displacement.axes().cast<long double>();
+  const LongMatrix3 inverse =
+      (2.0L * LongMatrix3::Identity() - axes.transpose() * axes) * axes.transpose();
+  const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
+  return deviations.cwiseInverse().asDiagonal() * inverse;
+}
+
+}  // namespace fcl_prob::detail
