@@ -3,6 +3,7 @@
 // The clock and the caller's wishes, as engines that divide cells look at them.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -55,5 +56,12 @@ class EngineLimits {
   const ProbabilityStatistics& statistics_;
   std::chrono::steady_clock::time_point started_;
 };
+
+/// What one of several that divide cells has done, added to what all have.
+inline void addWork(const ProbabilityStatistics& of_one, ProbabilityStatistics& of_all) {
+  of_all.cells += of_one.cells;
+  of_all.pairs_tested += of_one.pairs_tested;
+  of_all.peak_front = std::max(of_all.peak_front, of_one.peak_front);
+}
 
 }  // namespace fcl_prob::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "carving/carving_engine.h"
+#include "carving/cell_carver.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -41,7 +41,7 @@ constexpr double kTouching = 2 * CellPolytope::kSnap;
 
 // By how much of the cell's mass is in it, as far as a few samples tell. Hulls come last: they
 // settle nothing.
-std::size_t CarvingEngine::bestEntry(const CarvedCell& cell, const List& list) {
+std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
   const std::vector<Eigen::Vector3d>& vertices = cell.body.vertices();
   const Eigen::Vector3d middle = cell.body.middle();
   samples_.assign(1, middle);
@@ -85,8 +85,8 @@ std::size_t CarvingEngine::bestEntry(const CarvedCell& cell, const List& list) {
 }
 
 // The part of a body within all planes of an obstacle.
-bool CarvingEngine::clip(const CellPolytope& body, const List& list, std::size_t entry,
-                         CellPolytope& inside) {
+bool CellCarver::clip(const CellPolytope& body, const List& list, std::size_t entry,
+                      CellPolytope& inside) {
   inside = body;
   for (std::size_t p = list.entries[entry].first; p < list.entries[entry].last; ++p) {
     cutter_.cut(inside, list.planes[p].n, list.planes[p].inner(), &inside, nullptr);
@@ -95,7 +95,7 @@ bool CarvingEngine::clip(const CellPolytope& body, const List& list, std::size_t
   return true;
 }
 
-void CarvingEngine::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
+void CellCarver::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
   CellPolytope inside;
   for (int tried = 0; tried < kMostCandidates; ++tried) {
     const std::size_t best = bestEntry(cell, *list);
@@ -111,7 +111,7 @@ void CarvingEngine::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
 
 // Whether anything of a body is within all outer planes of an obstacle. None of them need be beyond
 // the body, as one has to be for refine() to see that.
-bool CarvingEngine::mayMeet(const CellPolytope& body, const List& list, std::size_t entry) {
+bool CellCarver::mayMeet(const CellPolytope& body, const List& list, std::size_t entry) {
   const List::Entry& planes = list.entries[entry];
   allowSlivers(body, planes.last - planes.first);
   CellPolytope rest = body;
@@ -125,7 +125,7 @@ bool CarvingEngine::mayMeet(const CellPolytope& body, const List& list, std::siz
 
 // An obstacle that does not meet a cell, or in no more than the layer between its inner and outer
 // planes. Of a cell with such layers no point tells whether the solids overlap.
-void CarvingEngine::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
+void CellCarver::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
   if (!mayMeet(cell.body, list, entry)) {
     list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
     return;
@@ -142,13 +142,13 @@ void CarvingEngine::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
     allowSlivers(cell.body, 1);
     if (rest.empty()) break;
   }
-  settled_.upper += openMass(rest, cell.mass.upper).upper;  // of nothing
+  carving_->settled.upper += openMass(rest, cell.mass.upper).upper;  // of nothing
   cell.dropped = true;
   list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
 }
 
-void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
-                            const CellPolytope& inside) {
+void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
+                         const CellPolytope& inside) {
   // The better the more of the cell is known already.
   const double accuracy =
       std::clamp(kInnerShare * cell.gap() / cell.mass.upper, accuracy_, kInnerAccuracy);
@@ -183,17 +183,17 @@ void CarvingEngine::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list,
 }
 
 // What is in hulls and in none of their cores.
-void CarvingEngine::openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
-                             const CellPolytope& inside, double mass) {
+void CellCarver::openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
+                          const CellPolytope& inside, double mass) {
   const bool rough = request_.threshold || request_.relative_tolerance >= kFinestOfPieces;
-  const bool worth_while = rough && statistics_.cells < kMostCellsOfPieces;
+  const bool worth_while = rough && so_far_.cells < kMostCellsOfPieces;
   const bool all_have_pieces =
       worth_while &&
       std::all_of(list->entries.begin(), list->entries.end(), [this](const List::Entry& entry) {
         return !obstacles_.piecesWithin(entry.obstacle.member).empty();
       });
   if (!all_have_pieces) {
-    settled_.upper += mass;
+    carving_->settled.upper += mass;
     return;
   }
   CarvedCell within;
@@ -207,7 +207,7 @@ void CarvingEngine::openHull(const CarvedCell& cell, const std::shared_ptr<List>
 }
 
 // The plane that cuts off most, which is taken from the list; those that cut nothing are dropped.
-std::optional<ObstaclePlane> CarvingEngine::nextPlane(Rest& rest) {
+std::optional<ObstaclePlane> CellCarver::nextPlane(Rest& rest) {
   std::vector<ObstaclePlane>& planes = rest.planes;
   std::size_t next = 0;
   double most = 0.0;
@@ -234,8 +234,8 @@ std::optional<ObstaclePlane> CarvingEngine::nextPlane(Rest& rest) {
 }
 
 // What lies behind a plane of the obstacle becomes a cell of its own.
-void CarvingEngine::cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list,
-                           const ObstaclePlane& plane, Rest& rest) {
+void CellCarver::cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list,
+                        const ObstaclePlane& plane, Rest& rest) {
   CarvedCell outside;
   cutter_.cut(rest.body, plane.n, plane.inner(), &rest.body, &outside.body);
   allowSlivers(cell.body, 1);
@@ -254,7 +254,7 @@ void CarvingEngine::cutOff(const CarvedCell& cell, const std::shared_ptr<List>& 
 }
 
 // Across its longest side.
-void CarvingEngine::split(CarvedCell& cell, const std::shared_ptr<List>& list) {
+void CellCarver::split(CarvedCell& cell, const std::shared_ptr<List>& list) {
   int axis = 0;
   double longest = -1.0;
   for (int k = 0; k < 3; ++k) {

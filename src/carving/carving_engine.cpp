@@ -2,61 +2,27 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "carving/carving_engine.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
-#include "base/constants.h"
 #include "base/rounded_sum.h"
-#include "cells/cell_split.h"
-#include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// Boxes wider than this are halved before obstacles are looked at one by one.
-constexpr double kWidestBox = 1.5;
+// As long as no more cells than these were looked at it is one at a time: a few milliseconds, for
+// which threads are not worth waking.
+constexpr std::size_t kCellsOneByOne = 200;
 
-// For an interval a box with more obstacles than this is halved once more: their lists are what
-// takes time. A decision looks closely at few boxes, and was slower with more of them (bench
-// states).
-constexpr double kWidestCrowdedBox = 1.0;
-constexpr std::size_t kCrowd = 64;
-
-// Accuracy of the masses of cells that stay open, and of those settled: that as a share of the
-// tolerance.
-constexpr double kOpenMassAccuracy = 0.03;
-constexpr double kSettledShare = 0.01;
-constexpr double kDecisionAccuracy = 1e-4;
-constexpr double kBestAccuracy = 1e-6;
-constexpr double kWorstAccuracy = 1e-3;
-
-// How much may be wrong in one of the tetrahedra of a cell, as a share of all that is settled.
-constexpr double kSettledFloor = 1e-4;
-
-// A layer of a smaller share than this of the accuracy is not looked at closely.
-constexpr double kLittleShare = 0.1;
-constexpr double kLayerAccuracy = 0.3;
+// Cells of a round: so many, or one in so many of the open ones.
+constexpr std::size_t kMostOfRound = 64;
+constexpr std::size_t kLeastOfRound = 8;
+constexpr std::size_t kOpenOfRound = 8;
 
 bool hasSmallerGap(const CarvedCell& x, const CarvedCell& y) { return x.gap() < y.gap(); }
 
-double settledAccuracy(const ProbabilityRequest& request) {
-  if (request.threshold) return kDecisionAccuracy;
-  return std::clamp(kSettledShare * request.relative_tolerance, kBestAccuracy, kWorstAccuracy);
-}
-
-double widest(const Cell& box) { return (box.hi - box.lo).maxCoeff(); }
-
 std::size_t memoryOf(const CarvedCell& cell) {
   return sizeof(CarvedCell) + sizeof(CarvedLayer) + cell.body.memory();
-}
-
-bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {
-  for (; layers; layers = layers->before.get()) {
-    if (!(layers->n.dot(point) > layers->outer + CellPolytope::kCutLayer)) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -67,7 +33,8 @@ CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
       solids_(solids),
       request_(request),
       statistics_(statistics),
-      accuracy_(settledAccuracy(request)),
+      workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(*this)),
+      round_(kMostOfRound),
       limits_(request, statistics) {
   CarvedCell root;
   root.box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
@@ -86,138 +53,65 @@ void CarvingEngine::push(CarvedCell&& cell) {
   std::push_heap(queue_.begin(), queue_.end(), hasSmallerGap);
 }
 
-bool CarvingEngine::isTooLarge(const CarvedCell& cell) const {
-  const double width = widest(*cell.box);
-  if (width > kWidestBox) return true;
-  if (request_.threshold || width <= kWidestCrowdedBox) return false;
-  std::vector<FatNode> leaves;
-  gatherNodes(*cell.box, *cell.nodes, true, leaves);
-  return leaves.size() > kCrowd;
-}
-
-void CarvingEngine::divideLargest() {
-  std::pop_heap(queue_.begin(), queue_.end(), hasSmallerGap);
-  CarvedCell cell = std::move(queue_.back());
-  queue_.pop_back();
-  open_.lower -= cell.inner;
-  open_.upper -= cell.mass.upper;
-  cell_memory_ -= memoryOf(cell);
-  ++statistics_.cells;
-  if (cell.box && isTooLarge(cell)) {
-    divideBox(std::move(cell));
-  } else {
-    resolve(std::move(cell));
+// How many cells were looked at.
+std::size_t CarvingEngine::divideLargest() {
+  const std::size_t count = takeLargest();
+  divideTaken(count);
+  workers_.visit(
+      [this](Worker& worker) { addWork(std::exchange(worker.statistics, {}), statistics_); });
+  for (std::size_t i = 0; i < count; ++i) {
+    for (CarvedCell& cell : round_[i].carving.cells) push(std::move(cell));
+    round_[i].cell = {};
   }
+  return count;
 }
 
-// Its memory is counted as long as cells refer to it.
-std::shared_ptr<ObstacleList> CarvingEngine::copied(const List& list) {
-  std::shared_ptr<List> copy{new List(list), [this](List* old) {
-                               list_memory_ -= old->counted;
-                               delete old;
-                             }};
-  copy->counted = copy->memory();
-  list_memory_ += copy->counted;
-  return copy;
+std::size_t CarvingEngine::mostOfRound() const {
+  if (statistics_.cells < kCellsOneByOne) return 1;
+  const std::size_t most = std::clamp(queue_.size() / kOpenOfRound, kLeastOfRound, kMostOfRound);
+  return std::min(request_.max_cells - statistics_.cells, most);
 }
 
-void CarvingEngine::resolve(CarvedCell&& cell) {
-  if (cell.box) cell.body = CellPolytope(*cell.box);
-  found_.entries.clear();
-  found_.planes.clear();
-  const Relation relation = examine(cell, found_);
-  statistics_.peak_front = std::max(statistics_.peak_front, found_.entries.size());
-  if (obstacles_.failed()) return;  // so has the engine
-  if (relation == Relation::covered) {
-    claim("one fat pair", true, cell.body);
-    return settle(cell.box ? cell.mass : settledMass(cell.body));
+// No more than have to be divided in any case: if fewer were settled altogether, that would not be
+// enough.
+std::size_t CarvingEngine::takeLargest() {
+  const std::size_t most = mostOfRound();
+  const double needed = missing();
+  double taken = 0.0;
+  std::size_t count = 0;
+  do {
+    std::pop_heap(queue_.begin(), queue_.end(), hasSmallerGap);
+    CarvedCell& cell = round_[count++].cell;
+    cell = std::move(queue_.back());
+    queue_.pop_back();
+    open_.lower -= cell.inner;
+    open_.upper -= cell.mass.upper;
+    cell_memory_ -= memoryOf(cell);
+    taken += cell.gap();
+  } while (count < most && !queue_.empty() && taken < needed);
+  return count;
+}
+
+// A single cell adds to the totals itself.
+void CarvingEngine::divideTaken(std::size_t count) {
+  const bool is_single = count == 1;
+  const CarvedSoFar so_far{is_single ? 0.0 : settled_.lower, statistics_.cells + count};
+  const Carving start{is_single ? settled_ : Bounds{0.0, 0.0}, is_single ? slivers_ : 0.0, {}};
+  const auto divide = [&](Worker& worker, std::size_t i) {
+    auto& [cell, carving] = round_[i];
+    carving = start;
+    worker.carver.divide(std::move(cell), so_far, carving);
+  };
+  workers_.run(
+      count, [this] { return std::make_unique<Worker>(*this); }, divide);
+  if (is_single) settled_ = {0.0, 0.0};
+  if (is_single) slivers_ = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Carving& of_one = round_[i].carving;
+    settled_.lower += of_one.settled.lower;
+    settled_.upper += of_one.settled.upper;
+    slivers_ += of_one.slivers;
   }
-  if (relation == Relation::free) return settleFree(cell);
-  carve(cell, copied(found_));
-}
-
-void CarvingEngine::settle(const Bounds& mass) {
-  settled_.lower += mass.lower;
-  settled_.upper += mass.upper;
-}
-
-// Of a few points, as cells of next to no size: near the vertices the claim is boldest. A body that
-// is hardly thicker than those cells is left out, by what its faces tell to 1e-8.
-void CarvingEngine::claim(const char* method, bool collides, const CellPolytope& body,
-                          const CarvedLayer* layers) const {
-  if (!observer_) return;
-  constexpr double kNearVertex = 0.99;
-  constexpr double kHalf = 1e-11;
-  const Eigen::Vector3d middle = body.middle();
-  if (!((1.0 - kNearVertex) * body.depth(middle) > 1e3 * kHalf)) return;
-  for (const Eigen::Vector3d& v : body.vertices()) {
-    const Eigen::Vector3d point = middle + kNearVertex * (v - middle);
-    if (!isBeyond(layers, point)) continue;
-    observer_->claim({method, collides, {point.array() - kHalf, point.array() + kHalf, 3}, {}});
-  }
-}
-
-// No surfaces meet anywhere in the cell but in its layers. What is beyond all of them is convex:
-// one point of it tells whether the solids overlap.
-void CarvingEngine::settleFree(const CarvedCell& cell) {
-  if (!solids_ || !solids_->possible(cell.body.box())) {
-    return claim("no fat pair", false, cell.body);
-  }
-  const Eigen::Vector3d middle = cell.body.middle();
-  const bool tells = !cell.dropped && isBeyond(cell.layers.get(), middle);
-  switch (tells ? solids_->at(middle) : Containment::unknown) {
-    case Containment::inside:
-      return settleContained(cell);
-    case Containment::outside:
-      return claim("no containment", false, cell.body);
-    case Containment::unknown:
-      settled_.upper += cell.mass.upper;
-  }
-}
-
-// Nothing is said of its layers.
-void CarvingEngine::settleContained(const CarvedCell& cell) {
-  claim("containment", true, cell.body, cell.layers.get());
-  Bounds mass = cell.box ? cell.mass : settledMass(cell.body);
-  for (const CarvedLayer* layer = cell.layers.get(); layer; layer = layer->before.get()) {
-    mass.lower -= layer->mass;
-  }
-  settle({std::max(0.0, mass.lower), mass.upper});
-}
-
-// What lies behind the inner plane and in front of the outer one may belong to the obstacle. Of the
-// volume of a convex body that reaches a height T above a plane no larger share lies below a height
-// m than of that of a cone, 3 m / T. Where that is not little, the layer's own mass is taken.
-double CarvingEngine::allowLayer(const CarvedCell& outside, const ObstaclePlane& plane) {
-  const CellPolytope& body = outside.body;
-  if (observer_) observer_->excuse(body.box(), plane.n, plane.inner(), plane.outer);
-  const double height = body.along(plane.n).hi - plane.inner();
-  const double far = body.nearest() + body.diameter();
-  const double uneven = std::exp(0.5 * (far * far - body.nearest() * body.nearest()));
-  const double share = height > 0.0 ? 3 * plane.margin / height * uneven : 1.0;
-  double mass = share * outside.mass.upper;
-  if (share > kLittleShare * accuracy_) {
-    cutter_.cut(body, plane.n, plane.outer, &layer_, nullptr);
-    mass = layer_.mass({kLayerAccuracy, 0.0}).upper;
-  }
-  settled_.upper += mass;
-  return mass;
-}
-
-Bounds CarvingEngine::settledMass(const CellPolytope& body) const {
-  return body.mass({accuracy_, kSettledFloor * accuracy_ * settled_.lower});
-}
-
-// Of a cell cut from another one, of mass `parent`.
-Bounds CarvingEngine::openMass(const CellPolytope& body, double parent) const {
-  return body.mass({kOpenMassAccuracy, kOpenFloor * kOpenMassAccuracy * parent});
-}
-
-void CarvingEngine::allowSlivers(const CellPolytope& body, std::size_t cuts) {
-  const double size = body.diameter();
-  const double nearest = body.nearest();
-  slivers_ += static_cast<double>(cuts) * CellPolytope::kCutLayer * 4 * size * size * 0.07 *
-              std::exp(-0.5 * nearest * nearest);
 }
 
 void CarvingEngine::recount() {
@@ -254,6 +148,16 @@ std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
   return std::nullopt;
 }
 
+// By how much the gaps have to become smaller, at least, for satisfied().
+double CarvingEngine::missing() const {
+  const Bounds now = interval();
+  double missing = now.width() - request_.toleranceAt(now.upper);
+  if (request_.threshold) {
+    missing = std::min({missing, now.upper - *request_.threshold, *request_.threshold - now.lower});
+  }
+  return missing;
+}
+
 std::optional<ProbabilityStatus> CarvingEngine::limited() const {
   if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
   return limits_.interruption(interval());
@@ -261,16 +165,26 @@ std::optional<ProbabilityStatus> CarvingEngine::limited() const {
 
 ProbabilityStatus CarvingEngine::run() {
   std::optional<ProbabilityStatus> status;
-  for (std::size_t step = 0; !status; ++step) {
-    if (++changes_since_recount_ * 4 > queue_.size()) recount();
+  ++changes_since_recount_;
+  std::size_t divided = 0;
+  std::size_t next_poll = 0;
+  while (!status) {
+    if (changes_since_recount_ * 4 > queue_.size()) recount();
     status = satisfied();
     if (status && changes_since_recount_ > 0) {
       recount();
       status = satisfied();
     }
     if (!status && statistics_.cells >= request_.max_cells) status = ProbabilityStatus::cell_limit;
-    if (!status && step % EngineLimits::kCellsBetweenPolls == 0) status = limited();
-    if (!status) divideLargest();
+    if (!status && divided >= next_poll) {
+      status = limited();
+      next_poll = divided + EngineLimits::kCellsBetweenPolls;
+    }
+    if (!status) {
+      const std::size_t count = divideLargest();
+      divided += count;
+      changes_since_recount_ += count;
+    }
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
   }
   recount();

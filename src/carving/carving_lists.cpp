@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "carving/carving_engine.h"
+#include "carving/cell_carver.h"
 #include "cells/cell_split.h"
 
 namespace fcl_prob::detail {
@@ -24,7 +24,7 @@ bool addPlane(const CellPolytope& body, const ObstaclePlane& plane, ObstacleList
 
 }  // namespace
 
-void CarvingEngine::divideBox(CarvedCell&& cell) {
+void CellCarver::divideBox(CarvedCell&& cell) {
   const CellSplit at = chooseSplit(*cell.box, Eigen::Vector3d::Ones());
   for (const bool upper : {false, true}) {
     CarvedCell half;
@@ -43,8 +43,8 @@ void CarvingEngine::divideBox(CarvedCell&& cell) {
   }
 }
 
-void CarvingEngine::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
-                                std::vector<FatNode>& into) const {
+void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
+                             std::vector<FatNode>& into) const {
   const WhitenedTree& mesh = obstacles_.mesh();
   const double size = (box.hi - box.lo).sum();
   std::vector<FatNode> stack(from.rbegin(), from.rend());
@@ -64,7 +64,7 @@ void CarvingEngine::gatherNodes(const Cell& box, const std::vector<FatNode>& fro
   }
 }
 
-CarvingEngine::Relation CarvingEngine::examine(const CarvedCell& cell, List& into) {
+CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
   if (cell.opens_hulls) return openHulls(cell, into);
   if (!cell.box) return refine(cell, into);
   std::vector<FatNode> leaves;
@@ -77,9 +77,8 @@ CarvingEngine::Relation CarvingEngine::examine(const CarvedCell& cell, List& int
 }
 
 // The most central obstacles first: one of them may cover the box.
-CarvingEngine::Relation CarvingEngine::listBox(const CarvedCell& cell,
-                                               const std::vector<FatObstacle>& obstacles,
-                                               List& into) {
+CellCarver::Relation CellCarver::listBox(const CarvedCell& cell,
+                                         const std::vector<FatObstacle>& obstacles, List& into) {
   const CellBox box = cell.box->box();
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   face_lo_.resize(obstacles_.faceCount());
@@ -97,7 +96,7 @@ CarvingEngine::Relation CarvingEngine::listBox(const CarvedCell& cell,
 }
 
 // What the box reaches along the normals of a member.
-void CarvingEngine::rangeFaces(const CellBox& box, int member) {
+void CellCarver::rangeFaces(const CellBox& box, int member) {
   if (ranged_[member]) return;
   ranged_[member] = true;
   const FatObstacles& body = obstacles_.of(member);
@@ -113,8 +112,7 @@ void CarvingEngine::rangeFaces(const CellBox& box, int member) {
   }
 }
 
-CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, FatObstacle obstacle,
-                                                  List& into) {
+CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obstacle, List& into) {
   ++statistics_.pairs_tested;
   rangeFaces(box, obstacle.member);
   FatObstacles& body = obstacles_.of(obstacle.member);
@@ -128,6 +126,7 @@ CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, FatObstacl
   }
   const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.triangle);
   const double margin = body.mostMargin(obstacle.triangle);
+  failed_ = failed_ || body.hasFailed(obstacle.triangle);
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   const Eigen::Map<const Eigen::Vector3d> half(box.half);
   const std::size_t first = into.planes.size();
@@ -149,8 +148,8 @@ CarvingEngine::Relation CarvingEngine::addFromBox(const CellBox& box, FatObstacl
 }
 
 // With the planes of the list from `first` on: those over which the cell sticks out.
-CarvingEngine::Relation CarvingEngine::addEntry(FatObstacle obstacle, std::size_t first,
-                                                List& into) const {
+CellCarver::Relation CellCarver::addEntry(FatObstacle obstacle, std::size_t first,
+                                          List& into) const {
   const bool within = into.planes.size() == first;
   if (within && !obstacles_.encloses(obstacle.member)) return Relation::covered;
   into.entries.push_back({obstacle, first, into.planes.size()});
@@ -159,7 +158,7 @@ CarvingEngine::Relation CarvingEngine::addEntry(FatObstacle obstacle, std::size_
 
 // Obstacles of the same member that reach no farther than the one that the cell is outside of do
 // not meet the cell but in the layer that was allowed for when it was cut off.
-CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into) {
+CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
   const List& from = *cell.list;
   const auto [member, triangle] = cell.outside_of;
   const FatObstacles* const body = member < 0 ? nullptr : &obstacles_.of(member);
@@ -183,7 +182,7 @@ CarvingEngine::Relation CarvingEngine::refine(const CarvedCell& cell, List& into
 }
 
 // All obstacles of the list are hulls: no core meets the cell.
-CarvingEngine::Relation CarvingEngine::openHulls(const CarvedCell& cell, List& into) {
+CellCarver::Relation CellCarver::openHulls(const CarvedCell& cell, List& into) {
   for (const List::Entry& hull : cell.list->entries) {
     for (const int piece : obstacles_.piecesWithin(hull.obstacle.member)) {
       const FatObstacle obstacle{piece, hull.obstacle.triangle};
@@ -193,8 +192,8 @@ CarvingEngine::Relation CarvingEngine::openHulls(const CarvedCell& cell, List& i
   return into.entries.empty() ? Relation::free : Relation::cut;
 }
 
-CarvingEngine::Relation CarvingEngine::addFromBody(const CellPolytope& body, FatObstacle obstacle,
-                                                   List& into) {
+CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, FatObstacle obstacle,
+                                             List& into) {
   FatObstacles& member = obstacles_.of(obstacle.member);
   const NodeBox around = member.obstacleBoxOf(obstacle.triangle);
   const Cell box = body.box();
@@ -204,6 +203,7 @@ CarvingEngine::Relation CarvingEngine::addFromBody(const CellPolytope& body, Fat
   const auto meets = [&](const ObstaclePlane& plane) { return addPlane(body, plane, into); };
   member.faceOffsets(obstacle.triangle);
   const std::vector<ObstaclePlane>& others = member.otherPlanes(obstacle.triangle);
+  failed_ = failed_ || member.hasFailed(obstacle.triangle);
   bool may_meet = std::all_of(others.begin(), others.end(), meets);
   for (int f = 0; f < member.faceCount() && may_meet; ++f) {
     may_meet = meets(member.facePlane(obstacle.triangle, f));

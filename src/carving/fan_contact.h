@@ -26,6 +26,9 @@ class FanContact {
   /// Keeps a reference to the fan.
   explicit FanContact(const WhitenedFan& fan);
 
+  /// Tests that follow do not depend on those before, not even in what rounding leaves open.
+  void forget() { recent_count_ = 0; }
+
   /// Whether a box is certainly apart from P. By the few planes that told so of others last.
   bool isClearOf(const Eigen::Vector3d& middle, const Eigen::Vector3d& half);
 

@@ -19,13 +19,40 @@ FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body, bo
       add(i, part.nearly->hull, true);
     }
   }
+  within_of_.resize(members_.size());
+  for (int member = 0; member < count(); ++member) {
+    if (encloses(member)) reserveWithin(member);
+  }
 }
 
 void FatMembers::add(std::size_t part, const ConvexFan& fan, bool encloses) {
-  members_.emplace_back(pair_, body_.tree->parts[part], fan, fan_is_a_,
-                        matrix_ * body_.parts[part].pose.linear());
-  parts_.push_back({part, encloses, std::nullopt});
-  first_faces_.push_back(first_faces_.back() + members_.back().faceCount());
+  members_.push_back(obstaclesOf(part, fan));
+  parts_.push_back({part, encloses});
+  first_faces_.push_back(first_faces_.back() + members_.back()->faceCount());
+}
+
+// Places that do not move when they are filled, so that other members may be used meanwhile.
+void FatMembers::reserveWithin(int hull) {
+  const std::size_t part = partOf(hull);
+  Within& within = within_.emplace_back();
+  within.first = static_cast<int>(members_.size());
+  within_of_[hull] = &within;
+  const std::size_t size = members_.size() + body_.tree->parts[part].nearly->pieces.size();
+  members_.resize(size);
+  parts_.resize(size, {part, false});
+}
+
+std::unique_ptr<FatObstacles> FatMembers::obstaclesOf(std::size_t part,
+                                                      const ConvexFan& fan) const {
+  return std::make_unique<FatObstacles>(pair_, body_.tree->parts[part], fan, fan_is_a_,
+                                        matrix_ * body_.parts[part].pose.linear());
+}
+
+template <typename Function>
+void FatMembers::visit(const Function& function) const {
+  for (const std::unique_ptr<FatObstacles>& member : members_) {
+    if (member) function(*member);
+  }
 }
 
 std::size_t FatMembers::memoryOfPieces(const PartitionObject& body, const PartitionObject& mesh) {
@@ -36,24 +63,23 @@ std::size_t FatMembers::memoryOfPieces(const PartitionObject& body, const Partit
   return pieces * FatObstacles::leastMemory(mesh.tree->triangles.size());
 }
 
-// Where one of them is not known well enough there is none.
 const std::vector<int>& FatMembers::piecesWithin(int hull) {
-  if (!parts_[hull].pieces) {
-    const std::size_t part = parts_[hull].index;
-    const int first = count();
-    std::vector<int> pieces;
-    if (!hulls_stay_closed_) {
-      for (const ConvexFan& fan : body_.tree->parts[part].nearly->pieces) {
-        add(part, fan, false);
-        pieces.push_back(count() - 1);
-      }
-    }
-    const bool all_usable = std::all_of(members_.begin() + first, members_.end(),
-                                        [](const FatObstacles& member) { return member.usable(); });
-    if (!all_usable) pieces.clear();
-    parts_[hull].pieces = std::move(pieces);
+  Within& within = *within_of_[hull];
+  std::call_once(within.made, [&] { makeWithin(hull, within); });
+  return within.members;
+}
+
+// Where one of them is not known well enough there is none.
+void FatMembers::makeWithin(int hull, Within& within) {
+  if (hulls_stay_closed_) return;
+  bool all_usable = true;
+  for (const ConvexFan& fan : body_.tree->parts[partOf(hull)].nearly->pieces) {
+    const int member = within.first + static_cast<int>(within.members.size());
+    members_[member] = obstaclesOf(partOf(hull), fan);
+    all_usable = all_usable && members_[member]->usable();
+    within.members.push_back(member);
   }
-  return *parts_[hull].pieces;
+  if (!all_usable) within.members.clear();
 }
 
 std::size_t FatMembers::leastMemory(const PartitionObject& body, const PartitionObject& mesh) {
@@ -63,24 +89,26 @@ std::size_t FatMembers::leastMemory(const PartitionObject& body, const Partition
 }
 
 bool FatMembers::usable() const {
-  return std::all_of(members_.begin(), members_.end(),
-                     [](const FatObstacles& member) { return member.usable(); });
+  bool all = true;
+  visit([&](const FatObstacles& member) { all = all && member.usable(); });
+  return all;
 }
 
 bool FatMembers::failed() const {
-  return std::any_of(members_.begin(), members_.end(),
-                     [](const FatObstacles& member) { return member.failed(); });
+  bool any = false;
+  visit([&](const FatObstacles& member) { any = any || member.failed(); });
+  return any;
 }
 
 std::size_t FatMembers::memory() const {
   std::size_t bytes = 0;
-  for (const FatObstacles& member : members_) bytes += member.memory();
+  visit([&](const FatObstacles& member) { bytes += member.memory(); });
   return bytes;
 }
 
 std::size_t FatMembers::built() const {
   std::size_t count = 0;
-  for (const FatObstacles& member : members_) count += member.built();
+  visit([&](const FatObstacles& member) { count += member.built(); });
   return count;
 }
 

@@ -5,7 +5,8 @@
 
 #include <cstddef>
 #include <deque>
-#include <optional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "carving/fat_obstacles.h"
@@ -44,9 +45,11 @@ class FatMembers {
   /// From here on there are no pieces.
   void keepHullsClosed() { hulls_stay_closed_ = true; }
 
-  FatObstacles& of(int member) { return members_[member]; }
-  const FatObstacles& of(int member) const { return members_[member]; }
-  int count() const { return static_cast<int>(members_.size()); }
+  FatObstacles& of(int member) { return *members_[member]; }
+  const FatObstacles& of(int member) const { return *members_[member]; }
+
+  /// Without those within hulls, which come behind them.
+  int count() const { return static_cast<int>(first_faces_.size()) - 1; }
 
   /// The part that it is, or is in, or is around.
   std::size_t partOf(int member) const { return parts_[member].index; }
@@ -56,12 +59,13 @@ class FatMembers {
   bool encloses(int member) const { return parts_[member].encloses; }
 
   /// The members beside its core that a hull is around: what touches none of all these does not
-  /// touch the part. They are made when they are first asked for; empty if there are none.
+  /// touch the part. They are made when they are first asked for, by any of several threads; empty
+  /// if there are none.
   const std::vector<int>& piecesWithin(int hull);
 
-  const WhitenedTree& mesh() const { return members_.front().mesh(); }
+  const WhitenedTree& mesh() const { return members_.front()->mesh(); }
 
-  /// Where the faces of a member begin among those of all.
+  /// Where the faces of a member below count() begin among those of all.
   int firstFace(int member) const { return first_faces_[member]; }
   int faceCount() const { return first_faces_.back(); }
 
@@ -74,19 +78,32 @@ class FatMembers {
   struct OfPart {
     std::size_t index;
     bool encloses;
-    std::optional<std::vector<int>> pieces;
+  };
+
+  /// The members within a hull.
+  struct Within {
+    int first;  ///< of them
+    std::once_flag made;
+    std::vector<int> members;
   };
 
   void add(std::size_t part, const ConvexFan& fan, bool encloses);
+  void reserveWithin(int hull);
+  void makeWithin(int hull, Within& within);
+  std::unique_ptr<FatObstacles> obstaclesOf(std::size_t part, const ConvexFan& fan) const;
+  template <typename Function>
+  void visit(const Function& function) const;
 
   const WhitenedPair& pair_;
   const PartitionObject& body_;
   const bool fan_is_a_;
   const Eigen::Matrix3d matrix_;
   bool hulls_stay_closed_ = false;
-  std::deque<FatObstacles> members_;
-  std::vector<OfPart> parts_;  ///< by member
+  std::vector<std::unique_ptr<FatObstacles>> members_;  ///< null: not made yet
+  std::vector<OfPart> parts_;                           ///< by member
   std::vector<int> first_faces_;
+  std::deque<Within> within_;
+  std::vector<Within*> within_of_;  ///< by member below count(), null for those that are no hulls
 };
 
 }  // namespace fcl_prob::detail

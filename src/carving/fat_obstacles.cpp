@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/constants.h"
 
@@ -23,8 +24,6 @@ constexpr double kSharpest = 1e-3;
 // A triangle whose normal is known no better than this covers nothing.
 constexpr double kPoorNormal = 1e-6;
 
-constexpr double kNever = 1e300;
-
 }  // namespace
 
 FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part,
@@ -34,19 +33,29 @@ FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part
       memory_(leastMemory(details_.size())) {}
 
 FatObstacles::Details& FatObstacles::details(int triangle) {
-  std::unique_ptr<Details>& slot = details_[triangle];
-  if (!slot) {
-    slot = std::make_unique<Details>();
-    ++built_;
-    slot->offsets.resize(static_cast<std::size_t>(faceCount()));
-    const Eigen::Matrix3d t = corners(triangle);
-    Eigen::Map<Eigen::VectorXd> of_faces(slot->offsets.data(), faceCount());
-    of_faces = heightsAlong(t.col(0));
-    for (int k = 1; k < 3; ++k) of_faces = of_faces.cwiseMax(heightsAlong(t.col(k)));
-    of_faces += offsets();
-    memory_ += sizeof(Details) + slot->offsets.capacity() * sizeof(double);
+  std::atomic<Details*>& slot = details_[static_cast<std::size_t>(triangle)].details;
+  Details* found = slot.load(std::memory_order_acquire);
+  if (found) return *found;
+  const std::lock_guard lock(mutexOf(triangle));
+  found = slot.load(std::memory_order_relaxed);
+  if (!found) {
+    found = newDetails(triangle);
+    slot.store(found, std::memory_order_release);
   }
-  return *slot;
+  return *found;
+}
+
+FatObstacles::Details* FatObstacles::newDetails(int triangle) {
+  auto made = std::make_unique<Details>();
+  made->offsets.resize(static_cast<std::size_t>(faceCount()));
+  const Eigen::Matrix3d t = corners(triangle);
+  Eigen::Map<Eigen::VectorXd> of_faces(made->offsets.data(), faceCount());
+  of_faces = heightsAlong(t.col(0));
+  for (int k = 1; k < 3; ++k) of_faces = of_faces.cwiseMax(heightsAlong(t.col(k)));
+  of_faces += offsets();
+  ++built_;
+  memory_ += sizeof(Details) + made->offsets.capacity() * sizeof(double);
+  return made.release();
 }
 
 const std::vector<double>& FatObstacles::faceOffsets(int triangle) {
@@ -54,23 +63,28 @@ const std::vector<double>& FatObstacles::faceOffsets(int triangle) {
 }
 
 const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int triangle) {
-  Details& known = details(triangle);
-  if (!known.has_planes) buildPlanes(triangle, known);
-  return known.planes;
+  Details& found = details(triangle);
+  if (!found.has_planes.load(std::memory_order_acquire)) {
+    const std::lock_guard lock(mutexOf(triangle));
+    if (!found.has_planes.load(std::memory_order_relaxed)) {
+      buildPlanes(triangle, found);
+      found.has_planes.store(true, std::memory_order_release);
+    }
+  }
+  return found.planes;
 }
 
 // Its other planes must have been made: those that are left out move the others.
 ObstaclePlane FatObstacles::facePlane(int triangle, int face) const {
-  const Details& known = *details_[triangle];
-  return {normals()[face], known.offsets[face] + facePad(face), faceMargin(face) + known.loss};
+  const Details& found = known(triangle);
+  return {normals()[face], found.offsets[face] + facePad(face), faceMargin(face) + found.loss};
 }
 
 void FatObstacles::buildPlanes(int triangle, Details& into) {
   const Eigen::Matrix3d t = corners(triangle);
-  into.has_planes = true;
   addTriangleNormal(t, into);
   for (int edge = 0; edge < 3; ++edge) addEdge(t, edge, into);
-  failed_ = failed_ || !(into.loss < kNever);
+  if (!(into.loss < kNever)) failed_ = true;
   for (ObstaclePlane& plane : into.planes) plane.margin += into.loss;
   into.planes.shrink_to_fit();
   memory_ += into.planes.capacity() * sizeof(ObstaclePlane);
@@ -110,11 +124,11 @@ void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& in
     into.loss = kNever;
     return;
   }
-  along_ = heightsAlong(along);
+  const Eigen::VectorXd on_normals = heightsAlong(along);
   const double parallel = kParallel * length;
   for (const auto& [f, g] : arcs()) {
-    const double at_f = along_[f];
-    const double at_g = along_[g];
+    const double at_f = on_normals[f];
+    const double at_g = on_normals[g];
     const double lean = std::fabs(at_f) + std::fabs(at_g);
     if (lean <= parallel) {
       const double sum = (normals()[f] + normals()[g]).norm();

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
+#include <array>
+#include <atomic>
+#include <mutex>
 #include <vector>
 
 #include "pieces/whitened_fan.h"
@@ -24,16 +26,14 @@ struct ObstaclePlane {
 /// V_t = P ⊕ T_t for every triangle t of the mesh (docs/rounding.md tells what its planes are):
 /// planes across the normals of P, offset by the triangle's extent, are shared by all; those across
 /// an edge of the triangle and one of P, and the triangle's own, are made when they are first asked
-/// for. All is relative to the centre of P, which is within P.
+/// for, by any of several threads. All is relative to the centre of P, which is within P.
 class FatObstacles : public WhitenedFan {
  public:
   FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
                bool fan_is_a, const Eigen::Matrix3d& linear);
 
   /// Of one of so many triangles that has not been asked for anything.
-  static std::size_t leastMemory(std::size_t triangles) {
-    return triangles * sizeof(std::unique_ptr<Details>);
-  }
+  static std::size_t leastMemory(std::size_t triangles) { return triangles * sizeof(Slot); }
 
   ObstaclePlane facePlane(int triangle, int face) const;
 
@@ -45,10 +45,13 @@ class FatObstacles : public WhitenedFan {
   const std::vector<ObstaclePlane>& otherPlanes(int triangle);
 
   /// Not below the margin of any face plane of V_t.
-  double mostMargin(int triangle) const { return largestMargin() + details_[triangle]->loss; }
+  double mostMargin(int triangle) const { return largestMargin() + known(triangle).loss; }
 
-  /// Whether a triangle or an edge turned out too degenerate for anything to be said of what its
-  /// obstacle contains.
+  /// Whether the triangle or an edge of it turned out too degenerate for anything to be said of
+  /// what its obstacle contains.
+  bool hasFailed(int triangle) const { return !(known(triangle).loss < kNever); }
+
+  /// Whether that is so of any of those that were asked for.
   bool failed() const { return failed_; }
 
   /// In which half of the doubled middle of T ⊕ P: a point of V_t.
@@ -58,25 +61,42 @@ class FatObstacles : public WhitenedFan {
   std::size_t built() const { return built_; }
 
  private:
+  static constexpr double kNever = 1e300;
+
   struct Details {
     std::vector<double> offsets;
     std::vector<ObstaclePlane> planes;
-    bool has_planes = false;
+    std::atomic<bool> has_planes{false};
     double loss = 0.0;  ///< added to all margins
   };
 
+  /// What is in it stays once it is there.
+  struct Slot {
+    std::atomic<Details*> details{nullptr};
+
+    Slot() = default;
+    Slot(const Slot&) = delete;
+    Slot& operator=(const Slot&) = delete;
+    ~Slot() { delete details.load(); }
+  };
+
+  const Details& known(int triangle) const {
+    return *details_[static_cast<std::size_t>(triangle)].details.load(std::memory_order_acquire);
+  }
+  std::mutex& mutexOf(int triangle) { return mutexes_[triangle % mutexes_.size()]; }
   Details& details(int triangle);
+  Details* newDetails(int triangle);
   void buildPlanes(int triangle, Details& into);
   void addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const;
   void addEdge(const Eigen::Matrix3d& corners, int edge, Details& into);
   ObstaclePlane planeAcross(const Eigen::Matrix3d& corners, const Eigen::Vector3d& n,
                             double of_p) const;
 
-  bool failed_ = false;
-  std::vector<std::unique_ptr<Details>> details_;
-  Eigen::VectorXd along_;  // of an edge, on every normal
-  std::size_t memory_ = 0;
-  std::size_t built_ = 0;
+  std::vector<Slot> details_;
+  std::array<std::mutex, 16> mutexes_;  ///< each for what is made of some of the triangles
+  std::atomic<bool> failed_{false};
+  std::atomic<std::size_t> memory_{0};
+  std::atomic<std::size_t> built_{0};
 };
 
 }  // namespace fcl_prob::detail

@@ -25,6 +25,11 @@ class WholeBodyTester {
   /// cell.
   PointContact at(const Eigen::Vector3d& y);
 
+  /// See FanContact.
+  void forget() {
+    for (Member& member : members_) member.contact.forget();
+  }
+
  private:
   struct Member {
     explicit Member(WhitenedFan whitened) : fan(std::move(whitened)), contact(fan) {}

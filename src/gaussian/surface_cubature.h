@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/interruption.h"
 #include "fcl_prob/bounds.h"
-#include "gaussian/interruption.h"
 #include "gaussian/part_cubature.h"
 #include "gaussian/surface_patch.h"
 

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "cobstacle/nearest.h"
 #include "cobstacle/perturbation.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/constants.h"
 #include "gaussian/surface_cubature.h"
 #include "geometry/exact_sum.h"
 #include "narrowphase/curved_parts.h"

@@ -3,9 +3,9 @@
 // Pairs of ellipsoids, cylinders, cones, capsules and spheres, by integrals over their boundary.
 #pragma once
 
+#include "base/interruption.h"
 #include "cobstacle/convex_body_data.h"
 #include "fcl_prob/bounds.h"
-#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 

@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "base/constants.h"
 #include "cobstacle/perturbation.h"
-#include "gaussian/constants.h"
 
 namespace fcl_prob::detail {
 namespace {

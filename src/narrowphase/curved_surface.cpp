@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 #include "gaussian/rounded_polytope_mass.h"
 #include "geometry/exact_sum.h"
 #include "narrowphase/long_whitening.h"

@@ -3,9 +3,9 @@
 // An ellipsoid beside a polytope: where it is a ball, the polytope is swept by a ball.
 #pragma once
 
+#include "base/interruption.h"
 #include "cobstacle/convex_body_data.h"
 #include "fcl_prob/bounds.h"
-#include "gaussian/interruption.h"
 
 namespace fcl_prob::detail {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "base/constants.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -154,8 +154,16 @@ std::optional<CuttingPair> CellExaminer::bestLeader() {
 
 // Null where there is nothing to try.
 CrossingWitness* CellExaminer::witness() {
-  if (!witness_) witness_.emplace(pair_, solids_ != nullptr);
+  if (!witness_) {
+    witness_.emplace(pair_, solids_ != nullptr);
+    witness_->setHint(hint_);
+  }
   return witness_->usable() ? &*witness_ : nullptr;
+}
+
+void CellExaminer::setHint(const CrossingWitness::Hint& hint) {
+  hint_ = hint;
+  if (witness_) witness_->setHint(hint);
 }
 
 void CellExaminer::claim(const char* method, bool collides, const Cell& cell) const {

@@ -38,6 +38,10 @@ class CellExaminer {
   /// The part of an open cell that its plane covers, as settled mass; nothing without a plane.
   SettledMass coveredPart(const OpenCell& open) const;
 
+  /// All of what was examined before that the next examination depends on.
+  CrossingWitness::Hint hint() const { return witness_ ? witness_->hint() : hint_; }
+  void setHint(const CrossingWitness::Hint& hint);
+
  private:
   void settle(const Cell& cell, const char* method);
   void settlePart(const Cell& cell, const CellPlane& plane, double sign);
@@ -63,6 +67,7 @@ class CellExaminer {
   const WhitenedPair& pair_;
   CellFront front_;
   std::optional<CrossingWitness> witness_;  ///< made when a front first is long enough for it
+  CrossingWitness::Hint hint_{-1, -1};      ///< until then
   const SolidContact* solids_;
   bool with_moments_;
   ProbabilityStatistics& statistics_;

@@ -28,8 +28,8 @@ int setsFor(std::size_t cells) {
 // No cell gets more samples than this in one set.
 constexpr double kMostInSet = 4096;
 
-// Cells between two looks at the clock.
-constexpr std::size_t kCellsBetweenPolls = 16;
+// Cells between two looks at the clock, shared out among the threads.
+constexpr std::size_t kCellsBetweenPolls = 32;
 
 // A point of the unit cube for one set of samples of a cell.
 Eigen::Vector3d uniformPoint(std::uint64_t seed, std::uint64_t cell, std::uint64_t set) {
@@ -110,41 +110,53 @@ SampledMass average(const SampledMass& a, const SampledMass& b) {
   return sum;
 }
 
-CellSampler::CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles,
-                         const SolidContact* solids, std::unique_ptr<WholeBodyTester> whole,
-                         std::uint64_t seed)
-    : tester_(pair, obstacles, solids, std::move(whole)), seed_(seed) {}
+CellSampler::CellSampler(std::unique_ptr<PointTester> tester, MakeTester another,
+                         std::uint64_t seed, unsigned threads)
+    : another_(std::move(another)),
+      workers_(threads, std::make_unique<Worker>(std::move(tester))),
+      seed_(seed) {}
+
+void CellSampler::draw(const OpenCell& cell, std::uint64_t index, const SampleCount& count,
+                       Worker& worker) const {
+  worker.points.clear();
+  worker.weights.clear();
+  const PartMeasure measure(cell.cell);
+  for (int set = 0; set < count.sets; ++set) {
+    const std::uint64_t number = sets_drawn_ + static_cast<std::uint64_t>(set);
+    const Eigen::Vector3d shift = uniformPoint(seed_, index, number);
+    for (int i = 0; i < count.in_set; ++i) {
+      const CellDraw drawn = drawFrom(cell, evenPoint(shift, i));
+      const bool counted = drawn.weight > 0.0 && !measure.counts(cell.part, drawn.point);
+      worker.points.push_back({drawn.point, !counted, false});
+      worker.weights.push_back(counted ? drawn.weight / unit_ / count.in_set : 0.0);
+    }
+  }
+}
+
+CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index,
+                                               const SampleCount& count, Worker& worker) const {
+  draw(cell, index, count, worker);
+  worker.tester->forget();
+  worker.tester->test(cell.front, worker.points);
+  return meansOf(worker, count);
+}
 
 // Means and spreads are updated set by set (Welford): a difference of sums of squares may come out
 // negative where all sets agree.
-CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index, int sets,
-                                               int in_set) {
-  points_.clear();
-  weights_.clear();
-  const PartMeasure measure(cell.cell);
-  for (int set = 0; set < sets; ++set) {
-    const std::uint64_t number = sets_drawn_ + static_cast<std::uint64_t>(set);
-    const Eigen::Vector3d shift = uniformPoint(seed_, index, number);
-    for (int i = 0; i < in_set; ++i) {
-      const CellDraw drawn = drawFrom(cell, evenPoint(shift, i));
-      const bool counted = drawn.weight > 0.0 && !measure.counts(cell.part, drawn.point);
-      points_.push_back({drawn.point, !counted, false});
-      weights_.push_back(counted ? drawn.weight / unit_ / in_set : 0.0);
-    }
-  }
-  tester_.test(cell.front, points_);
+CellSampler::CellMeans CellSampler::meansOf(const Worker& tested, const SampleCount& count) {
+  const auto& [unused, points, weights] = tested;
   CellMeans means;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (points_[i].doubtful) means.doubt += weights_[i] / sets;
-    means.largest_weight = std::max(means.largest_weight, weights_[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].doubtful) means.doubt += weights[i] / count.sets;
+    means.largest_weight = std::max(means.largest_weight, weights[i]);
   }
-  for (int set = 0; set < sets; ++set) {
+  for (int set = 0; set < count.sets; ++set) {
     double mass = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    for (int i = set * in_set; i < (set + 1) * in_set; ++i) {
-      if (!points_[i].collides) continue;
-      mass += weights_[i];
-      moment += weights_[i] * points_[i].y;
+    for (int i = set * count.in_set; i < (set + 1) * count.in_set; ++i) {
+      if (!points[i].collides) continue;
+      mass += weights[i];
+      moment += weights[i] * points[i].y;
     }
     const double share = 1.0 / (set + 1);
     const double off = mass - means.mass;
@@ -157,8 +169,9 @@ CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64
   return means;
 }
 
-void CellSampler::add(const CellMeans& means, const OpenCell& cell, int sets, int in_set,
+void CellSampler::add(const CellMeans& means, const OpenCell& cell, const SampleCount& count,
                       SampledMass& total) const {
+  const auto [sets, in_set] = count;
   const Eigen::Vector3d reach = cell.cell.largestCoordinates();
   // No sample changes more than all of the gap.
   const double jump = std::min(std::max(means.largest_weight, cell.drawn / unit_ / in_set) / sets,
@@ -175,6 +188,28 @@ void CellSampler::add(const CellMeans& means, const OpenCell& cell, int sets, in
   total.samples += static_cast<std::size_t>(sets) * static_cast<std::size_t>(in_set);
 }
 
+// On all threads; added up in order.
+void CellSampler::sampleStretch(const std::vector<OpenCell>& cells, const Stretch& stretch,
+                                int sets, double sets_per_deviation, SampledMass& total) {
+  struct Sampled {
+    SampleCount count;
+    CellMeans means;
+  };
+  std::array<Sampled, kCellsBetweenPolls> sampled;
+  const auto work = [&](Worker& worker, std::size_t i) {
+    const std::size_t index = stretch.begin + i;
+    const double in_set = sets_per_deviation * cells[index].samplingDeviation();
+    sampled[i].count = {sets, static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet))};
+    sampled[i].means = sampleCell(cells[index], index, sampled[i].count, worker);
+  };
+  const std::size_t size = stretch.end - stretch.begin;
+  workers_.run(
+      size, [this] { return std::make_unique<Worker>(another_()); }, work);
+  for (std::size_t i = 0; i < size; ++i) {
+    add(sampled[i].means, cells[stretch.begin + i], sampled[i].count, total);
+  }
+}
+
 SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count,
                                 const Interruption& interruption) {
   const int sets = setsFor(cells.size());
@@ -187,17 +222,18 @@ SampledMass CellSampler::sample(const std::vector<OpenCell>& cells, double count
   SampledMass total;
   total.spread.unit = unit_;
   for (SampledVariance& spread : total.moment_spread) spread.unit = unit_;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i % kCellsBetweenPolls == 0 && !total.interrupted) total.interrupted = isDue(interruption);
-    if (total.interrupted) {
+  for (std::size_t begin = 0; begin < cells.size(); begin += kCellsBetweenPolls) {
+    const std::size_t end = std::min(begin + kCellsBetweenPolls, cells.size());
+    if (!total.interrupted) total.interrupted = isDue(interruption);
+    if (!total.interrupted) {
+      sampleStretch(cells, {begin, end}, sets, sets_per_deviation, total);
+      continue;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
       total.mass += 0.5 * cells[i].gap();
       total.doubt += 0.5 * cells[i].gap();
       total.moment_doubt += cells[i].gap() * cells[i].cell.largestCoordinates();
-      continue;
     }
-    const double in_set = sets_per_deviation * cells[i].samplingDeviation();
-    const int n = static_cast<int>(std::clamp(std::ceil(in_set), 1.0, kMostInSet));
-    add(sampleCell(cells[i], i, sets, n), cells[i], sets, n, total);
   }
   sets_drawn_ += static_cast<std::uint64_t>(sets);
   return total;

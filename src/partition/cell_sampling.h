@@ -6,9 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "base/interruption.h"
+#include "base/round_workers.h"
 #include "partition/point_tester.h"
 
 namespace fcl_prob::detail {
@@ -50,9 +53,12 @@ SampledMass average(const SampledMass& a, const SampledMass& b);
 /// against the cell's own front only.
 class CellSampler {
  public:
-  /// For the other arguments see PointTester.
-  CellSampler(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
-              std::unique_ptr<WholeBodyTester> whole, std::uint64_t seed);
+  using MakeTester = std::function<std::unique_ptr<PointTester>()>;
+
+  /// \param tester   on the calling thread
+  /// \param another  one for each other thread, by which it is called
+  CellSampler(std::unique_ptr<PointTester> tester, MakeTester another, std::uint64_t seed,
+              unsigned threads);
 
   /// About `count` samples, at least a few a cell. Every call draws others. Once interrupted it
   /// takes half the gap of the cells that are left, and doubts it.
@@ -60,6 +66,20 @@ class CellSampler {
                      const Interruption& interruption);
 
  private:
+  struct Worker {
+    explicit Worker(std::unique_ptr<PointTester> its_tester) : tester(std::move(its_tester)) {}
+
+    std::unique_ptr<PointTester> tester;
+    std::vector<TestedPoint> points;
+    std::vector<double> weights;
+  };
+
+  /// How many sets of samples, and how many samples in each.
+  struct SampleCount {
+    int sets;
+    int in_set;
+  };
+
   /// Means over the sets (masses in `unit_`), and the sums of the squares of what the sets are off
   /// them.
   struct CellMeans {
@@ -70,16 +90,28 @@ class CellSampler {
     Eigen::Vector3d moment_spread = Eigen::Vector3d::Zero();
     double largest_weight = 0.0;  ///< of one sample
   };
-  CellMeans sampleCell(const OpenCell& cell, std::uint64_t index, int sets, int in_set);
-  void add(const CellMeans& means, const OpenCell& cell, int sets, int in_set,
+
+  /// Some of the cells, one after another.
+  struct Stretch {
+    std::size_t begin;
+    std::size_t end;
+  };
+
+  void sampleStretch(const std::vector<OpenCell>& cells, const Stretch& stretch, int sets,
+                     double sets_per_deviation, SampledMass& total);
+  void draw(const OpenCell& cell, std::uint64_t index, const SampleCount& count,
+            Worker& worker) const;
+  CellMeans sampleCell(const OpenCell& cell, std::uint64_t index, const SampleCount& count,
+                       Worker& worker) const;
+  static CellMeans meansOf(const Worker& tested, const SampleCount& count);
+  void add(const CellMeans& means, const OpenCell& cell, const SampleCount& count,
            SampledMass& total) const;
 
-  PointTester tester_;
+  MakeTester another_;
+  RoundWorkers<Worker> workers_;
   std::uint64_t seed_;
   std::uint64_t sets_drawn_ = 0;  ///< of each cell, by earlier calls
   double unit_ = 1.0;
-  std::vector<TestedPoint> points_;
-  std::vector<double> weights_;
 };
 
 }  // namespace fcl_prob::detail

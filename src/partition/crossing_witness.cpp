@@ -103,6 +103,16 @@ CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid)
   add(pair.b, pair.a, -1.0);
 }
 
+CrossingWitness::Hint CrossingWitness::hint() const {
+  Hint hint{-1, -1};
+  for (std::size_t i = 0; i < sides_.size(); ++i) hint[i] = sides_[i].last_found;
+  return hint;
+}
+
+void CrossingWitness::setHint(const Hint& hint) {
+  for (std::size_t i = 0; i < sides_.size(); ++i) sides_[i].last_found = hint[i];
+}
+
 bool CrossingWitness::SweptVertex::isWithin(const SweptVertex& other) const {
   for (int k = 0; k < 3; ++k) {
     if (lo[k] < other.lo[k] || hi[k] > other.hi[k]) return false;

@@ -18,12 +18,19 @@ namespace fcl_prob::detail {
 /// them could show that.
 class CrossingWitness {
  public:
+  /// The vertices by which proofs were found last, which are tried first: of either mesh, -1 for
+  /// none. All else that one search leaves for the next only saves time.
+  using Hint = std::array<int, 2>;
+
   /// Keeps a reference to `pair`.
   /// \param solid  whether a mesh inside the other one collides with it, too
   CrossingWitness(const WhitenedPair& pair, bool solid);
 
   /// Whether there is anything to try: two meshes with caps.
   bool usable() const { return !sides_.empty(); }
+
+  Hint hint() const;
+  void setHint(const Hint& hint);
 
   /// True only if all of `cell` collides.
   bool covers(const Cell& cell);

@@ -43,7 +43,7 @@ const std::vector<LineStretch>& LineCrossings::on(const Eigen::Vector3d& origin,
 }
 
 void LineCrossings::clip(NodePair leaves) {
-  const SlabArrays slabs = obstacles_.slabsOnce(leaves);
+  const SlabArrays slabs = obstacles_.slabsOnce(leaves, once_);
   const auto stretch = clippedBySlabs(slabs, leaves);
   if (!stretch) return;
   if (slabs.outer_only) {

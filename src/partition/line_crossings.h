@@ -57,6 +57,7 @@ class LineCrossings {
   std::vector<LineStretch> stretches_;
   std::vector<LineStretch> curved_;  ///< around what curved C-obstacles may have of the line
   std::vector<NodePair> stack_;
+  TriangleSlabsData once_;
 };
 
 }  // namespace fcl_prob::detail

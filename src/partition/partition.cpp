@@ -216,13 +216,16 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
   if (request.time_limit) request.time_limit = clock.leftOf(*request.time_limit);
   if (may_be_carved) request.max_cells = std::min(request.max_cells, kBoxesBeforeCarving);
-  PartitionEngine engine(frame.pair, frame.whitening.rank(), solids.get(), ball, request,
-                         result.statistics);
-  std::unique_ptr<WholeBodyTester> whole;
-  if (estimate) {
-    whole = WholeBodyTester::of(frame.pair, a, b, displacement, frame.whitening.matrix());
-  }
-  if (whole) engine.expectQuickSamples();
+  PartitionEngine engine({frame.pair, frame.whitening.rank(), solids.get(), ball, request.gradient},
+                         request, result.statistics);
+  const auto makeTester = [&] {
+    return std::make_unique<PointTester>(
+        frame.pair, engine.obstacles(), solids.get(),
+        WholeBodyTester::of(frame.pair, a, b, displacement, frame.whitening.matrix()));
+  };
+  std::unique_ptr<PointTester> tester;
+  if (estimate) tester = makeTester();
+  if (tester && tester->isQuick()) engine.expectQuickSamples();
   result.status = engine.run(estimate);
   clock.finish("partition");
   if (result.status == ProbabilityStatus::cell_limit &&
@@ -236,11 +239,13 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   }
   SampledMass sampled;
   if (estimate) {
-    if (whole)
+    if (tester->isQuick()) {
       result.plan.push_back(
           "samples tested against convex meshes taken whole, not triangle by triangle");
-    CellSampler sampler(frame.pair, engine.obstacles(), solids.get(), std::move(whole),
-                        request.seed);
+    }
+    if (request.threads > 1) engine.obstacles().share();
+    CellSampler sampler(std::move(tester), makeTester, request.seed,
+                        claim_observer ? 1 : request.threads);
     sampled = sampleOpenCells(engine, sampler, result.statistics, result.status);
     clock.finish("sampling");
   }

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "base/rounded_sum.h"
-#include "cells/cell_split.h"
+#include "cells/claim_observer.h"
 #include "partition/band_stall.h"
 
 namespace fcl_prob::detail {
@@ -15,13 +16,6 @@ namespace fcl_prob::detail {
 namespace {
 
 bool smallerGap(const OpenCell& x, const OpenCell& y) { return x.gap() < y.gap(); }
-
-// A child with more than this share of its ancestor's gap is divided with it. Measured: from 0.1 to
-// 0.4 all scenes are 5 to 15 % faster than with none.
-constexpr double kSoon = 0.2;
-
-// Not deeper than this, so that limits are looked at often enough.
-constexpr int kSoonLevels = 4;
 
 // Samples drawn for every cell examined. Measured on the benchmark scenes: with 25 an estimate
 // takes half the time that it takes with the least number; from 15 to 40 it hardly matters.
@@ -47,42 +41,43 @@ constexpr double kStalled = 0.97;
 constexpr std::size_t kFirstLookAtSweeps = 500;
 constexpr double kStalledBySweeps = 0.75;
 
-// The density changes over one standard deviation, a smaller C-obstacle over its own width.
-Eigen::Vector3d scalesOf(const WhitenedPair& pair) {
-  const NodeBox box = obstacleBox(pair, {0, 0});
-  Eigen::Vector3d scales;
-  for (int k = 0; k < 3; ++k) scales[k] = std::clamp(box.hi[k] - box.lo[k], 1e-100, 1.0);
-  return scales;
-}
+// As long as no more cells were examined and pairs tested than these, one cell is divided at a
+// time: a few milliseconds, for which threads are not worth waking.
+constexpr std::size_t kCellsOneByOne = 300;
+constexpr std::size_t kPairsOneByOne = 50'000;
+
+// Cells that are divided in a round: so many, or one in so many of the open ones.
+constexpr std::size_t kMostOfRound = 32;
+constexpr std::size_t kLeastOfRound = 4;
+constexpr std::size_t kOpenOfRound = 8;
+
+// Cells that are examined for one that is divided, about; and so many there have to be left for
+// each of a round, so that the limit on them cuts few short.
+constexpr std::size_t kCellsOfDivided = 6;
+constexpr std::size_t kCellsLeftOfDivided = 16;
 
 }  // namespace
 
-PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
-                                 const BallTruncation* ball, const ProbabilityRequest& request,
+PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityRequest& request,
                                  ProbabilityStatistics& statistics)
-    : request_(request),
+    : scene_(scene),
+      request_(request),
       statistics_(statistics),
-      obstacles_(pair),
-      examiner_(pair, obstacles_, solids, request.gradient, statistics),
-      ball_(ball),
-      scales_(scalesOf(pair)),
-      band_(pair.band),
+      obstacles_(scene.pair),
+      workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
+      round_(kMostOfRound),
+      band_(scene.pair.band),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
       limits_(request, statistics) {
-  Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
-  const double reach = ball ? std::min(kReach, 1.001 * ball->radius()) : kReach;
-  for (int i = 0; i < rank; ++i) {
-    root.lo[i] = -reach;
-    root.hi[i] = reach;
-  }
-  // Two single pieces are a pair of leaves from the start: there is nothing to expand.
-  add(examine(root, {obstacles_.frontPair({0, 0})}));
+  Division root;
+  workers_.first().divider.examineRoot(root);
+  collectStatistics();
+  add(root);
 }
 
-Examination PartitionEngine::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
-  if (!ball_ || ball_->isInBall(cell)) return examiner_.examine(cell, inherited);
-  if (ball_->missesBall(cell)) return {};
-  return ball_->truncated(cell, inherited, examiner_.examine(cell, inherited));
+void PartitionEngine::add(Division& division) {
+  indivisible_ = indivisible_ || division.indivisible;
+  for (Examination& part : division.parts) add(std::move(part));
 }
 
 void PartitionEngine::add(Examination&& examination) {
@@ -91,7 +86,8 @@ void PartitionEngine::add(Examination&& examination) {
   OpenCell& cell = *examination.open;
   if (band_ && isAllBand(cell, *band_)) {
     left_by_band_ += cell.gap();
-    return settleAsItIs(cell);
+    settled_ += asItIs(cell);
+    return;
   }
   open_.lower += cell.lower;
   open_.upper += cell.upper;
@@ -101,13 +97,6 @@ void PartitionEngine::add(Examination&& examination) {
   std::push_heap(queue_.begin(), queue_.end(), smallerGap);
 }
 
-// Its gap stays for good.
-void PartitionEngine::settleAsItIs(const OpenCell& cell) {
-  settled_.mass.lower += cell.lower;
-  settled_.mass.upper += cell.upper;
-  settled_.moment_error += cell.upper * (1.0 + kReach);
-}
-
 void PartitionEngine::remove(const OpenCell& cell) {
   open_.lower -= cell.lower;
   open_.upper -= cell.upper;
@@ -115,38 +104,68 @@ void PartitionEngine::remove(const OpenCell& cell) {
   cell_memory_ -= cell.memory();
 }
 
-void PartitionEngine::divideLargest() {
-  std::pop_heap(queue_.begin(), queue_.end(), smallerGap);
-  const OpenCell largest = std::move(queue_.back());
-  queue_.pop_back();
-  remove(largest);
-  divide(largest, kSoon * largest.gap(), kSoonLevels, 0);
+// How many cells were divided.
+std::size_t PartitionEngine::divideLargest(bool estimate) {
+  const std::size_t count = takeLargest(estimate);
+  divideTaken(count);
+  collectStatistics();
+  const CrossingWitness::Hint before = hint_;
+  for (std::size_t i = 0; i < count; ++i) {
+    add(round_[i].division);
+    if (round_[i].hint != before) hint_ = round_[i].hint;
+  }
+  return count;
 }
 
-// Children whose gap is not much smaller would soon be taken from the queue: dividing them at once,
-// as long as the data of their front are at hand, saves most of the memory traffic.
-void PartitionEngine::divide(const OpenCell& parent, double soon, int levels, std::size_t awaited) {
-  const CellSplit split = chooseSplit(
-      parent.cell, scales_, parent.hasPlane() ? parent.plane.m : Eigen::Vector3d::Zero().eval());
-  if (split.axis < 0) {
-    indivisible_ = true;
-    return settleAsItIs(parent);
+std::size_t PartitionEngine::mostOfRound() const {
+  if (statistics_.cells < kCellsOneByOne && statistics_.pairs_tested < kPairsOneByOne) return 1;
+  const std::size_t cells_left = request_.max_cells - statistics_.cells;
+  const std::size_t most = std::clamp(queue_.size() / kOpenOfRound, kLeastOfRound, kMostOfRound);
+  return std::clamp<std::size_t>(cells_left / kCellsLeftOfDivided, 1, most);
+}
+
+// No more than have to be divided in any case: if fewer were settled altogether, that would not be
+// enough. Parts of the largest may have larger gaps than those that are much smaller.
+std::size_t PartitionEngine::takeLargest(bool estimate) {
+  const std::size_t most = mostOfRound();
+  const double needed = missing();
+  const double target = targetError(interval().middle());
+  const double least = CellDivider::kSoon * queue_.front().gap();
+  double taken = 0.0;
+  std::size_t count = 0;
+  bool may_be_enough = false;
+  while (count < most && !may_be_enough && !queue_.empty() && !(queue_.front().gap() < least)) {
+    std::pop_heap(queue_.begin(), queue_.end(), smallerGap);
+    OpenCell& cell = round_[count++].cell;
+    cell = std::move(queue_.back());
+    queue_.pop_back();
+    remove(cell);
+    taken += cell.gap();
+    const std::size_t cells = statistics_.cells + count * kCellsOfDivided;
+    may_be_enough =
+        taken >= needed || (estimate && samplesNeeded(target) <= samplesAffordable(cells));
   }
-  for (const bool upper : {false, true}) {
-    Cell half = parent.cell;
-    (upper ? half.lo : half.hi)[split.axis] = split.at;
-    Examination examination = examine(half, parent.front);
-    // The other half is still to be examined.
-    const std::size_t then = upper ? awaited : awaited + 1;
-    if (examination.open && levels > 0 && examination.open->gap() > soon && hasCellsLeft(then)) {
-      const OpenCell child = std::move(*examination.open);
-      examination.open.reset();
-      add(std::move(examination));
-      divide(child, soon, levels - 1, then);
-    } else {
-      add(std::move(examination));
-    }
-  }
+  return count;
+}
+
+// Each with its share of the cells that are left.
+void PartitionEngine::divideTaken(std::size_t count) {
+  const std::size_t most_cells = (request_.max_cells - statistics_.cells) / count;
+  if (count > 1 && workers_.areSeveral()) obstacles_.share();
+  workers_.run(
+      count, [this] { return std::make_unique<Worker>(scene_, obstacles_); },
+      [&](Worker& worker, std::size_t i) {
+        Divided& of = round_[i];
+        of.division.clear();
+        worker.divider.setHint(hint_);
+        worker.divider.divide(of.cell, most_cells, of.division);
+        of.hint = worker.divider.hint();
+      });
+}
+
+void PartitionEngine::collectStatistics() {
+  workers_.visit(
+      [this](Worker& worker) { addWork(std::exchange(worker.statistics, {}), statistics_); });
 }
 
 // Sums of many additions and removals drift: every so often they are taken anew.
@@ -172,7 +191,7 @@ MomentBounds PartitionEngine::moment() const {
   // What is no double here may be one after the division by a deviation.
   double error = settled_.moment_error + kUnderflow;
   for (const OpenCell& open : queue_) {
-    const SettledMass part = examiner_.coveredPart(open);
+    const SettledMass part = coveredPart(open);
     error += part.moment_error;
     for (int k = 0; k < open.cell.rank; ++k) {
       bounds.lower[k] += part.moment[k] + std::min(open.cell.lo[k], 0.0) * open.gap();
@@ -198,8 +217,21 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
   const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
   if (band_ && all_is_band) return ProbabilityStatus::band_limit;
-  if (estimate && samplesNeeded() <= samplesAffordable()) return ProbabilityStatus::converged;
+  if (estimate &&
+      samplesNeeded(targetError(now.middle())) <= samplesAffordable(statistics_.cells)) {
+    return ProbabilityStatus::converged;
+  }
   return std::nullopt;
+}
+
+// By how much the gaps have to become smaller, at least, for satisfied().
+double PartitionEngine::missing() const {
+  const Bounds now = interval();
+  double missing = now.width() - request_.toleranceAt(now.upper);
+  if (request_.threshold) {
+    missing = std::min({missing, now.upper - *request_.threshold, *request_.threshold - now.lower});
+  }
+  return missing;
 }
 
 double PartitionEngine::targetError(double probability) const {
@@ -217,21 +249,20 @@ EngineEstimate PartitionEngine::estimate(const SampledMass& sampled) const {
 
 // With n_i samples in cell i in proportion to the deviations s_i, the variance is (Σ s_i)² / Σ n_i
 // (Neyman 1934).
-double PartitionEngine::samplesNeeded() const {
+double PartitionEngine::samplesNeeded(double target) const {
   if (!(open_deviation_ > 0.0)) return 0.0;  // the target may be 0, too: P below the least double
-  const double ratio =
-      kDeviationShare * deviation_share_ * open_deviation_ / targetError(interval().middle());
+  const double ratio = kDeviationShare * deviation_share_ * open_deviation_ / target;
   return ratio * ratio;
 }
 
-double PartitionEngine::samplesAffordable() const {
-  return (quick_samples_ ? kQuickSamplesPerCell : kSamplesPerCell) *
-         static_cast<double>(statistics_.cells);
+double PartitionEngine::samplesAffordable(std::size_t cells) const {
+  return (quick_samples_ ? kQuickSamplesPerCell : kSamplesPerCell) * static_cast<double>(cells);
 }
 
 double PartitionEngine::samplesToDraw(ProbabilityStatus status) const {
   if (status == ProbabilityStatus::time_limit || status == ProbabilityStatus::cancelled) return 0.0;
-  return std::min(samplesNeeded(), samplesAffordable());
+  return std::min(samplesNeeded(targetError(interval().middle())),
+                  samplesAffordable(statistics_.cells));
 }
 
 std::size_t PartitionEngine::memory() const { return obstacles_.memory() + cell_memory_; }
@@ -241,9 +272,8 @@ std::optional<ProbabilityStatus> PartitionEngine::interruption() const {
 }
 
 // Dividing a cell examines two.
-bool PartitionEngine::hasCellsLeft(std::size_t awaited) const {
-  return statistics_.cells < request_.max_cells &&
-         request_.max_cells - statistics_.cells >= awaited + 2;
+bool PartitionEngine::hasCellsLeft() const {
+  return statistics_.cells < request_.max_cells && request_.max_cells - statistics_.cells >= 2;
 }
 
 std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
@@ -262,17 +292,27 @@ void PartitionEngine::lookAtBand() {
 
 ProbabilityStatus PartitionEngine::run(bool estimate) {
   std::optional<ProbabilityStatus> status;
-  for (std::size_t step = 0; !status; ++step) {
+  ++changes_since_recount_;
+  std::size_t divided = 0;
+  std::size_t next_poll = 0;
+  while (!status) {
     if (band_) lookAtBand();
-    if (++changes_since_recount_ * 4 > queue_.size()) recount();
+    if (changes_since_recount_ * 4 > queue_.size()) recount();
     status = satisfied(estimate);
     if (status && changes_since_recount_ > 0) {
       recount();
       status = satisfied(estimate);
     }
-    if (!status && !hasCellsLeft(0)) status = ProbabilityStatus::cell_limit;
-    if (!status && step % EngineLimits::kCellsBetweenPolls == 0) status = limited(estimate);
-    if (!status) divideLargest();
+    if (!status && !hasCellsLeft()) status = ProbabilityStatus::cell_limit;
+    if (!status && divided >= next_poll) {
+      status = limited(estimate);
+      next_poll = divided + EngineLimits::kCellsBetweenPolls;
+    }
+    if (!status) {
+      const std::size_t count = divideLargest(estimate);
+      divided += count;
+      changes_since_recount_ += count;
+    }
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
   }
   recount();

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "base/engine_limits.h"
+#include "base/round_workers.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
-#include "partition/ball_truncation.h"
+#include "partition/cell_divider.h"
 #include "partition/cell_sampling.h"
 
 namespace fcl_prob::detail {
@@ -25,11 +26,13 @@ struct EngineEstimate {
   double standard_error;
 };
 
+/// The cells with the largest gaps are divided at once, in rounds, by the threads of the request:
+/// what a round divides, and in which order what comes of it is added, does not depend on them. The
+/// first cells, of which there are few large ones, are divided one by one.
 class PartitionEngine {
  public:
-  /// Keeps references to all arguments. \param ball  null: the displacement is not truncated
-  PartitionEngine(const WhitenedPair& pair, int rank, const SolidContact* solids,
-                  const BallTruncation* ball, const ProbabilityRequest& request,
+  /// Keeps references to all that the arguments refer to.
+  PartitionEngine(const PartitionScene& scene, const ProbabilityRequest& request,
                   ProbabilityStatistics& statistics);
 
   /// Divides cells until the request is satisfied or a limit is reached; says which. With
@@ -66,31 +69,53 @@ class PartitionEngine {
   const std::vector<OpenCell>& openCells() const { return queue_; }
   ObstacleTable& obstacles() { return obstacles_; }
 
-  SettledMass coveredPart(const OpenCell& cell) const { return examiner_.coveredPart(cell); }
+  SettledMass coveredPart(const OpenCell& cell) const {
+    return workers_.first().divider.coveredPart(cell);
+  }
 
  private:
-  Examination examine(const Cell& cell, const std::vector<FrontPair>& inherited);
-  void divideLargest();
-  void divide(const OpenCell& parent, double soon, int levels, std::size_t awaited);
+  /// Divides one cell at a time, and counts what it does besides.
+  struct Worker {
+    Worker(const PartitionScene& scene, ObstacleTable& obstacles)
+        : divider(scene, obstacles, statistics) {}
+
+    ProbabilityStatistics statistics;
+    CellDivider divider;
+  };
+
+  /// One of the cells of a round.
+  struct Divided {
+    OpenCell cell;
+    Division division;
+    CrossingWitness::Hint hint;
+  };
+
+  std::size_t divideLargest(bool estimate);
+  std::size_t mostOfRound() const;
+  std::size_t takeLargest(bool estimate);
+  void divideTaken(std::size_t count);
+  void collectStatistics();
+  void add(Division& division);
   void add(Examination&& examination);
-  void settleAsItIs(const OpenCell& cell);
   void remove(const OpenCell& cell);
   void recount();
   std::optional<ProbabilityStatus> satisfied(bool estimate) const;
-  double samplesNeeded() const;
-  double samplesAffordable() const;
+  double missing() const;
+  double samplesNeeded(double target) const;
+  double samplesAffordable(std::size_t cells) const;
   std::optional<ProbabilityStatus> limited(bool estimate) const;
   void lookAtBand();
-  bool hasCellsLeft(std::size_t awaited) const;  ///< beyond those that will be examined anyway
+  bool hasCellsLeft() const;
   std::size_t memory() const;
 
+  const PartitionScene scene_;
   const ProbabilityRequest& request_;
   ProbabilityStatistics& statistics_;
   ObstacleTable obstacles_;
-  CellExaminer examiner_;
-  const BallTruncation* ball_;
-  Eigen::Vector3d scales_;
-  std::vector<OpenCell> queue_;  ///< a heap by gap
+  RoundWorkers<Worker> workers_;
+  std::vector<Divided> round_;
+  CrossingWitness::Hint hint_{-1, -1};  ///< of the last round
+  std::vector<OpenCell> queue_;         ///< a heap by gap
   SettledMass settled_;
   Bounds open_;                  ///< sums over queue_
   double open_deviation_ = 0.0;  ///< sum over queue_ of bounds on the deviation of one sample

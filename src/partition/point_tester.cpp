@@ -183,8 +183,8 @@ void PointTester::testLeaves(const FrontPair& pair, Range chosen,
     chosen = dropExcluded(obstacles_.faceSlabs(pair.nodes), chosen, points);
     if (chosen.begin == chosen.end) return;
   }
-  const SlabArrays slabs =
-      pair.hasObstacle() ? obstacles_.slabs(pair.obstacle) : obstacles_.slabsOnce(pair.nodes);
+  const SlabArrays slabs = pair.hasObstacle() ? obstacles_.slabs(pair.obstacle)
+                                              : obstacles_.slabsOnce(pair.nodes, once_);
   for (std::size_t i = chosen.begin; i < chosen.end; ++i) {
     TestedPoint& point = points[chosen_[i]];
     const CellRelation relation = slabKernels().classifyPoint(slabs, point.y.data());

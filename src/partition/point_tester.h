@@ -32,6 +32,11 @@ class PointTester {
   /// Whether a sample takes a microsecond or two, whatever the front.
   bool isQuick() const { return whole_ != nullptr; }
 
+  /// Points that are tested from here on do not depend on those before, to the last bit.
+  void forget() {
+    if (whole_) whole_->forget();
+  }
+
   /// Sets `collides` of every point; one that has it set already is left alone. A point that may
   /// touch but, within rounding, may as well not, collides and is doubtful. All of them must be
   /// within the cell that the front is of.
@@ -73,6 +78,7 @@ class PointTester {
   std::array<std::vector<double>, 3> coordinates_;  ///< of the undecided, padded with NaN
   std::vector<int> chosen_;  ///< indices of points, for each pair that is being looked at
   std::vector<Task> stack_;
+  TriangleSlabsData once_;
 };
 
 }  // namespace fcl_prob::detail

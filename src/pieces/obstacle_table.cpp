@@ -65,27 +65,41 @@ Eigen::Vector3d largestCoordinates(const NodeBox& box) {
 
 ObstacleTable::ObstacleTable(const WhitenedPair& pair) : pair_(pair) {}
 
+std::unique_lock<std::mutex> ObstacleTable::lock(std::mutex& mutex) const {
+  return shared_ ? std::unique_lock(mutex) : std::unique_lock(mutex, std::defer_lock);
+}
+
 // The doubles of a block are left uninitialized: most of the last one is never used.
 double* ObstacleTable::allocate(int count) {
+  const auto locked = lock(blocks_mutex_);
   const std::size_t needed = static_cast<std::size_t>(count) * kSlabFields;
   if (needed > block_left_) {
     block_left_ = std::max(kBlockDoubles, needed);
-    doubles_reserved_ += block_left_;
     blocks_.emplace_back(new double[block_left_]);
     block_end_ = blocks_.back().get() + block_left_;
   }
   double* data = block_end_ - block_left_;
   block_left_ -= needed;
+  doubles_used_ += needed;
   return data;
+}
+
+// What is added stays where it is, so that others may be read at the same time.
+int ObstacleTable::add(const SlabArrays& slabs) {
+  return static_cast<int>(obstacles_.push_back(slabs) - obstacles_.begin());
 }
 
 int ObstacleTable::find(NodePair leaves) {
   const std::uint64_t key =
       (static_cast<std::uint64_t>(leaves.a) << 32) | static_cast<std::uint32_t>(leaves.b);
-  const auto [entry, is_new] = index_.try_emplace(key, static_cast<int>(obstacles_.size()));
+  const std::size_t hash = PairHash()(key);
+  // Bits that the places within a part do not depend on before it is large.
+  Part& part = parts_[(hash >> 28) % parts_.size()];
+  const auto locked = lock(part.mutex);
+  const auto [entry, is_new] = part.index.try_emplace(key, -1);
   if (is_new) {
-    obstacles_.push_back(areTriangles(leaves) ? buildTriangles(leaves, allocate(kTriangleSlabs))
-                                              : buildPieces(leaves));
+    entry.value() = add(areTriangles(leaves) ? buildTriangles(leaves, allocate(kTriangleSlabs))
+                                             : buildPieces(leaves));
   }
   return entry.value();
 }
@@ -95,8 +109,8 @@ FrontPair ObstacleTable::frontPair(NodePair nodes) {
                                  : FrontPair::ofNodes(nodes);
 }
 
-SlabArrays ObstacleTable::slabsOnce(NodePair leaves) {
-  return areTriangles(leaves) ? buildTriangles(leaves, once_.data()) : slabs(find(leaves));
+SlabArrays ObstacleTable::slabsOnce(NodePair leaves, TriangleSlabsData& data) {
+  return areTriangles(leaves) ? buildTriangles(leaves, data.data()) : slabs(find(leaves));
 }
 
 bool ObstacleTable::areTriangles(NodePair leaves) const {
@@ -115,8 +129,7 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
   }
   data[3 * kLanes] = s - padding;
   data[5 * kLanes] = 2 * padding;
-  obstacles_.push_back({data, kLanes});
-  return static_cast<int>(obstacles_.size()) - 1;
+  return add({data, kLanes});
 }
 
 SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
@@ -189,10 +202,19 @@ FaceSlabs ObstacleTable::faceSlabs(NodePair leaves) const {
   return slabs;
 }
 
+std::size_t ObstacleTable::pairCount() const {
+  std::size_t count = 0;
+  for (const Part& part : parts_) count += part.index.size();
+  return count;
+}
+
+// How many places a map has, and what is left of a block, depends on the order of what is added.
 std::size_t ObstacleTable::memory() const {
   constexpr std::size_t kEntryBytes = 3 * sizeof(std::uint64_t);
-  return obstacles_.capacity() * sizeof(SlabArrays) + index_.bucket_count() * kEntryBytes +
-         doubles_reserved_ * sizeof(double);
+  constexpr std::size_t kPlacesOfEntry = 3;
+  const std::size_t blocks = (doubles_used_ + kBlockDoubles - 1) / kBlockDoubles;
+  return obstacles_.size() * sizeof(SlabArrays) + pairCount() * kPlacesOfEntry * kEntryBytes +
+         blocks * kBlockDoubles * sizeof(double);
 }
 
 }  // namespace fcl_prob::detail

@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
+#include <tbb/concurrent_vector.h>
 #include <tsl/robin_map.h>
 
 #include "cobstacle/support_obstacle.h"
@@ -33,10 +35,17 @@ struct FaceSlabs {
   }
 };
 
+/// Where the slabs of two triangles that are looked at once are built.
+using TriangleSlabsData = std::array<double, kTriangleSlabs * kSlabFields>;
+
+/// What an obstacle is depends on its leaves only; its index also on who asked for it first.
 class ObstacleTable {
  public:
   /// Keeps a reference to `pair`.
   explicit ObstacleTable(const WhitenedPair& pair);
+
+  /// From here on all but memory() may be called from several threads at once.
+  void share() { shared_ = true; }
 
   /// Index of the C-obstacle of a leaf of A and a leaf of B.
   int find(NodePair leaves);
@@ -44,8 +53,8 @@ class ObstacleTable {
   /// A pair of nodes as it stands in a front: two leaves with their obstacle.
   FrontPair frontPair(NodePair nodes);
 
-  /// The slabs of two leaves that are looked at once: valid until the next call.
-  SlabArrays slabsOnce(NodePair leaves);
+  /// The slabs of two leaves that are looked at once: valid as long as what is in `data` is.
+  SlabArrays slabsOnce(NodePair leaves, TriangleSlabsData& data);
 
   /// Whether the pieces of two leaves are triangles both.
   bool areTriangles(NodePair leaves) const;
@@ -62,8 +71,9 @@ class ObstacleTable {
   SupportObstacle support(NodePair leaves) const;
 
   /// Pairs of leaves that were asked for.
-  std::size_t pairCount() const { return index_.size(); }
+  std::size_t pairCount() const;
 
+  /// Bytes, about: whoever asked for which of the obstacles first, it is the same.
   std::size_t memory() const;
 
  private:
@@ -76,6 +86,14 @@ class ObstacleTable {
     }
   };
 
+  /// A part of the pairs, so that threads seldom wait for each other.
+  struct Part {
+    tsl::robin_map<std::uint64_t, int, PairHash> index;
+    std::mutex mutex;
+  };
+
+  std::unique_lock<std::mutex> lock(std::mutex& mutex) const;
+  int add(const SlabArrays& slabs);
   double* allocate(int count);
   Eigen::Vector3d errorOf(NodePair leaves) const;
   SlabArrays buildTriangles(NodePair leaves, double* data) const;
@@ -83,13 +101,14 @@ class ObstacleTable {
   bool hasFewSlabs(NodePair leaves) const;
 
   const WhitenedPair& pair_;
-  std::vector<SlabArrays> obstacles_;
-  tsl::robin_map<std::uint64_t, int, PairHash> index_;
+  bool shared_ = false;
+  tbb::concurrent_vector<SlabArrays> obstacles_;
+  std::array<Part, 16> parts_;
+  std::mutex blocks_mutex_;
   std::vector<std::unique_ptr<double[]>> blocks_;
-  double* block_end_ = nullptr;       ///< of the last block
-  std::size_t block_left_ = 0;        ///< of the last block, in doubles
-  std::size_t doubles_reserved_ = 0;  ///< in all blocks
-  std::array<double, kTriangleSlabs * kSlabFields> once_;
+  double* block_end_ = nullptr;   ///< of the last block
+  std::size_t block_left_ = 0;    ///< of the last block, in doubles
+  std::size_t doubles_used_ = 0;  ///< of all blocks
 };
 
 }  // namespace fcl_prob::detail

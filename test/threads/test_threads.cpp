@@ -126,6 +126,33 @@ TEST_CASE("threads share a group", "[threads]") {
   for (const ProbabilityResult& result : results) CHECK(result.upper == reference.upper);
 }
 
+// Enough cells for rounds of them; boxes, and polytopes beside a convex mesh.
+TEST_CASE("cells and samples of one query on several threads", "[threads]") {
+  const auto ring = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 12, 8));
+  RandomBodies random(1);
+  const auto hull = makeModel<fcl::OBBRSSd>(hullMesh(random.onSphere(30, 0.3)));
+  const auto bumpy = makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 8, 10, 1));
+  const auto box = std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4);
+  for (const GroupQuery& query :
+       {GroupQuery({bumpy}, {ring}), GroupQuery({hull}, {ring}), GroupQuery({box}, {ring})}) {
+    for (const auto method : {ProbabilityMethod::interval, ProbabilityMethod::estimate}) {
+      for (const auto contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
+        ProbabilityRequest request = requestOf(method, 1);
+        request.relative_tolerance = 0.01;
+        request.contact = contact;
+        request.on_progress = [](const ProbabilityProgress&) { return true; };
+        ProbabilityResult alone, together;
+        query.collisionProbability({at(0.7)}, {at(0.0)}, displacement(), request, alone);
+        request.threads = kThreads;
+        query.collisionProbability({at(0.7)}, {at(0.0)}, displacement(), request, together);
+        CHECK(together.upper == alone.upper);
+        CHECK(together.estimate == alone.estimate);
+        CHECK(together.statistics.pairs_tested == alone.statistics.pairs_tested);
+      }
+    }
+  }
+}
+
 TEST_CASE("lines and evenly spread samples on two threads", "[threads]") {
   const auto body = makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 4, 6, 1));
   const auto ring = makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5));

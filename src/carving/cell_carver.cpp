@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "carving/cell_carver.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "fcl_prob/normal_mass.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Boxes wider than this are halved before obstacles are looked at one by one.
+constexpr double kWidestBox = 1.5;
+
+// For an interval a box with more obstacles than this is halved once more: their lists are what
+// takes time. A decision looks closely at few boxes, and was slower with more of them (bench
+// states).
+constexpr double kWidestCrowdedBox = 1.0;
+constexpr std::size_t kCrowd = 64;
+
+// Accuracy of the masses of cells that stay open, and of those settled: that as a share of the
+// tolerance.
+constexpr double kOpenMassAccuracy = 0.03;
+constexpr double kSettledShare = 0.01;
+constexpr double kDecisionAccuracy = 1e-4;
+constexpr double kBestAccuracy = 1e-6;
+constexpr double kWorstAccuracy = 1e-3;
+
+// How much may be wrong in one of the tetrahedra of a cell, as a share of all that is settled.
+constexpr double kSettledFloor = 1e-4;
+
+// A layer of a smaller share than this of the accuracy is not looked at closely.
+constexpr double kLittleShare = 0.1;
+constexpr double kLayerAccuracy = 0.3;
+
+double settledAccuracy(const ProbabilityRequest& request) {
+  if (request.threshold) return kDecisionAccuracy;
+  return std::clamp(kSettledShare * request.relative_tolerance, kBestAccuracy, kWorstAccuracy);
+}
+
+double widest(const Cell& box) { return (box.hi - box.lo).maxCoeff(); }
+
+bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {
+  for (; layers; layers = layers->before.get()) {
+    if (!(layers->n.dot(point) > layers->outer + CellPolytope::kCutLayer)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
+                       const ProbabilityRequest& request, std::atomic<std::size_t>& list_memory,
+                       ProbabilityStatistics& statistics)
+    : obstacles_(obstacles),
+      solids_(solids),
+      request_(request),
+      list_memory_(list_memory),
+      statistics_(statistics),
+      accuracy_(settledAccuracy(request)) {}
+
+void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into) {
+  so_far_ = so_far;
+  carving_ = &into;
+  failed_ = false;
+  ++statistics_.cells;
+  if (cell.box && isTooLarge(cell)) {
+    divideBox(std::move(cell));
+  } else {
+    resolve(std::move(cell));
+  }
+}
+
+bool CellCarver::isTooLarge(const CarvedCell& cell) const {
+  const double width = widest(*cell.box);
+  if (width > kWidestBox) return true;
+  if (request_.threshold || width <= kWidestCrowdedBox) return false;
+  std::vector<FatNode> leaves;
+  gatherNodes(*cell.box, *cell.nodes, true, leaves);
+  return leaves.size() > kCrowd;
+}
+
+// Its memory is counted as long as cells refer to it.
+std::shared_ptr<ObstacleList> CellCarver::copied(const List& list) {
+  std::shared_ptr<List> copy{new List(list), [this](List* old) {
+                               list_memory_ -= old->counted;
+                               delete old;
+                             }};
+  copy->counted = copy->memory();
+  list_memory_ += copy->counted;
+  return copy;
+}
+
+void CellCarver::resolve(CarvedCell&& cell) {
+  if (cell.box) cell.body = CellPolytope(*cell.box);
+  found_.entries.clear();
+  found_.planes.clear();
+  const Relation relation = examine(cell, found_);
+  statistics_.peak_front = std::max(statistics_.peak_front, found_.entries.size());
+  if (failed_) return;  // so has the engine
+  if (relation == Relation::covered) {
+    claim("one fat pair", true, cell.body);
+    return settle(cell.box ? cell.mass : settledMass(cell.body));
+  }
+  if (relation == Relation::free) return settleFree(cell);
+  carve(cell, copied(found_));
+}
+
+void CellCarver::settle(const Bounds& mass) {
+  carving_->settled.lower += mass.lower;
+  carving_->settled.upper += mass.upper;
+}
+
+// Of a few points, as cells of next to no size: near the vertices the claim is boldest. A body that
+// is hardly thicker than those cells is left out, by what its faces tell to 1e-8.
+void CellCarver::claim(const char* method, bool collides, const CellPolytope& body,
+                       const CarvedLayer* layers) const {
+  if (!observer_) return;
+  constexpr double kNearVertex = 0.99;
+  constexpr double kHalf = 1e-11;
+  const Eigen::Vector3d middle = body.middle();
+  if (!((1.0 - kNearVertex) * body.depth(middle) > 1e3 * kHalf)) return;
+  for (const Eigen::Vector3d& v : body.vertices()) {
+    const Eigen::Vector3d point = middle + kNearVertex * (v - middle);
+    if (!isBeyond(layers, point)) continue;
+    observer_->claim({method, collides, {point.array() - kHalf, point.array() + kHalf, 3}, {}});
+  }
+}
+
+// No surfaces meet anywhere in the cell but in its layers. What is beyond all of them is convex:
+// one point of it tells whether the solids overlap.
+void CellCarver::settleFree(const CarvedCell& cell) {
+  if (!solids_ || !solids_->possible(cell.body.box())) {
+    return claim("no fat pair", false, cell.body);
+  }
+  const Eigen::Vector3d middle = cell.body.middle();
+  const bool tells = !cell.dropped && isBeyond(cell.layers.get(), middle);
+  switch (tells ? solids_->at(middle) : Containment::unknown) {
+    case Containment::inside:
+      return settleContained(cell);
+    case Containment::outside:
+      return claim("no containment", false, cell.body);
+    case Containment::unknown:
+      carving_->settled.upper += cell.mass.upper;
+  }
+}
+
+// Nothing is said of its layers.
+void CellCarver::settleContained(const CarvedCell& cell) {
+  claim("containment", true, cell.body, cell.layers.get());
+  Bounds mass = cell.box ? cell.mass : settledMass(cell.body);
+  for (const CarvedLayer* layer = cell.layers.get(); layer; layer = layer->before.get()) {
+    mass.lower -= layer->mass;
+  }
+  settle({std::max(0.0, mass.lower), mass.upper});
+}
+
+// What lies behind the inner plane and in front of the outer one may belong to the obstacle. Of the
+// volume of a convex body that reaches a height T above a plane no larger share lies below a height
+// m than of that of a cone, 3 m / T. Where that is not little, the layer's own mass is taken.
+double CellCarver::allowLayer(const CarvedCell& outside, const ObstaclePlane& plane) {
+  const CellPolytope& body = outside.body;
+  if (observer_) observer_->excuse(body.box(), plane.n, plane.inner(), plane.outer);
+  const double height = body.along(plane.n).hi - plane.inner();
+  const double far = body.nearest() + body.diameter();
+  const double uneven = std::exp(0.5 * (far * far - body.nearest() * body.nearest()));
+  const double share = height > 0.0 ? 3 * plane.margin / height * uneven : 1.0;
+  double mass = share * outside.mass.upper;
+  if (share > kLittleShare * accuracy_) {
+    cutter_.cut(body, plane.n, plane.outer, &layer_, nullptr);
+    mass = layer_.mass({kLayerAccuracy, 0.0}).upper;
+  }
+  carving_->settled.upper += mass;
+  return mass;
+}
+
+Bounds CellCarver::settledMass(const CellPolytope& body) const {
+  return body.mass(
+      {accuracy_, kSettledFloor * accuracy_ * (so_far_.certain + carving_->settled.lower)});
+}
+
+// Of a cell cut from another one, of mass `parent`.
+Bounds CellCarver::openMass(const CellPolytope& body, double parent) const {
+  return body.mass({kOpenMassAccuracy, kOpenFloor * kOpenMassAccuracy * parent});
+}
+
+void CellCarver::allowSlivers(const CellPolytope& body, std::size_t cuts) {
+  const double size = body.diameter();
+  const double nearest = body.nearest();
+  carving_->slivers += static_cast<double>(cuts) * CellPolytope::kCutLayer * 4 * size * size *
+                       0.07 * std::exp(-0.5 * nearest * nearest);
+}
+
+}  // namespace fcl_prob::detail
