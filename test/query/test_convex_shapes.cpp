@@ -123,7 +123,7 @@ void checkScenes(int scenes, std::size_t samples, unsigned seed) {
 }  // namespace
 
 TEST_CASE("convex shapes of many faces are taken whole and hold what FCL counts", "[convex]") {
-  checkScenes(20, 1'000, 3);
+  checkScenes(40, 2'000, 3);
 }
 
 TEST_CASE("convex shapes of many faces hold what FCL counts in 2,000 scenes", "[convex][long]") {
