@@ -88,7 +88,7 @@ std::optional<Ellipsoid> ZonotopeObstacle::ellipsoid() const {
 }
 
 Eigen::Vector3d ZonotopeObstacle::worldSupportPoint(const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3d point = core_.supportPoint(direction);
+  Eigen::Vector3d point = core_.supportPoint(direction);
   const double length = direction.norm();
   if (radius_ == 0.0 || length == 0.0) return point;
   return point + (radius_ / length) * direction;
