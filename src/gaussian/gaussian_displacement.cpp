@@ -71,7 +71,7 @@ Eigen::Matrix3d symmetricPart(const Eigen::Matrix3d& matrix) {
 }
 
 detail::PrincipalAxes semidefiniteAxes(const Eigen::Matrix3d& covariance) {
-  const detail::PrincipalAxes axes = detail::principalAxesOfCovariance(covariance);
+  detail::PrincipalAxes axes = detail::principalAxesOfCovariance(covariance);
   if (axes.least_eigenvalue < -kDefinitenessTolerance * covariance.cwiseAbs().maxCoeff()) {
     throw InvalidDistribution("covariance has a negative eigenvalue: " +
                               numberText(axes.least_eigenvalue));

@@ -43,7 +43,7 @@ bool isNarrow(const Points& points, const std::vector<int>& face, double toleran
 
 /// Newell's normal: right for any planar polygon, and the mean for one that is not quite.
 FacePlane planeOf(const Points& points, const std::vector<int>& face, double tolerance) {
-  const Eigen::Vector3d origin = points[face[0]];
+  const Eigen::Vector3d& origin = points[face[0]];
   if (isNarrow(points, face, tolerance)) return {Eigen::Vector3d::Zero(), origin};
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < face.size(); ++i) {

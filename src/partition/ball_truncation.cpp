@@ -92,7 +92,11 @@ Examination BallTruncation::truncated(const Cell& cell, const std::vector<FrontP
   // Where nothing is settled, the rest of the cell with its shorter front is all there is.
   const bool rest_only = whole.open && settled.upper <= 0.0;
   rest.cell = rest_only ? whole.open->cell : cell;
-  rest.front = rest_only ? std::move(whole.open->front) : inherited;
+  if (rest_only) {
+    rest.front = std::move(whole.open->front);
+  } else {
+    rest.front = inherited;
+  }
   const Bounds inside = massInBall(rest.cell);
   const double outside = std::max(0.0, cellMass(rest.cell).upper - inside.lower);
   rest.upper = std::min(inside.upper, settled.upper + open.upper);

@@ -103,7 +103,7 @@ std::optional<LineStretch> LineCrossings::clippedBySlabs(const SlabArrays& slabs
 }
 
 // From a point inside, a ray each way.
-std::optional<LineStretch> LineCrossings::clippedBySupport(LineStretch within) const {
+std::optional<LineStretch> LineCrossings::clippedBySupport(const LineStretch& within) const {
   const NodePair leaves = within.from.leaves;
   const SupportObstacle obstacle = obstacles_.support(leaves);
   const auto inside = placeInside(obstacle, within.from.at, within.to.at);

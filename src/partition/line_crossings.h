@@ -42,7 +42,7 @@ class LineCrossings {
   void clip(NodePair leaves);
   void clipCurved();
   std::optional<LineStretch> clippedBySlabs(const SlabArrays& slabs, NodePair leaves) const;
-  std::optional<LineStretch> clippedBySupport(LineStretch within) const;
+  std::optional<LineStretch> clippedBySupport(const LineStretch& within) const;
   std::optional<double> placeInside(const SupportObstacle& obstacle, double lo, double hi) const;
   std::optional<LineEnd> leaving(const SupportObstacle& obstacle, double from, double sign,
                                  NodePair leaves) const;
