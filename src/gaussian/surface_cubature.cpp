@@ -24,6 +24,9 @@ constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
 /// Of a term, besides that of the point: exp, erfc, weights and sums.
 constexpr double kFluxRounding = 512.0 * kEpsilon;
 
+/// A box is divided across both parameters if normals change along them by about the same.
+constexpr double kEvenChange = 0.4;
+
 /// Below the smallest normal double, for every term of a rule.
 constexpr double kFluxUnderflow = 1e-306;
 
@@ -102,11 +105,11 @@ PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target
   return plan;
 }
 
-/// Of a box that is half of another one, cut across the parameter that was not.
-std::array<ParameterBox, 2> halvesAcross(const ParameterBox& half, const ParameterBox& whole) {
+/// A box cut in two across a parameter.
+std::array<ParameterBox, 2> halvesAcross(const ParameterBox& box, std::size_t k) {
   PartPlan plan;
-  plan.points[half.half[0] < whole.half[0] ? 1 : 0] = 1.0;
-  return halves(half, plan);
+  plan.points[k] = 1.0;
+  return halves(box, plan);
 }
 
 }  // namespace
@@ -126,18 +129,32 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
   }
   const PartPlan plan = planPatch(cell, box, target, guess_);
   if (!plan.exists()) {
-    for (const ParameterBox& half : halves(box, plan)) {
-      if (plan.points[plan.worst()] < kInfinity) {
-        addBox(patch, half, depth + 1);
-      } else {
-        for (const ParameterBox& quarter : halvesAcross(half, box))
-          addBox(patch, quarter, depth + 2);
-      }
-    }
+    divide(patch, box, plan, depth);
     return;
   }
   sum_.error += kInverseTwoPi * plan.error * kBoundSlack;
   evaluate(patch, cell, box, plan.points);
+}
+
+// Where nothing is known, the normals tell why: near a pole they may turn along one parameter only.
+void SurfaceCubature::divide(const SurfacePatch& patch, const ParameterBox& box,
+                             const PartPlan& plan, int depth) {
+  if (plan.points[plan.worst()] < kInfinity) {
+    for (const ParameterBox& half : halves(box, plan)) addBox(patch, half, depth + 1);
+    return;
+  }
+  const std::array<double, 2> changes = normalChanges(patch, box);
+  const std::size_t worse = changes[1] > changes[0] ? 1 : 0;
+  const bool both = changes[1 - worse] > kEvenChange * changes[worse];
+  for (const ParameterBox& half : halvesAcross(box, worse)) {
+    if (!both) {
+      addBox(patch, half, depth + 1);
+      continue;
+    }
+    for (const ParameterBox& quarter : halvesAcross(half, 1 - worse)) {
+      addBox(patch, quarter, depth + 2);
+    }
+  }
 }
 
 void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
@@ -185,6 +202,7 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
     if (!(next < 0.5 * about) || isDue(interruption)) break;
     about = std::max(next, kUnderflow);
   }
+  if (!(best.error < kInfinity)) return {0.0, 1.0};
   const double error = best.error * (1.0 + 1e-9) + 1e-13 * std::abs(best.mass) + kUnderflow;
   return {best.mass - error, best.mass + error};
 }

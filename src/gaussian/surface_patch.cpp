@@ -169,6 +169,22 @@ PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t) {
   return {jet.value, jet.first, jet.second};
 }
 
+std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBox& box) {
+  const double s = box.centre[0], t = box.centre[1];
+  std::array<double, 2> changes{0.0, 0.0};
+  BaseLength<double> length{};
+  if (patch.lifted) length = baseLength(patch, s);
+  for (int k = 0; k < patch.count; ++k) {
+    const CurvedTerm& term = patch.terms[static_cast<std::size_t>(k)];
+    Jet<double> g = bilinear(term.direction, s, t);
+    if (patch.lifted) addLift(term, length, t, g);
+    const double square = dot(g.value, g.value);
+    changes[0] = std::max(changes[0], box.half[0] * std::sqrt(dot(g.first, g.first) / square));
+    changes[1] = std::max(changes[1], box.half[1] * std::sqrt(dot(g.second, g.second) / square));
+  }
+  return changes;
+}
+
 PatchCell::PatchCell(const SurfacePatch& patch, const ParameterBox& box,
                      const Eigen::Vector3d& normal)
     : patch_(patch), normal_(normal) {
@@ -217,8 +233,10 @@ PatchRounding PatchCell::rounding(const ParameterBox& box) const {
     const double terms = 4.0 * (mostNorm(term.direction) + lift) * inverse;
     const double size = std::max(term.size[0], term.size[1]) * term.image.norm();
     result.position += 32.0 * kEpsilon * size * (1.0 + terms);
-    result.first += 64.0 * kEpsilon * size * (1.0 + terms) * (1.0 + terms);
-    result.second += 64.0 * kEpsilon * size * (1.0 + terms) * (1.0 + terms);
+    const double first = 1.0 + mostLength(g.first) * inverse;
+    const double second = 1.0 + mostLength(g.second) * inverse;
+    result.first += 64.0 * kEpsilon * size * (1.0 + terms) * first;
+    result.second += 64.0 * kEpsilon * size * (1.0 + terms) * second;
   }
   return result;
 }

@@ -46,6 +46,10 @@ struct PatchPoints {
 
 PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t);
 
+/// By what share of itself the normal of a box's middle changes at the most along each parameter,
+/// about: where nothing is known, the box is too long along the one where that is more.
+std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBox& box);
+
 /// Bounds on how much rounding can change of what pointsOf() finds in a box, and on the derivatives
 /// there, for real parameters.
 struct PatchRounding {
