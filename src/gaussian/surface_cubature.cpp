@@ -46,7 +46,8 @@ Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
   for (const double step : {0.0, -1.0, 1.0}) {
     const PatchPoints points = pointsOf(patch, box.centre[0] + step * box.half[0], t);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d up(points.x[0][k], points.x[1][k], std::max(points.x[2][k], 0.0));
+      const Eigen::Vector3d up(points.value[0][k], points.value[1][k],
+                               std::max(points.value[2][k], 0.0));
       if (const double square = up.squaredNorm(); square < least) {
         least = square;
         nearest = up;
@@ -80,10 +81,10 @@ struct FluxSums {
 
   void add(const PatchPoints& points, double weight, const Lanes& weights) {
     const Lanes area = points.first[0] * points.second[1] - points.first[1] * points.second[0];
-    const Lanes across = points.x[0] * points.x[0] + points.x[1] * points.x[1];
+    const Lanes across = points.value[0] * points.value[0] + points.value[1] * points.value[1];
     for (std::size_t k = 0; k < Lanes::kCount; ++k) {
       if (!(weights[k] > 0.0)) continue;
-      const double z = points.x[2][k];
+      const double z = points.value[2][k];
       const double field =
           weight * weights[k] * 0.5 * std::exp(-0.5 * across[k]) * std::erfc(z * kInverseSqrtTwo);
       flux -= field * area[k];
@@ -169,7 +170,7 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
     }
   }
   const double scale = kInverseTwoPi * box.half[0] * box.half[1];
-  const PatchRounding rounding = cell.rounding(box);
+  const PatchRounding& rounding = cell.rounding();
   const double reach = std::min(std::sqrt(sums.farthest_square), kFarthestPoint);
   // |∇ log F| is at most reach + 1.
   const double relative =
