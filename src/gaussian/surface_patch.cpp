@@ -171,7 +171,10 @@ std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBo
   const double s = box.centre[0], t = box.centre[1];
   std::array<double, 2> changes{0.0, 0.0};
   BaseLength<double> length{};
-  if (patch.lifted) length = baseLength(patch, s);
+  if (patch.lifted) {
+    length = baseLength(patch, s);
+    changes[0] = box.half[0] * (patch.base[1] - patch.base[0]).norm() / length.value;
+  }
   for (int k = 0; k < patch.count; ++k) {
     const CurvedTerm& term = patch.terms[static_cast<std::size_t>(k)];
     Jet<double> g = bilinear(term.direction, s, t);

@@ -281,8 +281,9 @@ double AxesSum::rounding() const {
     ellipsoids += static_cast<double>(ellipsoid.norm());
   }
   const double slant = slantOf(sum.frustum, sum.frame) + slantOf(second, second_frame);
-  return sum.rounding() +
-         stretch * (4.0 * slant + 2.0 * kAxesTie * size + 32.0 * kEpsilon * (size + ellipsoids));
+  const LongVector3 a = sum.frame.col(2).normalized(), b = second_frame.col(2).normalized();
+  const double tie = std::abs(a.dot(b)) < 2.0L * kAxesTie ? 2.0 * kAxesTie * size : 0.0;
+  return sum.rounding() + stretch * (4.0 * slant + tie + 32.0 * kEpsilon * (size + ellipsoids));
 }
 
 std::vector<SurfacePatch> axesSurface(const AxesSum& axes) { return AxesSurface(axes).patches(); }
