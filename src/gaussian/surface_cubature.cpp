@@ -16,7 +16,7 @@ constexpr std::size_t kMostSurfaceBoxes = 20000;
 
 /// Of the error of all rules, next to the mass.
 constexpr double kSurfaceTarget = 4e-8;
-constexpr double kSurfaceEnough = 2e-7;
+constexpr double kSurfaceEnough = 4e-7;
 constexpr int kSurfaceAttempts = 6;
 
 constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
@@ -200,8 +200,8 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
     // As far as it is known.
     const double most = best.mass + best.error;
     const double next = best.mass > 2.0 * best.error ? best.mass : std::min(1e-6 * about, most);
-    if (!(next < 0.5 * about) || isDue(interruption)) break;
-    about = std::max(next, kUnderflow);
+    if (isDue(interruption)) break;
+    about = std::max(std::min(next, 0.3 * about), kUnderflow);
   }
   if (!(best.error < kInfinity)) return {0.0, 1.0};
   const double error = best.error * (1.0 + 1e-9) + 1e-13 * std::abs(best.mass) + kUnderflow;
