@@ -160,6 +160,11 @@ double mostNorm(const BilinearVector& corners) {
   return most;
 }
 
+double longestSide(const BilinearVector& corners) {
+  return std::max({(corners[1] - corners[0]).norm(), (corners[3] - corners[2]).norm(),
+                   (corners[2] - corners[0]).norm(), (corners[3] - corners[1]).norm()});
+}
+
 }  // namespace
 
 PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t) {
@@ -233,8 +238,9 @@ PartBound PatchCell::boundOf(const PatchModel& jet, const ComplexBox& box) const
 // derivatives of that are (I - ĝĝᵀ) g'/|g|.
 void PatchCell::findRounding(const ParameterBox& box) {
   const auto [s, t, none] = parameters(box);
-  const double corners = 16.0 * kEpsilon * mostNorm(patch_.position);
-  rounding_.position = rounding_.first = rounding_.second = corners;
+  rounding_.position = 16.0 * kEpsilon * mostNorm(patch_.position);
+  // Corners are exact, and their differences right to an ε of themselves.
+  rounding_.first = rounding_.second = 16.0 * kEpsilon * longestSide(patch_.position);
   BaseLength<TaylorModel> length{};
   if (patch_.lifted) length = baseLength(patch_, s);
   for (int k = 0; k < patch_.count; ++k) {
