@@ -21,6 +21,9 @@ constexpr int kSurfaceAttempts = 6;
 
 constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
 
+/// Of sums over all boxes.
+constexpr double kBoxSumRounding = 2.0 * kMostSurfaceBoxes * kEpsilon;
+
 /// Of a term, besides that of the point: exp, erfc, weights and sums.
 constexpr double kFluxRounding = 512.0 * kEpsilon;
 
@@ -173,8 +176,8 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
   const PatchRounding& rounding = cell.rounding();
   const double reach = std::min(std::sqrt(sums.farthest_square), kFarthestPoint);
   // |∇ log F| is at most reach + 1.
-  const double relative =
-      (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach + kFluxRounding;
+  const double relative = (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach +
+                          kFluxRounding + kBoxSumRounding;
   const double of_area = rounding.first * rounding.second_length +
                          rounding.second * rounding.first_length +
                          kFluxRounding * rounding.first_length * rounding.second_length;
@@ -195,8 +198,10 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
       if (!(cubature.sum().error < kInfinity)) break;
       cubature.add(patch);
     }
+    // Rounding stays, whatever rules leave.
+    const bool stays = cubature.sum().error > 0.5 * best.error;
     if (cubature.sum().error < best.error) best = cubature.sum();
-    if (best.error <= kSurfaceEnough * best.mass || cubature.exhausted()) break;
+    if (best.error <= kSurfaceEnough * best.mass || cubature.exhausted() || stays) break;
     // As far as it is known.
     const double most = best.mass + best.error;
     const double next = best.mass > 2.0 * best.error ? best.mass : std::min(1e-6 * about, most);
@@ -204,7 +209,7 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
     about = std::max(std::min(next, 0.3 * about), kUnderflow);
   }
   if (!(best.error < kInfinity)) return {0.0, 1.0};
-  const double error = best.error * (1.0 + 1e-9) + 1e-13 * std::abs(best.mass) + kUnderflow;
+  const double error = best.error * (1.0 + 1e-9) + kUnderflow;
   return {best.mass - error, best.mass + error};
 }
 
