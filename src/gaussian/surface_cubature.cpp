@@ -16,13 +16,19 @@ constexpr std::size_t kMostSurfaceBoxes = 20000;
 
 /// Of the error of all rules, next to the mass.
 constexpr double kSurfaceTarget = 4e-8;
-constexpr double kSurfaceEnough = 2e-7;
+constexpr double kSurfaceEnough = 4e-7;
 constexpr int kSurfaceAttempts = 6;
 
 constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
 
+/// Of sums over all boxes.
+constexpr double kBoxSumRounding = 2.0 * kMostSurfaceBoxes * kEpsilon;
+
 /// Of a term, besides that of the point: exp, erfc, weights and sums.
 constexpr double kFluxRounding = 512.0 * kEpsilon;
+
+/// A box is divided across both parameters if normals change along them by about the same.
+constexpr double kEvenChange = 0.4;
 
 /// Below the smallest normal double, for every term of a rule.
 constexpr double kFluxUnderflow = 1e-306;
@@ -43,7 +49,8 @@ Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
   for (const double step : {0.0, -1.0, 1.0}) {
     const PatchPoints points = pointsOf(patch, box.centre[0] + step * box.half[0], t);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d up(points.x[0][k], points.x[1][k], std::max(points.x[2][k], 0.0));
+      const Eigen::Vector3d up(points.value[0][k], points.value[1][k],
+                               std::max(points.value[2][k], 0.0));
       if (const double square = up.squaredNorm(); square < least) {
         least = square;
         nearest = up;
@@ -77,10 +84,10 @@ struct FluxSums {
 
   void add(const PatchPoints& points, double weight, const Lanes& weights) {
     const Lanes area = points.first[0] * points.second[1] - points.first[1] * points.second[0];
-    const Lanes across = points.x[0] * points.x[0] + points.x[1] * points.x[1];
+    const Lanes across = points.value[0] * points.value[0] + points.value[1] * points.value[1];
     for (std::size_t k = 0; k < Lanes::kCount; ++k) {
       if (!(weights[k] > 0.0)) continue;
-      const double z = points.x[2][k];
+      const double z = points.value[2][k];
       const double field =
           weight * weights[k] * 0.5 * std::exp(-0.5 * across[k]) * std::erfc(z * kInverseSqrtTwo);
       flux -= field * area[k];
@@ -102,11 +109,11 @@ PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target
   return plan;
 }
 
-/// Of a box that is half of another one, cut across the parameter that was not.
-std::array<ParameterBox, 2> halvesAcross(const ParameterBox& half, const ParameterBox& whole) {
+/// A box cut in two across a parameter.
+std::array<ParameterBox, 2> halvesAcross(const ParameterBox& box, std::size_t k) {
   PartPlan plan;
-  plan.points[half.half[0] < whole.half[0] ? 1 : 0] = 1.0;
-  return halves(half, plan);
+  plan.points[k] = 1.0;
+  return halves(box, plan);
 }
 
 }  // namespace
@@ -126,18 +133,32 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
   }
   const PartPlan plan = planPatch(cell, box, target, guess_);
   if (!plan.exists()) {
-    for (const ParameterBox& half : halves(box, plan)) {
-      if (plan.points[plan.worst()] < kInfinity) {
-        addBox(patch, half, depth + 1);
-      } else {
-        for (const ParameterBox& quarter : halvesAcross(half, box))
-          addBox(patch, quarter, depth + 2);
-      }
-    }
+    divide(patch, box, plan, depth);
     return;
   }
   sum_.error += kInverseTwoPi * plan.error * kBoundSlack;
   evaluate(patch, cell, box, plan.points);
+}
+
+// Where nothing is known, the normals tell why: near a pole they may turn along one parameter only.
+void SurfaceCubature::divide(const SurfacePatch& patch, const ParameterBox& box,
+                             const PartPlan& plan, int depth) {
+  if (plan.points[plan.worst()] < kInfinity) {
+    for (const ParameterBox& half : halves(box, plan)) addBox(patch, half, depth + 1);
+    return;
+  }
+  const std::array<double, 2> changes = normalChanges(patch, box);
+  const std::size_t worse = changes[1] > changes[0] ? 1 : 0;
+  const bool both = changes[1 - worse] > kEvenChange * changes[worse];
+  for (const ParameterBox& half : halvesAcross(box, worse)) {
+    if (!both) {
+      addBox(patch, half, depth + 1);
+      continue;
+    }
+    for (const ParameterBox& quarter : halvesAcross(half, 1 - worse)) {
+      addBox(patch, quarter, depth + 2);
+    }
+  }
 }
 
 void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
@@ -152,11 +173,11 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
     }
   }
   const double scale = kInverseTwoPi * box.half[0] * box.half[1];
-  const PatchRounding rounding = cell.rounding(box);
+  const PatchRounding& rounding = cell.rounding();
   const double reach = std::min(std::sqrt(sums.farthest_square), kFarthestPoint);
   // |∇ log F| is at most reach + 1.
-  const double relative =
-      (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach + kFluxRounding;
+  const double relative = (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach +
+                          kFluxRounding + kBoxSumRounding;
   const double of_area = rounding.first * rounding.second_length +
                          rounding.second * rounding.first_length +
                          kFluxRounding * rounding.first_length * rounding.second_length;
@@ -177,15 +198,18 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
       if (!(cubature.sum().error < kInfinity)) break;
       cubature.add(patch);
     }
+    // Rounding stays, whatever rules leave.
+    const bool stays = cubature.sum().error > 0.5 * best.error;
     if (cubature.sum().error < best.error) best = cubature.sum();
-    if (best.error <= kSurfaceEnough * best.mass || cubature.exhausted()) break;
+    if (best.error <= kSurfaceEnough * best.mass || cubature.exhausted() || stays) break;
     // As far as it is known.
     const double most = best.mass + best.error;
     const double next = best.mass > 2.0 * best.error ? best.mass : std::min(1e-6 * about, most);
-    if (!(next < 0.5 * about) || isDue(interruption)) break;
-    about = std::max(next, kUnderflow);
+    if (isDue(interruption)) break;
+    about = std::max(std::min(next, 0.3 * about), kUnderflow);
   }
-  const double error = best.error * (1.0 + 1e-9) + 1e-13 * std::abs(best.mass) + kUnderflow;
+  if (!(best.error < kInfinity)) return {0.0, 1.0};
+  const double error = best.error * (1.0 + 1e-9) + kUnderflow;
   return {best.mass - error, best.mass + error};
 }
 

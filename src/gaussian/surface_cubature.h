@@ -11,6 +11,7 @@
 #include "base/interruption.h"
 #include "fcl_prob/bounds.h"
 #include "gaussian/part_cubature.h"
+#include "gaussian/part_rules.h"
 #include "gaussian/surface_patch.h"
 
 namespace fcl_prob::detail {
@@ -42,6 +43,7 @@ class SurfaceCubature {
 
  private:
   void addBox(const SurfacePatch& patch, const ParameterBox& box, int depth);
+  void divide(const SurfacePatch& patch, const ParameterBox& box, const PartPlan& plan, int depth);
   void evaluate(const SurfacePatch& patch, const PatchCell& cell, const ParameterBox& box,
                 const std::array<double, 3>& points);
 

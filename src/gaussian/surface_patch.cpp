@@ -22,9 +22,7 @@ template <class Number>
 using Triple = std::array<Number, 3>;
 
 template <class Number>
-struct Jet {
-  Triple<Number> value, first, second;
-};
+using Jet = PatchJet<Number>;
 
 template <class Number>
 Number dot(const Triple<Number>& a, const Triple<Number>& b) {
@@ -162,6 +160,11 @@ double mostNorm(const BilinearVector& corners) {
   return most;
 }
 
+double longestSide(const BilinearVector& corners) {
+  return std::max({(corners[1] - corners[0]).norm(), (corners[3] - corners[2]).norm(),
+                   (corners[2] - corners[0]).norm(), (corners[3] - corners[1]).norm()});
+}
+
 }  // namespace
 
 PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t) {
@@ -169,19 +172,55 @@ PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t) {
   return {jet.value, jet.first, jet.second};
 }
 
+std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBox& box) {
+  const double s = box.centre[0], t = box.centre[1];
+  std::array<double, 2> changes{0.0, 0.0};
+  BaseLength<double> length{};
+  if (patch.lifted) {
+    length = baseLength(patch, s);
+    changes[0] = box.half[0] * (patch.base[1] - patch.base[0]).norm() / length.value;
+  }
+  for (int k = 0; k < patch.count; ++k) {
+    const CurvedTerm& term = patch.terms[static_cast<std::size_t>(k)];
+    Jet<double> g = bilinear(term.direction, s, t);
+    if (patch.lifted) addLift(term, length, t, g);
+    const double square = dot(g.value, g.value);
+    changes[0] = std::max(changes[0], box.half[0] * std::sqrt(dot(g.first, g.first) / square));
+    changes[1] = std::max(changes[1], box.half[1] * std::sqrt(dot(g.second, g.second) / square));
+  }
+  return changes;
+}
+
 PatchCell::PatchCell(const SurfacePatch& patch, const ParameterBox& box,
                      const Eigen::Vector3d& normal)
     : patch_(patch), normal_(normal) {
-  const Jet<TaylorModel> middle =
-      evaluate(patch, TaylorModel(box.centre[0]), TaylorModel(box.centre[1]));
-  const TaylorModel height = along(normal, middle.value);
-  reach_ = mostLength(middle.value);
-  height_ = height.middle - height.radius - 4.0 * kEpsilon * reach_;
+  const auto [s, t, none] = parameters(box);
+  const Jet<TaylorModel> jet = evaluate(patch, s, t);
+  double middle = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    middle += normal[static_cast<Eigen::Index>(k)] * jet.value[k].middle;
+    square += jet.value[k].middle * jet.value[k].middle;
+    rounding_.first_length = mostLength(jet.first);
+    rounding_.second_length = mostLength(jet.second);
+  }
+  if (!(rounding_.first_length < kInfinity && rounding_.second_length < kInfinity)) {
+    real_ = kUnboundedPatch;
+    return;
+  }
+  findRounding(box);
+  reach_ = std::sqrt(square) + 2.0 * rounding_.position;
+  height_ = middle - 2.0 * rounding_.position - 4.0 * kEpsilon * reach_;
+  real_ = boundOf(jet, ComplexBox(box));
 }
 
 PartBound PatchCell::bound(const ComplexBox& box) const {
-  const Triple<TaylorModel> at = parameters(box.real);
-  const Jet<TaylorModel> jet = evaluate(patch_, at[0], at[1]);
+  // What is unbounded for real parameters is so for complex ones.
+  if (box.parameter < 0 || !(real_.weight < kInfinity)) return real_;
+  const auto [s, t, none] = parameters(box.real);
+  return boundOf(evaluate(patch_, s, t), box);
+}
+
+PartBound PatchCell::boundOf(const PatchModel& jet, const ComplexBox& box) const {
   const TaylorModel area = jet.first[0] * jet.second[1] - jet.first[1] * jet.second[0];
   const double fall = mostMean(normal_, jet.first) * box.real.half[0] +
                       mostMean(normal_, jet.second) * box.real.half[1];
@@ -197,14 +236,11 @@ PartBound PatchCell::bound(const ComplexBox& box) const {
 
 // Of g, next to |g|, it is a few ε times how much larger its terms are; and as much of g/|g|, since
 // derivatives of that are (I - ĝĝᵀ) g'/|g|.
-PatchRounding PatchCell::rounding(const ParameterBox& box) const {
+void PatchCell::findRounding(const ParameterBox& box) {
   const auto [s, t, none] = parameters(box);
-  const Jet<TaylorModel> all = evaluate(patch_, s, t);
-  PatchRounding result;
-  result.first_length = mostLength(all.first);
-  result.second_length = mostLength(all.second);
-  const double corners = 16.0 * kEpsilon * mostNorm(patch_.position);
-  result.position = result.first = result.second = corners;
+  rounding_.position = 16.0 * kEpsilon * mostNorm(patch_.position);
+  // Corners are exact, and their differences right to an ε of themselves.
+  rounding_.first = rounding_.second = 16.0 * kEpsilon * longestSide(patch_.position);
   BaseLength<TaylorModel> length{};
   if (patch_.lifted) length = baseLength(patch_, s);
   for (int k = 0; k < patch_.count; ++k) {
@@ -216,11 +252,12 @@ PatchRounding PatchCell::rounding(const ParameterBox& box) const {
         patch_.lifted ? std::max(term.lift[0].norm(), term.lift[1].norm()) * 2.0 : 0.0;
     const double terms = 4.0 * (mostNorm(term.direction) + lift) * inverse;
     const double size = std::max(term.size[0], term.size[1]) * term.image.norm();
-    result.position += 32.0 * kEpsilon * size * (1.0 + terms);
-    result.first += 64.0 * kEpsilon * size * (1.0 + terms) * (1.0 + terms);
-    result.second += 64.0 * kEpsilon * size * (1.0 + terms) * (1.0 + terms);
+    const double first = 1.0 + mostLength(g.first) * inverse;
+    const double second = 1.0 + mostLength(g.second) * inverse;
+    rounding_.position += 32.0 * kEpsilon * size * (1.0 + terms);
+    rounding_.first += 64.0 * kEpsilon * size * (1.0 + terms) * first;
+    rounding_.second += 64.0 * kEpsilon * size * (1.0 + terms) * second;
   }
-  return result;
 }
 
 }  // namespace fcl_prob::detail

@@ -8,6 +8,7 @@
 
 #include "gaussian/lanes.h"
 #include "gaussian/solid_part.h"
+#include "gaussian/taylor_model.h"
 
 namespace fcl_prob::detail {
 
@@ -39,12 +40,21 @@ struct SurfacePatch {
   std::array<Eigen::Vector3d, 2> base;  ///< w at s = 0 and at 1
 };
 
-/// Points of a patch and their derivatives.
-struct PatchPoints {
-  std::array<Lanes, 3> x, first, second;
+/// A value and its derivatives along s and t.
+template <class Number>
+struct PatchJet {
+  std::array<Number, 3> value, first, second;
 };
 
+/// Points of a patch, and a model of it over a box.
+using PatchPoints = PatchJet<Lanes>;
+using PatchModel = PatchJet<TaylorModel>;
+
 PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t);
+
+/// By what share of itself the normal of a box's middle changes at the most along each parameter,
+/// about: where nothing is known, the box is too long along the one where that is more.
+std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBox& box);
 
 /// Bounds on how much rounding can change of what pointsOf() finds in a box, and on the derivatives
 /// there, for real parameters.
@@ -64,13 +74,19 @@ class PatchCell {
   /// mean of Re ∂x/∂s, since x is real where the parameters are.
   PartBound bound(const ComplexBox& box) const;
 
-  PatchRounding rounding(const ParameterBox& box) const;
+  /// In the box that the cell was made of.
+  const PatchRounding& rounding() const { return rounding_; }
 
  private:
+  void findRounding(const ParameterBox& box);
+  PartBound boundOf(const PatchModel& jet, const ComplexBox& box) const;
+
   const SurfacePatch& patch_;
   Eigen::Vector3d normal_;
   double height_ = 0.0;  ///< of the middle, along the normal, less its rounding
   double reach_ = 0.0;
+  PartBound real_;  ///< for real parameters
+  PatchRounding rounding_;
 };
 
 }  // namespace fcl_prob::detail

@@ -23,11 +23,10 @@ std::optional<CurvedBody> roundedBody(const RoundedZonotope& shape, const LongMa
   const Eigen::Vector3d along = shape.core.generator(0);
   const Eigen::Vector3d axis = along.stableNormalized();
   const Eigen::Vector3d across = axis.unitOrthogonal();
-  body.frustum = Frustum{1.0, 0.0, 0.0};
+  body.frustum = Frustum{along.stableNorm(), 0.0, 0.0};
   LongMatrix3 frame;
   frame << across.cast<long double>(), axis.cross(across).cast<long double>(),
-      along.cast<long double>();
-  frame.leftCols<2>() *= static_cast<long double>(along.stableNorm());
+      axis.cast<long double>();
   body.frame = rotation * frame;
   return body;
 }

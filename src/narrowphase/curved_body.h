@@ -15,7 +15,8 @@ namespace fcl_prob::detail {
 struct Frustum {
   double half_height = 0.0, bottom = 0.0, top = 0.0;
 
-  bool hasRims() const { return bottom > 0.0 || top > 0.0; }
+  /// A cylinder or a segment.
+  bool isStraight() const { return bottom == top; }
 
   /// Of the largest ball around the middle of the axis that is within.
   double inradius() const;
@@ -29,8 +30,6 @@ struct CurvedBody {
   std::optional<LongMatrix3> ellipsoid;         ///< image of the unit ball
   double least_axis = 0.0;                      ///< of the ellipsoid, no more than that
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in the frame of the geometry
-
-  bool hasRims() const { return frustum && frustum->hasRims(); }
 };
 
 /// An ellipsoid, a sphere, a capsule, a cylinder or a cone; nothing for other bodies.

@@ -13,6 +13,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/surface_cubature.h"
 #include "geometry/exact_sum.h"
+#include "narrowphase/axes_surface.h"
 #include "narrowphase/curved_parts.h"
 #include "narrowphase/long_whitening.h"
 #include "narrowphase/rim_surface.h"
@@ -111,16 +112,20 @@ struct PlacedSurface {
 };
 
 std::optional<PlacedSurface> placedSurface(const CurvedParts& parts) {
-  const double rounding = parts.sum.rounding() + farRounding(parts.sum);
+  const double stretch = static_cast<double>(parts.sum.map.norm()) * (1.0 + 1e-8);
+  const double far = farRounding(parts.sum) + parts.error * stretch;
+  if (parts.second) {
+    const AxesSum axes{parts.sum, *parts.second, parts.second_frame};
+    return PlacedSurface{axesSurface(axes), axes.rounding() + far};
+  }
+  const double rounding = parts.sum.rounding() + far;
   if (!parts.polytope) return PlacedSurface{surfaceOf(parts.sum), rounding};
   auto surface = rimSurface(parts.sum, *parts.polytope);
   if (!surface) return std::nullopt;
-  const LongMatrix3 frame = parts.sum.map * parts.sum.frame;
   double size = 0.0;
   for (const Eigen::Vector3d& v : parts.polytope->vertices) size = std::max(size, v.norm());
-  const double metres = parts.error + surface->defect + 32.0 * kEpsilon * size;
   return PlacedSurface{std::move(surface->patches),
-                       rounding + metres * static_cast<double>(frame.norm())};
+                       rounding + (surface->defect + 32.0 * kEpsilon * size) * stretch};
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include "base/constants.h"
 #include "cobstacle/perturbation.h"
+#include "base/constants.h"
+#include "narrowphase/axes_surface.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -22,7 +24,23 @@ void addFrustum(const CurvedBody& body, bool reflected, CurvedParts& parts) {
   parts.inradius += frustum.inradius();
 }
 
-/// At most one of both has a frustum.
+/// A cylinder or a segment with an axis of its own or, if axes are parallel, as a part of the first
+/// one.
+void addSecond(const CurvedBody& body, CurvedParts& parts) {
+  const LongVector3 first = parts.sum.frame.col(2).normalized(),
+                    second = body.frame.col(2).normalized();
+  parts.inradius += body.frustum->inradius();
+  if (first.cross(second).norm() > kAxesTie) {
+    parts.second = *body.frustum;
+    parts.second_frame = body.frame;
+    return;
+  }
+  Frustum& sum = parts.sum.frustum;
+  const Frustum& added = *body.frustum;
+  sum = {sum.half_height + added.half_height, sum.bottom + added.bottom, sum.top + added.top};
+  parts.error = 2.0 * kAxesTie * (added.half_height + added.top) + 4.0 * kEpsilon * sum.half_height;
+}
+
 CurvedParts partsOf(const CurvedBody& a, const CurvedBody& b) {
   CurvedParts parts;
   for (const CurvedBody* body : {&a, &b}) {
@@ -32,6 +50,7 @@ CurvedParts partsOf(const CurvedBody& a, const CurvedBody& b) {
   }
   if (b.frustum) {
     addFrustum(b, false, parts);
+    if (a.frustum) addSecond(a, parts);
   } else if (a.frustum) {
     addFrustum(a, true, parts);
   } else {
@@ -71,6 +90,12 @@ bool isPolytope(const ConvexBody& body) {
   return body.data().set().isPolytope();
 }
 
+/// Of two axes both have to be straight.
+bool areAddable(const CurvedBody& a, const CurvedBody& b) {
+  if (!a.frustum || !b.frustum) return true;
+  return a.frustum->isStraight() && b.frustum->isStraight();
+}
+
 /// A cylinder or a cone.
 bool isFrustum(const std::optional<CurvedBody>& body) {
   return body && body->frustum && !body->ellipsoid;
@@ -81,7 +106,7 @@ bool isFrustum(const std::optional<CurvedBody>& body) {
 bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b) {
   const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   const auto body_a = curvedBody(a, turn), body_b = curvedBody(b, turn);
-  if (body_a && body_b) return !(body_a->frustum && body_b->frustum);
+  if (body_a && body_b) return areAddable(*body_a, *body_b);
   return (isFrustum(body_a) && isPolytope(b)) || (isFrustum(body_b) && isPolytope(a));
 }
 
@@ -90,7 +115,7 @@ std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3
                                        int attempt) {
   const auto body_a = curvedBody(a, rotation_a), body_b = curvedBody(b, rotation_b);
   if (body_a && body_b) {
-    if (body_a->frustum && body_b->frustum) return std::nullopt;
+    if (!areAddable(*body_a, *body_b)) return std::nullopt;
     return partsOf(*body_a, *body_b);
   }
   CurvedParts parts;

@@ -11,11 +11,13 @@ namespace fcl_prob::detail {
 
 /// B ⊕ (−A), not yet mapped, and a ball within it.
 struct CurvedParts {
-  CurvedSum sum;                                     ///< its map and centre are not set
+  CurvedSum sum;                  ///< its map and centre are not set
+  std::optional<Frustum> second;  ///< with another axis, both straight
+  LongMatrix3 second_frame;
   std::optional<ConvexMesh> polytope;                ///< a part of the sum, in the frustum's frame
   double inradius = 0.0;                             ///< metres
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the ball, in the frustum's frame
-  double error = 0.0;  ///< how far the polytope may be from the true one, metres
+  double error = 0.0;  ///< how far the parts may be from the true ones, metres
 };
 
 /// Whether curvedParts() knows the pair.

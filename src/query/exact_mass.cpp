@@ -39,10 +39,10 @@ class ExactMass {
     if (!gradient_ || status() == ProbabilityStatus::resolution_limit) {
       narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
     }
-    if (status() == ProbabilityStatus::resolution_limit) {
+    if (isOpenBetweenPolytopes()) {
       narrow({0.0, boundOf(pair_.a.rootBody(), pair_.b.rootBody())});
     }
-    if (status() == ProbabilityStatus::resolution_limit) {
+    if (isOpenBetweenPolytopes()) {
       narrow(massOf(ConvexBody(pair_.a.geometry(), kFineResolution),
                     ConvexBody(pair_.b.geometry(), kFineResolution)));
     }
@@ -60,7 +60,7 @@ class ExactMass {
     } else if (request_.gradient) {
       result.plan.push_back("no gradient: the interval method has one");
     }
-    if (!flat_ && mass_.width() > kQuadratureWidth * mass_.upper) {
+    if (isBetweenPolytopes()) {
       result.plan.push_back("curved sides enclosed between polytopes");
     }
     return result;
@@ -87,6 +87,13 @@ class ExactMass {
     return detail::convexPcd(a, pair_.pose_a, b, pair_.pose_b, displacement_,
                              limits_.interruption())
         .least;
+  }
+
+  bool isBetweenPolytopes() const {
+    return !flat_ && mass_.width() > kQuadratureWidth * mass_.upper;
+  }
+  bool isOpenBetweenPolytopes() const {
+    return status() == ProbabilityStatus::resolution_limit && isBetweenPolytopes();
   }
 
   void narrow(const Bounds& mass) {

@@ -99,6 +99,10 @@ ProbabilityResult PairQuery::exact(const QueryPlan& plan, const PlacedPair& pair
                                    const GaussianDisplacement& displacement,
                                    const ProbabilityRequest& request) const {
   const CallBudget budget(request);
+  if (plan.try_root_bound) {
+    auto result = intervalOfRootBound(pair, displacement, request);
+    if (result) return *result;
+  }
   ProbabilityResult result = exactMass(pair, displacement, request);
   const bool unresolved = result.status == ProbabilityStatus::resolution_limit ||
                           (isAnswered(result.status) && request.gradient && !result.gradient);

@@ -148,6 +148,8 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
     QueryPlan plan = planExact(pair, displacement, request);
     plan.partition_if_unresolved =
         pair.areRounded() ? request.gradient || !pair.areSpheres() : pair.areCurved();
+    // Quadrature over a boundary takes milliseconds, a bound microseconds.
+    plan.try_root_bound = !pair.areRounded() && pair.areCurved();
     return plan;
   }
   QueryPlan plan = planPartition(pair, displacement, request);
