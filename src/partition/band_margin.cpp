@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gaussian/constants.h"
+#include "partition/widen_slabs.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -25,18 +25,9 @@ double BandMargin::outwardAlong(const Eigen::Vector3d& m, NodePair nodes) const 
 }
 
 void BandMargin::widen(double* data, int count, NodePair leaves) const {
-  for (int i = 0; i < count; ++i) {
-    double& lo = data[3 * count + i];
-    double& hi = data[4 * count + i];
-    const Eigen::Vector3d n(data[i], data[count + i], data[2 * count + i]);
-    if (hi >= kUnbounded || n.isZero(0.0)) continue;
-    const double outward = outwardAlong(n, leaves);
-    const double rounding = 4 * kEpsilon * (std::fabs(lo) + std::fabs(hi) + outward);
-    const double out = outward + rounding;
-    lo -= out;
-    hi += out;
-    data[5 * count + i] += out + inwardAlong(n) + rounding;
-  }
+  widenSlabs(data, count, [&](const Eigen::Vector3d& n) {
+    return SlabShift{outwardAlong(n, leaves), inwardAlong(n)};
+  });
 }
 
 // Of the pairs that may meet the cell, the thickest.

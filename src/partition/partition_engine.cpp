@@ -9,6 +9,7 @@
 #include "partition/band_margin.h"
 #include "partition/cell_split.h"
 #include "partition/rounded_sum.h"
+#include "partition/turning_margin.h"
 
 namespace fcl_prob::detail {
 
@@ -67,6 +68,7 @@ PartitionEngine::PartitionEngine(const WhitenedPair& pair, int rank, const Solid
       ball_(ball),
       scales_(scalesOf(pair)),
       band_(pair.band),
+      turning_(pair.turning),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
       limits_(request, statistics) {
   Cell root{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), rank};
@@ -90,7 +92,7 @@ void PartitionEngine::add(Examination&& examination) {
   settled_ += examination.settled;
   if (!examination.open) return;
   OpenCell& cell = *examination.open;
-  if (band_ && band_->isAllThatIsLeft(cell)) {
+  if ((band_ && band_->isAllThatIsLeft(cell)) || (turning_ && turning_->isAllThatIsLeft(cell))) {
     left_by_band_ += cell.gap();
     return settleAsItIs(cell);
   }
@@ -197,7 +199,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   const double tolerance = request_.toleranceAt(now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
   const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
-  if (band_ && all_is_band) return ProbabilityStatus::band_limit;
+  if ((band_ || turning_) && all_is_band) return ProbabilityStatus::band_limit;
   if (estimate && samplesNeeded() <= samplesAffordable()) return ProbabilityStatus::converged;
   return std::nullopt;
 }

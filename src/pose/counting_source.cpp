@@ -3,7 +3,6 @@
 #include "pose/counting_source.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "gaussian/normal_density.h"
 #include "montecarlo/random_samples.h"
 #include "pose/boundary_search.h"
+#include "pose/drawn_along.h"
 #include "pose/query_costs.h"
 #include "pose/sampled_configuration.h"
 
@@ -48,67 +48,8 @@ constexpr std::size_t kSamplesACell = 16;
 // fcl::collide takes shapes for touching that are 1e-6 m apart: below this deviation that tells.
 constexpr double kLeastDeviation = 1e-3;
 
-// Below that what no sample shows may well be all there is.
+// Below that contacts elsewhere, which no sample shows, may well be all there are.
 constexpr double kRarest = 1e-5;
-
-double quantileOf(double uniform) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * std::clamp(uniform, 1e-16, 1.0 - 1e-16));
-}
-
-/// Where along a line samples are drawn: near the level where contact is expected to begin; some as
-/// the density has them and some far out, so that no weight is large wherever contact is.
-class DrawnAlong {
- public:
-  DrawnAlong(double level, double spread)
-      : level_(level), scale_(std::max(kScale * spread, kLeastScale)) {}
-
-  double at(double uniform) const {
-    double rest = uniform;
-    if (rest < kNear) return level_ + scale_ * logit(rest / kNear);
-    rest -= kNear;
-    if (rest < kAround) return level_ + around() * logit(rest / kAround);
-    rest -= kAround;
-    if (rest < kAsTheyAre) return quantileOf(rest / kAsTheyAre);
-    return kWide * quantileOf((rest - kAsTheyAre) / kFarOut);
-  }
-
-  /// The normal density at s over that of what is drawn.
-  double weightAt(double s) const {
-    const double density = kNear * logistic((s - level_) / scale_) / scale_ +
-                           kAround * logistic((s - level_) / around()) / around() +
-                           kAsTheyAre * normalDensity(s) +
-                           kFarOut * normalDensity(s / kWide) / kWide;
-    return normalDensity(s) / density;
-  }
-
- private:
-  // Shares of samples, and the deviation of those far out.
-  static constexpr double kNear = 0.3;
-  static constexpr double kAround = 0.25;
-  static constexpr double kAsTheyAre = 0.35;
-  static constexpr double kFarOut = 0.1;
-  static constexpr double kWide = 2.5;
-
-  // Of the spread.
-  static constexpr double kScale = 0.5;
-  static constexpr double kLeastScale = 0.01;
-  static constexpr double kTimesAround = 4.0;
-
-  double around() const { return kTimesAround * scale_; }
-
-  static double logit(double p) {
-    const double inside = std::clamp(p, 1e-16, 1.0 - 1e-16);
-    return std::log(inside / (1.0 - inside));
-  }
-
-  static double logistic(double x) {
-    const double off = std::exp(-std::fabs(x));
-    return off / ((1.0 + off) * (1.0 + off));
-  }
-
-  double level_;
-  double scale_;
-};
 
 }  // namespace
 
@@ -161,8 +102,12 @@ void CountingSource::findBoundary(double standard_error) {
       search.bend(*model_);
       mass_ = model_->mass();
     }
-    is_rare_ = mass_ < kRarest;
     is_close_ = varianceNear() < mass_ * (1.0 - mass_) / kGainOfPoints;
+  }
+  if (model_ && mass_ < kRarest) {
+    model_.reset();
+    mass_ = 0.0;
+    is_close_ = false;
   }
   questions_ = search.questions();
 }
@@ -247,7 +192,6 @@ void CountingSource::draw(double standard_error) {
     collider_.emplace(a_, b_, request_.contact);
     findBoundary(standard_error);
     watch_.addCells(questions_ / kSamplesACell);
-    if (is_rare_) return;
   }
   const std::size_t last = pointsTo(standard_error);
   std::vector<CountedShifts> counted(last - points_);
@@ -316,7 +260,6 @@ double CountingSource::costOfFirst() const {
 }
 
 double CountingSource::costTo(double standard_error, double probability) const {
-  if (is_rare_) return kInfinity;
   if (!mean_) {
     const double p = std::clamp(probability, 0.0, 1.0);
     const double wanted = p * (1.0 - p) / (kExpectedGain * standard_error * standard_error);

@@ -80,7 +80,6 @@ class CountingSource : public EstimateSource {
   double mass_ = 0.0;                                       ///< of the model
   std::size_t questions_ = 0;                               ///< that it took
   bool is_close_ = false;                                   ///< the model, to the boundary
-  bool is_rare_ = false;  ///< too rare for what no sample shows to be nothing
   Sums values_ = Sums::Zero();
   Sums controls_ = Sums::Zero();
   double largest_ = 0.0;  ///< of the values
