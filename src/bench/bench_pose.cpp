@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <sstream>
 
 #include "bench/bench_scenes.h"
 #include "bench/benchmark.h"
@@ -19,6 +21,10 @@ namespace {
 
 constexpr std::size_t kCounted = 10'000;
 constexpr double kRadiansADegree = 0.017453292519943295;
+
+// Metres between the arm and what is beside it: P is then between 1e-3 and 0.3 for all errors of
+// joints that are asked about.
+constexpr double kAside = 0.01;
 
 ProbabilityRequest requestOf(ProbabilityMethod method, double tolerance, std::uint64_t seed) {
   ProbabilityRequest request;
@@ -105,17 +111,21 @@ class PoseTable {
   }
 
   bool addScene(const BenchScene& scene, const std::function<bool(const std::string&)>& goOn) {
-    const PoseScene pose_scene(scene, options_.models_folder);
+    std::optional<PoseScene> pose_scene;
     for (const double degrees : {0.3, 1.0, 3.0, 10.0}) {
-      if (!goOn(scene.name + ", " + numberText(degrees, 2) + "°")) return false;
-      addAngle(scene.name, pose_scene, degrees);
+      const std::string name = labelOf(scene.name, degrees, "");
+      if (!goOn(name)) return false;
+      if (!isWanted(name + kInterval) && !isWanted(name + kEstimate)) continue;
+      if (!pose_scene) pose_scene.emplace(scene, options_.models_folder);
+      addAngle(scene.name, *pose_scene, degrees);
     }
     return true;
   }
 
   void addJoints(const std::string& name, double degrees) {
+    if (!isWanted(labelOf(name, degrees, kEstimate))) return;
     const FetchArm arm(options_.models_folder);
-    const RandomJoints joints = arm.configuration(degrees * kRadiansADegree);
+    const RandomJoints joints = arm.configuration(degrees * kRadiansADegree, kAside);
     const auto answer = [&](const ProbabilityRequest& request) {
       TimedResult timed;
       const Stopwatch watch;
@@ -135,12 +145,31 @@ class PoseTable {
   BenchReport take() { return std::move(report_); }
 
  private:
+  static constexpr const char* kInterval = "interval";
+  static constexpr const char* kEstimate = "estimate";
+
+  static std::string labelOf(const std::string& name, double degrees, const std::string& method) {
+    return name + ", " + numberText(degrees, 2) + "°, " + method;
+  }
+
+  /// Whether a label has all the parts, which commas separate, of what is asked for.
+  bool isWanted(const std::string& label) const {
+    std::istringstream parts(options_.only);
+    for (std::string part; std::getline(parts, part, ',');) {
+      if (label.find(part) == std::string::npos) return false;
+    }
+    return true;
+  }
+
   void addAngle(const std::string& name, const PoseScene& scene, double degrees) {
     const PoseError error = scene.error(degrees);
     const double sample_ms = scene.sampleTime(error, options_.seed);
-    ProbabilityRequest interval = requestOf(ProbabilityMethod::interval, 0.1, options_.seed);
-    interval.time_limit = 30.0 * sample_ms * static_cast<double>(kCounted) / 1000.0;
-    addInterval(name, degrees, scene.query(error, interval), sample_ms);
+    if (isWanted(labelOf(name, degrees, kInterval))) {
+      ProbabilityRequest interval = requestOf(ProbabilityMethod::interval, 0.1, options_.seed);
+      interval.time_limit = 30.0 * sample_ms * static_cast<double>(kCounted) / 1000.0;
+      addInterval(name, degrees, scene.query(error, interval), sample_ms);
+    }
+    if (!isWanted(labelOf(name, degrees, kEstimate))) return;
     for (const double tolerance : {0.01, 0.003}) {
       const auto timed =
           scene.query(error, requestOf(ProbabilityMethod::estimate, tolerance, options_.seed));
@@ -210,16 +239,12 @@ class PoseTable {
 BenchReport benchPose(const BenchOptions& options, const BenchProgress& progress) {
   const std::string kJoints = "fetch_arm";
   PoseTable table(options);
-  const auto wanted = [&](const std::string& name) {
-    return name.find(options.only) != std::string::npos;
-  };
   double done = 0.0;
-  const auto goOn = [&](const std::string& what) { return progress(done++ / 27.0, what); };
+  const auto goOn = [&](const std::string& what) { return progress(done++ / 28.0, what); };
   for (const BenchScene& scene : benchScenes()) {
-    if (wanted(scene.name) && !table.addScene(scene, goOn)) return table.take();
+    if (!table.addScene(scene, goOn)) return table.take();
   }
-  for (const double degrees : {0.2, 0.6, 2.0}) {
-    if (!wanted(kJoints)) break;
+  for (const double degrees : {0.2, 0.5, 1.0, 2.0}) {
     if (!goOn(kJoints + ", " + numberText(degrees, 2) + "°")) break;
     table.addJoints(kJoints, degrees);
   }

@@ -31,6 +31,9 @@ const std::array<Joint, 7>& joints() {
 
 constexpr double kGripper = 0.16645;  // metres along x of the last link
 
+// Metres along y from the wrist to the middle of the human arm, where the two touch.
+constexpr double kTouching = 0.1;
+
 std::vector<fcl::Transform3d> linkPoses(const Eigen::VectorXd& angles) {
   std::vector<fcl::Transform3d> poses;
   fcl::Transform3d frame = fcl::Transform3d::Identity();
@@ -74,12 +77,12 @@ FetchArm::FetchArm(std::vector<Geometry> links, Geometry obstacle)
 FetchArm::FetchArm(const std::string& models_folder)
     : FetchArm(loadLinks(models_folder), loadObstacle(models_folder)) {}
 
-RandomJoints FetchArm::configuration(double sigma) const {
+RandomJoints FetchArm::configuration(double sigma, double aside) const {
   Eigen::VectorXd mean(7);
   mean << 0.3, 0.4, 0.2, 0.6, -0.3, 0.5, 0.1;
-  // Beside the wrist, so that about a tenth of the displacements collide.
   fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = linkPoses(mean)[5].translation() + Eigen::Vector3d(0.05, 0.16, 0.05);
+  pose.translation() =
+      linkPoses(mean)[5].translation() + Eigen::Vector3d(0.05, kTouching + aside, 0.05);
   return {mean,
           Eigen::MatrixXd(sigma * sigma * Eigen::MatrixXd::Identity(7, 7)),
           linkPoses,

@@ -19,8 +19,8 @@ class FetchArm {
   const ConfigurationQuery& query() const { return query_; }
 
   /// Independent errors of that standard deviation (radians) in all joints, and of 1 cm in the
-  /// position of the human arm.
-  RandomJoints configuration(double sigma) const;
+  /// position of the human arm, which is so many metres aside from where it touches the wrist.
+  RandomJoints configuration(double sigma, double aside) const;
 
  private:
   FetchArm(std::vector<Geometry> links, Geometry obstacle);

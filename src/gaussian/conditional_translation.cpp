@@ -50,6 +50,11 @@ ConditionalTranslation::ConditionalTranslation(const PoseError& error)
   residual_ = residualOf(error.translation(), slope_ * slope_.transpose(), ratio);
 }
 
+void ConditionalTranslation::turn(const Eigen::MatrixXd& q) {
+  factor_ = (factor_ * q).eval();
+  slope_ = (slope_ * q).eval();
+}
+
 Eigen::Vector3d ConditionalTranslation::rotationVector(const Eigen::VectorXd& z) const {
   // Eigen steps beyond the null pointer of a matrix without columns.
   if (rank() == 0) return mean_rotation_;

@@ -18,11 +18,15 @@ class ConditionalTranslation {
 
   int rank() const { return static_cast<int>(factor_.cols()); }
 
-  /// F: radians, one column a coordinate of z, the largest standard deviation first.
+  /// F: radians, one column a coordinate of z, the largest standard deviation first and orthogonal
+  /// to each other unless they have been turned.
   const Eigen::Matrix<double, 3, Eigen::Dynamic>& rotationFactor() const { return factor_; }
 
   /// C: metres.
   const Eigen::Matrix<double, 3, Eigen::Dynamic>& slope() const { return slope_; }
+
+  /// The same with Q z for z. \param q  orthogonal
+  void turn(const Eigen::MatrixXd& q);
 
   Eigen::Vector3d rotationVector(const Eigen::VectorXd& z) const;
 

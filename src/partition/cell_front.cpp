@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "pieces/band_margin.h"
+#include "pieces/turning_margin.h"
 
 namespace fcl_prob::detail {
 
@@ -356,8 +357,11 @@ double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
   const double a = support_a_.along(m, nodes.a);
   const double b = -support_b_.along(-m, nodes.b);
-  const double error = 4 * m.cwiseAbs().dot(slabError(pair_, nodes)) + outwardOfBand(m, nodes) +
-                       1e-15 * (std::fabs(a) + std::fabs(b));
+  const Eigen::Vector3d rounded =
+      pair_.turning ? Eigen::Vector3d(pair_.a.error + pair_.b.error) : slabError(pair_, nodes);
+  const double moved = pair_.turning ? pair_.turning->along(m, nodes) : outwardOfBand(m, nodes);
+  const double error =
+      4 * m.cwiseAbs().dot(rounded) + moved + 1e-15 * (std::fabs(a) + std::fabs(b));
   return b - a - error;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/rounded_sum.h"
+#include "cells/cell_split.h"
 #include "cells/claim_observer.h"
 #include "partition/band_stall.h"
 
@@ -67,6 +68,7 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
       round_(kMostOfRound),
       band_(scene.pair.band),
+      turning_(scene.pair.turning),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
       limits_(request, statistics) {
   Division root;
@@ -84,7 +86,7 @@ void PartitionEngine::add(Examination&& examination) {
   settled_ += examination.settled;
   if (!examination.open) return;
   OpenCell& cell = *examination.open;
-  if (band_ && isAllBand(cell, *band_)) {
+  if ((band_ && isAllBand(cell, *band_)) || (turning_ && isAllTurning(cell, *turning_))) {
     left_by_band_ += cell.gap();
     settled_ += asItIs(cell);
     return;
@@ -216,7 +218,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   const double tolerance = request_.toleranceAt(now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
   const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
-  if (band_ && all_is_band) return ProbabilityStatus::band_limit;
+  if ((band_ || turning_) && all_is_band) return ProbabilityStatus::band_limit;
   if (estimate &&
       samplesNeeded(targetError(now.middle())) <= samplesAffordable(statistics_.cells)) {
     return ProbabilityStatus::converged;

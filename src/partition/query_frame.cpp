@@ -9,6 +9,7 @@
 #include "fcl_prob/exceptions.h"
 #include "pieces/band_margin.h"
 #include "pieces/closest_approach.h"
+#include "pieces/turning_margin.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -39,6 +40,10 @@ class BandedPair {
     detail::whiten(a_, b_, whitening, pair);
     const Eigen::Matrix3d& w = whitening.matrix();
     if (swept_) pair.band = std::make_shared<const BandMargin>(a_, b_, w);
+    pair.turning.reset();
+    const bool turns = (a_.motion || b_.motion) && !request_.hasBand() && !swept_ &&
+                       (!a_.motion || a_.tree->isMesh()) && (!b_.motion || b_.tree->isMesh());
+    if (turns) pair.turning = std::make_shared<const TurningMargin>(a_, b_, w);
     if (!request_.hasBand()) return;
     pair.band =
         std::make_shared<const BandMargin>(request_.band_a.outward + request_.band_b.outward,

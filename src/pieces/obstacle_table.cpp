@@ -9,6 +9,7 @@
 #include "pieces/band_margin.h"
 #include "pieces/piece_slabs.h"
 #include "pieces/support_slabs.h"
+#include "pieces/turning_margin.h"
 
 namespace fcl_prob::detail {
 
@@ -135,8 +136,10 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
 SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   const Eigen::Matrix3d a = cornersOf(pair_.a, leaves.a);
   const Eigen::Matrix3d b = cornersOf(pair_.b, leaves.b);
-  const Eigen::Vector3d error = slabError(pair_, leaves);
+  const Eigen::Vector3d error =
+      pair_.turning ? Eigen::Vector3d(pair_.a.error + pair_.b.error) : slabError(pair_, leaves);
   slabKernels().triangleSlabs(a.data(), b.data(), error.data(), data);
+  if (pair_.turning) pair_.turning->widen(data, kTriangleSlabs, leaves);
   if (pair_.band) pair_.band->widen(data, kTriangleSlabs, leaves);
   return {data, kTriangleSlabs};
 }

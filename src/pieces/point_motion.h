@@ -23,6 +23,10 @@ struct PointMotion {
   /// in `x`: over a polytope it is largest at a vertex.
   Eigen::Vector3d bound(const Eigen::Matrix3d& whitening, const Eigen::Vector3d& x) const;
 
+  /// Bound on n·d over the displacements d of the point. Convex in `x`; in `n` the support function
+  /// of a set. \param n  world frame, any length
+  double along(const Eigen::Vector3d& n, const Eigen::Vector3d& x) const;
+
   /// How far points move that are no farther than `radius` from the centre, up to the rounding of
   /// its sums.
   double reach(double radius) const;

@@ -97,6 +97,7 @@ struct WhitenedTree {
 NodeBox bodyBox(const WhitenedTree& whitened, int body);
 
 class BandMargin;
+class TurningMargin;
 
 struct WhitenedPair {
   WhitenedTree a;
@@ -105,6 +106,10 @@ struct WhitenedPair {
   /// What the bands around the two shapes, or the sweeps of their parts, do, which are all of their
   /// motions; null without either.
   std::shared_ptr<const BandMargin> band;
+
+  /// What motions of the objects do to pairs of triangles, instead of their node_motions; null
+  /// without motions, or with a band.
+  std::shared_ptr<const TurningMargin> turning;
 };
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening);

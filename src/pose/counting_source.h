@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The estimate from calls of fcl::collide at points that fill the space evenly: randomised
-// quasi-Monte Carlo over configurations and translations at once.
+// The estimate from calls of fcl::collide at points that fill the space evenly, near where contact
+// begins: randomised quasi-Monte Carlo over configurations and translations at once.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,14 +13,18 @@
 
 #include "fcl_prob/random_configuration.h"
 #include "montecarlo/placement_collider.h"
+#include "pose/boundary_model.h"
 #include "pose/estimate_source.h"
 #include "pose/run_watch.h"
 
 namespace fcl_prob::detail {
 
-/// Points of a Sobol sequence, used several times with random digital shifts (L'Ecuyer and Lemieux
-/// 2002): each shifted set alone is unbiased, and what they differ by tells the standard error. For
-/// poses it takes five to ten times fewer samples than counting at random points.
+/// What a quadric along the boundary of contact has of the mass is known (BoundaryModel). Where it
+/// follows that closely, counted is only what it is wrong by, mostly at points near it, weighted
+/// with the density there over that of the points: unbiased, whatever the quadric is like. Where
+/// not, contacts are counted and what the quadric explains of them is taken out by regression.
+/// Points of a Sobol sequence are used several times with random digital shifts (L'Ecuyer and
+/// Lemieux 2002): what these differ by tells the standard error.
 class CountingSource : public EstimateSource {
  public:
   /// Keeps references to all arguments.
@@ -40,11 +44,28 @@ class CountingSource : public EstimateSource {
 
  private:
   static constexpr std::size_t kShifts = 32;
-  using Hits = std::uint32_t;  ///< a bit for every shift
 
+  /// A sample: what is counted of it, and a control variate of mean 0.
+  struct Counted {
+    double value = 0.0;
+    double control = 0.0;
+    bool hit = false;
+  };
+  using Sums = Eigen::Array<double, kShifts, 1>;
+  using CountedShifts = std::array<Counted, kShifts>;
+
+  Eigen::Index dimension() const { return static_cast<Eigen::Index>(shifts_.size()); }
+  bool collidesAt(const Eigen::VectorXd& x) const;
+  void findBoundary(double standard_error);
+  double varianceNear() const;
+  std::size_t firstPoints() const;
   std::size_t pointsTo(double standard_error) const;
-  Hits hitsAt(std::size_t point) const;
+  CountedShifts countAt(std::size_t point) const;
+  Counted countOne(const Eigen::VectorXd& uniform) const;
+  Counted countNear(const Eigen::VectorXd& across, double uniform) const;
   void takeMean();
+  bool deviationPays() const;
+  void countAll();
 
   const RandomConfiguration& configuration_;
   const GeometryList& a_;
@@ -55,7 +76,14 @@ class CountingSource : public EstimateSource {
   std::optional<PlacementCollider> collider_;  ///< made when it is used first
   boost::random::sobol sequence_;
   std::vector<std::array<std::uint64_t, kShifts>> shifts_;  ///< of every coordinate
-  std::array<std::size_t, kShifts> hits_{};
+  std::optional<BoundaryModel> model_;                      ///< nothing: all is counted
+  double mass_ = 0.0;                                       ///< of the model
+  std::size_t questions_ = 0;                               ///< that it took
+  bool is_close_ = false;                                   ///< the model, to the boundary
+  Sums values_ = Sums::Zero();
+  Sums controls_ = Sums::Zero();
+  double largest_ = 0.0;  ///< of the values
+  std::size_t hits_ = 0;
   std::size_t points_ = 0;
   std::optional<EstimatedMean> mean_;
 };

@@ -27,6 +27,9 @@ class MovedFrame {
   /// Whether the translation is that of the Lie algebra of SE(3).
   bool isExponential() const { return exponential_; }
 
+  /// The same with Q z for z. \param q  orthogonal
+  void turn(const Eigen::MatrixXd& q) { conditional_.turn(q); }
+
   ConditionalMotion at(const Eigen::VectorXd& z) const;
 
  private:

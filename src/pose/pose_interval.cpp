@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -18,6 +19,8 @@
 #include "partition/partition.h"
 #include "pose/contact_point.h"
 #include "pose/rotation_cell.h"
+#include "pose/turning_contacts.h"
+#include "query/single_collide.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -31,10 +34,17 @@ constexpr std::size_t kMostInnerCells = 20'000;
 
 // Points may be this far from where the middle of a cell has them, in deviations of the
 // displacement or in sizes of A, for a partition to be worth more than a look: around a cell that
-// is smaller than the motion there are all the pairs of two meshes.
+// is smaller than the motion there are all the pairs of two meshes. Where contacts tell how much
+// their motion leaves open, a cell is not even looked at while that is more than so many
+// tolerances.
 constexpr double kMostDeviations = 2.0;
 constexpr double kMostOfSize = 0.05;
 constexpr std::size_t kCellsOfLook = 16;
+constexpr double kMostMoved = 1.0;
+constexpr double kTimesBetweenLooks = 8.0;
+
+// Of the square of an angle times a lever: what is not of first order.
+constexpr double kSecondOrder = 0.75;
 
 // A partition stops where twice the work has left this share of the width: what is left then is how
 // far points move, and no work on displacements makes it less.
@@ -71,14 +81,11 @@ class PoseInterval {
         frame_(pose_a, error, "object A"),
         solid_a_(a.solid(request.contact)),
         solid_b_(b.solid(request.contact)) {
-    const auto& factor = frame_.conditional().rotationFactor();
-    angles_ = factor.colwise().norm().transpose();
     size_ = pose_a.translation().norm() + pose_b.translation().norm() + a.pieces().radius() +
             b.pieces().radius() + a.pieces().parts[0].origin.norm() +
             b.pieces().parts[0].origin.norm();
     const ConditionalMotion nominal = frame_.at(Eigen::VectorXd::Zero(frame_.rank()));
-    reference_ =
-        likelyContact(a, nominal.motion * pose_a, b, pose_b, nominal.displacement, request.seed);
+    lookAtContacts(nominal);
   }
 
   ProbabilityResult run() {
@@ -95,6 +102,31 @@ class PoseInterval {
   }
 
  private:
+  // Coordinates of the rotation along which contacts move most and least: the isotropic ones are as
+  // good as any others.
+  void lookAtContacts(const ConditionalMotion& nominal) {
+    const fcl::Transform3d turned = nominal.motion * pose_a_;
+    const Eigen::MatrixXd factor = frame_.conditional().rotationFactor();
+    // Shapes turn as their cores do, not as points of their surfaces.
+    if (a_.pieces().isMesh()) {
+      contacts_ =
+          turningContacts({&a_.pieces(), {{turned, nullptr}}}, {&b_.pieces(), {{pose_b_, nullptr}}},
+                          nominal.displacement, factor, request_.seed);
+    }
+    const Eigen::VectorXd angles = factor.colwise().norm().transpose();
+    if (!contacts_) {
+      costs_ = {angles, Eigen::VectorXd::Zero(angles.size())};
+      reference_ = likelyContact(a_, turned, b_, pose_b_, nominal.displacement, request_.seed);
+      return;
+    }
+    frame_.turn(contacts_->axes);
+    reference_ = contacts_->centre;
+    // By half of the width, both ways; angles are much the same in all coordinates.
+    const double lever = (reference_ - pose_a_.translation()).norm() + 0.1 * a_.pieces().radius();
+    const double second = 2.0 * kSecondOrder * 0.25 * lever * contacts_->pushed;
+    costs_ = {contacts_->moved, second * angles.cwiseAbs2()};
+  }
+
   double target() const { return request_.toleranceAt(interval_.upper); }
 
   std::optional<ProbabilityStatus> satisfied() const {
@@ -110,7 +142,8 @@ class PoseInterval {
     if (!goOn()) return cancelled_ ? ProbabilityStatus::cancelled : ProbabilityStatus::time_limit;
     if (statistics_.cells >= request_.max_cells) return ProbabilityStatus::cell_limit;
     const std::size_t memory =
-        cells_.size() * (sizeof(RotationCell) + 3 * sizeof(double) * angles_.size());
+        cells_.size() *
+        (sizeof(RotationCell) + 3 * sizeof(double) * static_cast<std::size_t>(frame_.rank()));
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory);
     if (memory >= request_.max_memory) return ProbabilityStatus::memory_limit;
     // No gap is left that smaller cells would close.
@@ -146,7 +179,7 @@ class PoseInterval {
     for (std::size_t i = 0; i < kDividedAtATime && !cells_.empty(); ++i) {
       if (!(cells_.front().gap() > 0.0)) break;
       std::pop_heap(cells_.begin(), cells_.end(), smaller);
-      for (RotationCell& part : split(cells_.back(), angles_)) parts.push_back(std::move(part));
+      for (RotationCell& part : split(cells_.back(), costs_)) parts.push_back(std::move(part));
       cells_.pop_back();
     }
     std::vector<ProbabilityStatistics> statistics(parts.size());
@@ -178,7 +211,9 @@ class PoseInterval {
       cell.conditional = {0.0, 1.0};
       return;
     }
-    const CellMotion motion = motionOf(frame_, cell, reference_, size_);
+    if (!isWorthALook(cell)) return;
+    const CellMotion motion =
+        motionOf(frame_, cell, reference_, size_, std::min(0.5, interval_.upper));
     ProbabilityRequest request = request_;
     request.method = ProbabilityMethod::interval;
     request.relative_tolerance = 0.0;
@@ -200,8 +235,18 @@ class PoseInterval {
     statistics = result.statistics;
   }
 
+  // Cells that are too large are looked at now and then, so that limits do not find all unknown.
+  bool isWorthALook(RotationCell& cell) const {
+    if (!contacts_) return true;
+    const double costs = costs_.of(cell);
+    if (costs > kMostMoved * target() && costs > cell.looked_at / kTimesBetweenLooks) return false;
+    cell.looked_at = costs;
+    return true;
+  }
+
   // Steers; no bound depends on it.
   bool isWide(const CellMotion& motion) const {
+    if (contacts_) return false;
     const double radius = a_.pieces().radius();
     const double deviation = motion.displacement.standardDeviations().maxCoeff();
     return motion.motion.reach(radius) >
@@ -253,7 +298,8 @@ class PoseInterval {
   MovedFrame frame_;
   const ClosedMesh* solid_a_;
   const ClosedMesh* solid_b_;
-  Eigen::VectorXd angles_;  ///< radians a unit of z
+  std::optional<TurningContacts> contacts_;
+  MotionCosts costs_;
   double size_ = 0.0;
   Eigen::Vector3d reference_;
   std::vector<RotationCell> cells_;

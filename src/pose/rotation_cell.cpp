@@ -12,6 +12,7 @@
 #include "gaussian/normal_density.h"
 #include "gaussian/rotation.h"
 #include "partition/ball_truncation.h"
+#include "pose/cell_moments.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -30,6 +31,15 @@ constexpr double kReachOfDisplacement = 5.5;
 // Of sums and products of a few dozen terms.
 constexpr double kRounding = 1e-12;
 
+// Of a mass over shifts: φ(0).
+constexpr double kSteepest = 0.4;
+
+// Deviations of the displacement that are farther apart lose too much in a covariance. It is
+// rounded by a few ε of its largest entries, a relative change δ of which changes masses by less
+// than 3 δ.
+constexpr double kMostSpread = 1e3;
+constexpr double kJoinedRounding = 1e-14;
+
 Bounds massOf(const RotationCell& cell) {
   double mass = 1.0;
   for (Eigen::Index k = 0; k < cell.lo.size(); ++k) {
@@ -46,17 +56,6 @@ RotationCell part(const RotationCell& cell, Eigen::Index k, double lo, double hi
   result.hi[k] = hi;
   result.mass = massOf(result);
   return result;
-}
-
-// Mean of a coordinate in [lo, hi], to within kMeanError.
-constexpr double kMeanError = 1e-10;
-double meanOf(double lo, double hi) {
-  const double length = hi - lo;
-  const double middle = 0.5 * (lo + hi);
-  // The next term of the series is below 1e-15 for the |middle| < 20 of cells that matter.
-  if (length < 1e-3) return middle - middle * length * length / 12.0;
-  const double mean = (normalDensity(lo) - normalDensity(hi)) / normalIntervalMass(lo, hi);
-  return std::clamp(mean, lo, hi);
 }
 
 double quantile(double p) { return boost::math::quantile(boost::math::normal(), p); }
@@ -86,7 +85,7 @@ RotationCell wholeRotationSpace(int rank) {
   return cell;
 }
 
-std::vector<RotationCell> split(const RotationCell& cell, const Eigen::VectorXd& angles) {
+std::vector<RotationCell> split(const RotationCell& cell, const MotionCosts& costs) {
   for (Eigen::Index k = 0; k < cell.lo.size(); ++k) {
     const double lo = cell.lo[k], hi = cell.hi[k];
     if (std::isfinite(lo) && std::isfinite(hi)) continue;
@@ -99,10 +98,14 @@ std::vector<RotationCell> split(const RotationCell& cell, const Eigen::VectorXd&
     return {part(cell, k, -kMiddle, kMiddle), part(cell, k, lo, -kMiddle),
             part(cell, k, kMiddle, hi)};
   }
+  // Halves leave a half of what is of first order open, and a quarter or less of the rest.
   Eigen::Index k = 0;
-  const bool by_curvature = cell.curvature_parts.sum() > cell.moved_gap;
-  const Eigen::VectorXd turned = angles.cwiseProduct(cell.hi - cell.lo);
-  (by_curvature ? cell.curvature_parts : turned).maxCoeff(&k);
+  const Eigen::VectorXd width = cell.hi - cell.lo;
+  const double scale = cell.moved_gap / std::max(costs.of(cell), 1e-300);
+  const Eigen::VectorXd closed = 0.5 * scale * costs.first.cwiseProduct(width) +
+                                 0.75 * scale * costs.second.cwiseProduct(width.cwiseAbs2()) +
+                                 0.75 * cell.curvature_parts;
+  closed.maxCoeff(&k);
   const double middle = 0.5 * (cell.lo[k] + cell.hi[k]);
   return {part(cell, k, cell.lo[k], middle), part(cell, k, middle, cell.hi[k])};
 }
@@ -113,8 +116,9 @@ namespace {
 class CellMotionBuilder {
  public:
   CellMotionBuilder(const MovedFrame& frame, const RotationCell& cell,
-                    const Eigen::Vector3d& reference, double size)
+                    const Eigen::Vector3d& reference, double size, double expected)
       : frame_(frame),
+        expected_(expected),
         conditional_(frame.conditional()),
         middle_(0.5 * (cell.lo + cell.hi)),
         half_((1.0 + kRounding) * 0.5 * (cell.hi - cell.lo)),
@@ -124,17 +128,13 @@ class CellMotionBuilder {
         theta_(conditional_.rotationVector(middle_)) {
     for (Eigen::Index j = 0; j < middle_.size(); ++j) {
       const double length = cell.hi[j] - cell.lo[j];
-      mean_[j] = meanOf(cell.lo[j], cell.hi[j]);
+      moments_.push_back(cellMoments(cell.lo[j], cell.hi[j]));
+      mean_[j] = moments_.back().mean;
       reach_[j] = (1.0 + kRounding) * std::max(cell.hi[j] - mean_[j], mean_[j] - cell.lo[j]);
       // No truncated normal varies more than a uniform variable, nor than without truncation.
       variance_[j] = (1.0 + kRounding) * std::min(1.0, length * length / 12.0);
     }
-    // Columns of the factor are orthogonal.
-    angle_ = 0.0;
-    for (Eigen::Index j = 0; j < half_.size(); ++j) {
-      angle_ = std::hypot(angle_, conditional_.rotationFactor().col(j).norm() * half_[j]);
-    }
-    angle_ *= 1.0 + kRounding;
+    angle_ = largestAngle();
     const ConditionalMotion at_middle = frame.at(middle_);
     result_.turned = at_middle.motion;
     result_.displacement = at_middle.displacement;
@@ -144,6 +144,19 @@ class CellMotionBuilder {
   CellMotion take() { return std::move(result_); }
 
  private:
+  // |F z| is convex: it is largest at a corner of the cell.
+  double largestAngle() const {
+    double largest = 0.0;
+    for (unsigned corner = 0; corner < (1U << half_.size()); ++corner) {
+      Eigen::VectorXd off = half_;
+      for (Eigen::Index j = 0; j < off.size(); ++j) {
+        if ((corner >> j) % 2 == 1) off[j] = -off[j];
+      }
+      largest = std::max(largest, (conditional_.rotationFactor() * off).norm());
+    }
+    return largest * (1.0 + kRounding);
+  }
+
   // The first-order turns, and what they leave: |u(1) - u(0) - ω × u| <= ¾ |Δθ|² |u|, since
   // |J(θ) - J(θ')| <= ½ |θ - θ'| for the Jacobian J of the exponential and |ω| <= |Δθ|.
   void build(const Eigen::Vector3d& reference, double size) {
@@ -167,7 +180,9 @@ class CellMotionBuilder {
     if (frame_.isExponential()) addExponential();
     const Eigen::Vector3d mean = displacement.mean() + shifts * (mean_ - middle_);
     share(shifts);
-    result_.displacement = displacement.withMean(mean);
+    join();
+    result_.displacement =
+        result_.joined ? withShifts().withMean(mean) : displacement.withMean(mean);
   }
 
   // V(θ) ρ is taken for V(θ_c) ρ: |V(θ) - V(θ_c)| <= ½ |θ - θ_c|.
@@ -188,6 +203,7 @@ class CellMotionBuilder {
   void share(const Eigen::MatrixXd& shifts) {
     const GaussianDisplacement& displacement = result_.displacement;
     result_.curvatures = Eigen::VectorXd::Zero(half_.size());
+    whitened_ = Eigen::MatrixXd::Zero(3, half_.size());
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(3, half_.size());
     for (int k = 0; k < 3; ++k) {
       const Eigen::RowVectorXd along = displacement.axes().col(k).transpose() * shifts;
@@ -195,6 +211,7 @@ class CellMotionBuilder {
       const double reach = along.cwiseAbs().dot(reach_) / sigma;
       if (sigma > 0.0 && reach <= kMostShift) {
         const Eigen::VectorXd whitened = along.transpose() / sigma;
+        whitened_.row(k) = whitened.transpose();
         result_.curvatures += (1.0 + kRounding) * whitened.cwiseAbs2().cwiseProduct(variance_);
         result_.slack += whitened.cwiseAbs().sum() * kMeanError;
         result_.reach = std::hypot(result_.reach, reach * (1.0 + kRounding));
@@ -207,10 +224,64 @@ class CellMotionBuilder {
     }
   }
 
+  // Z = z_j - E z_j in the cell and G ~ N(0, v) with v = E Z² have the same mean of f(a Z) and f(a
+  // G) but for derivatives of f of third and fourth order (Taylor's theorem, to the third and the
+  // fourth term), times |a|³ |E Z³| / 6 and |a|⁴ (E Z⁴ + E G⁴) / 24. f is the mass of a set over
+  // shifts; its derivatives are integrals of Hermite polynomials over the set, and largest over the
+  // one on which these are positive. E Z⁴ <= reach² v.
+  void join() {
+    constexpr double kThird = 0.756;   // ∫ max(He₃ φ, 0)
+    constexpr double kFourth = 1.401;  // ∫ max(He₄ φ, 0)
+    const double spread = spreadOfDeviations();
+    if (result_.curvatures.isZero(0.0) || spread > kMostSpread) return;
+    result_.higher = Eigen::VectorXd::Zero(half_.size());
+    for (Eigen::Index j = 0; j < half_.size(); ++j) {
+      const CellMoments& moments = moments_[static_cast<std::size_t>(j)];
+      const double a = whitened_.col(j).norm();
+      const double v = moments.variance + moments.variance_error;
+      const double fourth = reach_[j] * reach_[j] * v + 3.0 * v * v;
+      result_.higher[j] =
+          (1.0 + 1e-9) * (kThird * a * a * a * moments.third / 6.0 +
+                          kFourth * a * a * a * a * fourth / 24.0 + a * a * moments.variance_error);
+    }
+    const double by_curvature =
+        0.5 * (mostUpwards(expected_) + mostDownwards(expected_)) * result_.curvatures.sum();
+    result_.joined = 2.0 * result_.higher.sum() < by_curvature;
+    if (result_.joined) result_.slack += kJoinedRounding * spread * spread / kSteepest;
+  }
+
+  double spreadOfDeviations() const {
+    double largest = 0.0, least = kInfinity;
+    for (const double sigma : result_.displacement.standardDeviations()) {
+      if (!(sigma > 0.0)) continue;
+      largest = std::max(largest, sigma);
+      least = std::min(least, sigma);
+    }
+    return largest > 0.0 ? largest / least : 1.0;
+  }
+
+  // D^½ (1 + Σ v a aᵀ) D^½ in the axes of the displacement: of the same rank.
+  GaussianDisplacement withShifts() const {
+    const GaussianDisplacement& displacement = result_.displacement;
+    Eigen::Matrix3d inner = Eigen::Matrix3d::Identity();
+    for (Eigen::Index j = 0; j < half_.size(); ++j) {
+      inner += moments_[static_cast<std::size_t>(j)].variance * whitened_.col(j) *
+               whitened_.col(j).transpose();
+    }
+    const Eigen::Matrix3d root =
+        displacement.axes() * displacement.standardDeviations().asDiagonal();
+    const Eigen::Matrix3d covariance = root * inner * root.transpose();
+    return GaussianDisplacement(displacement.mean(),
+                                0.5 * covariance + 0.5 * covariance.transpose());
+  }
+
   const MovedFrame& frame_;
+  double expected_;  ///< steers
   const ConditionalTranslation& conditional_;
   Eigen::VectorXd middle_;
   Eigen::VectorXd half_;
+  std::vector<CellMoments> moments_;
+  Eigen::MatrixXd whitened_;  ///< shifts in deviations, those that are not left to the motion
   Eigen::VectorXd mean_;      ///< of z in the cell
   Eigen::VectorXd reach_;     ///< how far z may be from that
   Eigen::VectorXd variance_;  ///< bound on that of z in the cell
@@ -222,15 +293,24 @@ class CellMotionBuilder {
 }  // namespace
 
 CellMotion motionOf(const MovedFrame& frame, const RotationCell& cell,
-                    const Eigen::Vector3d& reference, double size) {
-  return CellMotionBuilder(frame, cell, reference, size).take();
+                    const Eigen::Vector3d& reference, double size, double expected) {
+  return CellMotionBuilder(frame, cell, reference, size, expected).take();
 }
 
 // With y + w(z) for the displacement in deviations, V⁻ ⊂ V(z) ⊂ V⁺ for all z in the cell and
 // g(w) = P(y + w ∈ V±), E g(w) differs from g(E w) by ½ E wᵀHw at most, H being a Hessian of g
 // between E w and w, where g is at most Φ(Φ⁻¹(g(E w)) + |w|).
 void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell& cell) {
-  constexpr double kSteepest = 0.4;  // of g: φ(0)
+  const double slack = kSteepest * motion.slack + motion.tail;
+  if (motion.joined) {
+    const double higher = motion.higher.sum();
+    cell.conditional = {
+        std::clamp((inner.lower - slack - higher) * (1.0 - kRounding) - kUnderflow, 0.0, 1.0),
+        std::clamp((inner.upper + slack + higher) * (1.0 + kRounding), 0.0, 1.0)};
+    cell.moved_gap = inner.width() + 2.0 * motion.tail;
+    cell.curvature_parts = 2.0 * motion.higher;
+    return;
+  }
   double most = inner.upper;
   if (most > 0.0 && most < 1.0 && motion.reach > 0.0) {
     most = std::min(1.0, (1.0 + 1e-9) * normalCdf(quantile(most) + motion.reach + 1e-9));
@@ -238,7 +318,6 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
   const double variance = motion.curvatures.sum();
   const double up = 0.5 * mostUpwards(most) * variance * (1.0 + 1e-9);
   const double down = 0.5 * mostDownwards(most) * variance * (1.0 + 1e-9);
-  const double slack = kSteepest * motion.slack + motion.tail;
   const bool shifted = variance > 0.0;
   const double upper = inner.upper + slack + (shifted ? up : 0.0);
   const double lower = inner.lower - slack - (shifted ? down : 0.0);

@@ -156,6 +156,55 @@ TEST_CASE("boxes and meshes agree with counting in six dimensions, in every conv
   }
 }
 
+TEST_CASE("boxes and meshes agree with a million samples in six dimensions", "[long]") {
+  RandomBodies random(15);
+  const PreparedPoseQuery of_boxes = boxes();
+  const PreparedPoseQuery of_meshes(makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 4, 6, 1)),
+                                    makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 8, 5)));
+  for (int i = 0; i < 8; ++i) {
+    const PreparedPoseQuery& query = i % 2 == 0 ? of_boxes : of_meshes;
+    const PoseError error(randomPoseCovariance(random, 6, 0.1, i < 4 ? 0.03 : 0.3));
+    fcl::Transform3d pose_b(random.pose(0.1));
+    pose_b.pretranslate(0.8 * random.direction());
+    ProbabilityRequest counting = poseRequest(Method::monte_carlo, 1e-9);
+    counting.samples = 1'000'000;
+    counting.seed = static_cast<std::uint64_t>(100 + i);
+    const auto counted = answer(query, kIdentity, pose_b, error, counting);
+    CAPTURE(i);
+    for (const double tolerance : {0.01, 0.002}) {
+      checkNear(answer(query, kIdentity, pose_b, error, poseRequest(Method::estimate, tolerance)),
+                *counted.estimate, *counted.standard_error);
+    }
+  }
+}
+
+TEST_CASE("contacts on a side that the quadric does not follow are counted") {
+  // Two walls, one on either side: the nearer one is what the quadric follows.
+  TriangleMesh walls = boxMesh({0.2, 2.0, 2.0});
+  TriangleMesh other = walls;
+  for (Eigen::Vector3d& vertex : walls.vertices) vertex.x() += 0.55;
+  const std::size_t first = walls.vertices.size();
+  for (const Eigen::Vector3d& vertex : other.vertices) {
+    walls.vertices.push_back(vertex - Eigen::Vector3d(0.6, 0, 0));
+  }
+  for (const fcl::Triangle& t : other.triangles) {
+    walls.triangles.emplace_back(first + t[0], first + t[1], first + t[2]);
+  }
+  const PreparedPoseQuery query(makeModel<fcl::OBBRSSd>(boxMesh({0.6, 0.4, 0.2})),
+                                makeModel<fcl::OBBRSSd>(walls));
+  const auto error = PoseError::fromStandardDeviations({0.08, 0.05, 0.05}, {0.1, 0.1, 0.1});
+  ProbabilityRequest counting = poseRequest(Method::monte_carlo, 1e-9);
+  counting.samples = 40'000;
+  const auto counted = answer(query, kIdentity, kIdentity, error, counting);
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    ProbabilityRequest request = poseRequest(Method::estimate, 0.02);
+    request.seed = seed;
+    const auto result = answer(query, kIdentity, kIdentity, error, request);
+    CAPTURE(seed, result.plan.back());
+    checkNear(result, *counted.estimate, *counted.standard_error);
+  }
+}
+
 TEST_CASE("covariances of low rank are answered, and standard errors stay true") {
   RandomBodies random(12);
   const PreparedPoseQuery query = boxes();
@@ -172,6 +221,12 @@ TEST_CASE("covariances of low rank are answered, and standard errors stay true")
     CAPTURE(rank, *counted.estimate, *result.estimate, *result.standard_error, result.plan[0]);
     CHECK(result.status == ProbabilityStatus::converged);
     checkNear(result, *counted.estimate, *counted.standard_error);
+    ProbabilityRequest request = poseRequest(Method::interval, 0.1);
+    request.max_cells = 3'000;
+    const auto interval = answer(query, kIdentity, pose_b, error, request);
+    CAPTURE(*interval.lower, *interval.upper);
+    CHECK(*interval.lower <= *counted.estimate + 5.0 * *counted.standard_error);
+    CHECK(*interval.upper >= *counted.estimate - 5.0 * *counted.standard_error);
   }
   SECTION("one axis, and nothing but rotation") {
     // The corner (0.5, 0.2) of the box reaches x = 0.53 at an angle found by hand.

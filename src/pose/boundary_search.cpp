@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "pose/boundary_search.h"
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
+#include "base/random_words.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// A stream of the request's seed that no other method draws from.
+constexpr std::uint64_t kStream = 0x626f756e;
+
+// Points of a first look, of which so many are to meet and to miss: else they are drawn from a
+// wider distribution, up to so wide a one.
+constexpr int kLook = 48;
+constexpr int kEnough = 6;
+constexpr double kWider = 1.5;
+constexpr double kWidest = 4.0;
+
+// How far along a line the boundary is looked for, and how exactly.
+constexpr double kReach = 6.0;
+constexpr double kFirstStep = 1.0;
+constexpr double kStepOfPlane = 0.3;
+constexpr double kExact = 0.08;
+
+Eigen::Index pointsOfPlane(Eigen::Index dimension) { return 2 * dimension + 6; }
+
+Eigen::Index pointsOfBend(Eigen::Index dimension) {
+  return 2 * BoundaryModel::coefficients(dimension, true);
+}
+
+constexpr double kQuestionsOfLine = 6.0;
+
+}  // namespace
+
+double BoundarySearch::questionsOfPlane(Eigen::Index dimension) {
+  return 1.5 * kLook + kQuestionsOfLine * static_cast<double>(pointsOfPlane(dimension));
+}
+
+double BoundarySearch::questionsOfBend(Eigen::Index dimension) {
+  return kQuestionsOfLine * static_cast<double>(pointsOfBend(dimension));
+}
+
+Eigen::VectorXd BoundarySearch::normals(std::uint64_t index) const {
+  Eigen::VectorXd x(dimension_);
+  for (Eigen::Index k = 0; k < dimension_; k += 3) {
+    const Eigen::Vector3d three =
+        standardNormalFrom(randomWords({seed_, kStream}, index, static_cast<std::uint64_t>(k / 3)));
+    const Eigen::Index count = std::min<Eigen::Index>(3, dimension_ - k);
+    x.segment(k, count) = three.head(count);
+  }
+  return x;
+}
+
+bool BoundarySearch::asked(const Eigen::VectorXd& x) {
+  ++questions_;
+  return collides_(x);
+}
+
+// Towards the mean of what meets from that of what misses.
+std::optional<BoundaryModel> BoundarySearch::halfSpace() {
+  for (double scale = 1.0; scale <= kWidest; scale *= kWider) {
+    Eigen::VectorXd meeting = Eigen::VectorXd::Zero(dimension_), missing = meeting;
+    int hits = 0;
+    for (int i = 0; i < kLook; ++i) {
+      const Eigen::VectorXd x = scale * normals(drawn_++);
+      const bool hit = asked(x);
+      hits += hit ? 1 : 0;
+      (hit ? meeting : missing) += x;
+    }
+    if (hits < kEnough || kLook - hits < kEnough) continue;
+    const Eigen::VectorXd towards = meeting / hits - missing / (kLook - hits);
+    if (!(towards.norm() > 0.0)) return std::nullopt;
+    const double share = static_cast<double>(hits) / kLook;
+    const double level = scale * std::sqrt(2.0) * boost::math::erfc_inv(2.0 * share);
+    return BoundaryModel(towards.normalized(), level);
+  }
+  return std::nullopt;
+}
+
+// From a guess outwards in growing steps, then by halves. Where contact comes and goes along the
+// line any of its ends will do.
+std::optional<double> BoundarySearch::levelOn(const BoundaryModel& model,
+                                              const Eigen::VectorXd& across, double guess,
+                                              double step) {
+  double at = std::clamp(guess, -kReach, kReach);
+  const bool inside = asked(model.pointAt(across, at));
+  double other = at;
+  for (;; step *= 2.0) {
+    const double next = std::clamp(inside ? at - step : at + step, -kReach, kReach);
+    if (next == at) return std::nullopt;
+    if (asked(model.pointAt(across, next)) != inside) {
+      other = next;
+      break;
+    }
+    at = next;
+  }
+  double lo = std::min(at, other), hi = std::max(at, other);
+  while (hi - lo > kExact) {
+    const double middle = 0.5 * (lo + hi);
+    (asked(model.pointAt(across, middle)) ? hi : lo) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+void BoundarySearch::addPoints(const BoundaryModel& model, Eigen::Index count, double step) {
+  const Eigen::Index before = points_.cols();
+  Eigen::Index found = before;
+  points_.conservativeResize(dimension_, before + count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::VectorXd across = model.acrossOf(normals(drawn_++));
+    const auto level = levelOn(model, across, model.level(across), step);
+    if (level) points_.col(found++) = model.pointAt(across, *level);
+  }
+  points_.conservativeResize(dimension_, found);
+}
+
+std::optional<BoundaryModel> BoundarySearch::plane() {
+  points_.resize(dimension_, 0);
+  auto model = halfSpace();
+  if (!model) return model;
+  addPoints(*model, pointsOfPlane(dimension_), kFirstStep);
+  if (points_.cols() <= dimension_ + 2) return std::nullopt;
+  model->fit(points_, false);
+  BoundaryModel turned = model->alongNormal();
+  turned.fit(points_, false);
+  return turned;
+}
+
+void BoundarySearch::bend(BoundaryModel& model) {
+  const Eigen::Index missing = pointsOfBend(dimension_) - points_.cols();
+  if (missing > 0) addPoints(model, missing, kStepOfPlane);
+  model.fit(points_, true);
+}
+
+}  // namespace fcl_prob::detail
