@@ -134,7 +134,7 @@ std::size_t PartitionEngine::takeLargest(bool estimate) {
   double taken = 0.0;
   std::size_t count = 0;
   bool may_be_enough = false;
-  while (count < most && !may_be_enough && !queue_.empty() && !(queue_.front().gap() < least)) {
+  do {
     std::pop_heap(queue_.begin(), queue_.end(), smallerGap);
     OpenCell& cell = round_[count++].cell;
     cell = std::move(queue_.back());
@@ -144,7 +144,7 @@ std::size_t PartitionEngine::takeLargest(bool estimate) {
     const std::size_t cells = statistics_.cells + count * kCellsOfDivided;
     may_be_enough =
         taken >= needed || (estimate && samplesNeeded(target) <= samplesAffordable(cells));
-  }
+  } while (count < most && !may_be_enough && !queue_.empty() && queue_.front().gap() >= least);
   return count;
 }
 
