@@ -32,7 +32,7 @@ CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
       request_(request),
       statistics_(statistics),
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(*this)),
-      round_(kMostCarvedAtOnce),
+      round_(1),
       limits_(request, statistics) {
   auto root = std::make_unique<CarvedCell>();
   root->box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
@@ -76,6 +76,7 @@ std::size_t CarvingEngine::mostOfRound() const {
 // enough.
 std::size_t CarvingEngine::takeLargest() {
   const std::size_t most = mostOfRound();
+  if (round_.size() < most) round_.resize(most);
   const double needed = missing();
   double taken = 0.0;
   std::size_t count = 0;

@@ -65,7 +65,7 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       statistics_(statistics),
       obstacles_(scene.pair),
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
-      round_(kMostOfRound),
+      round_(1),
       band_(scene.pair.band),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
       limits_(request, statistics) {
@@ -128,6 +128,7 @@ std::size_t PartitionEngine::mostOfRound() const {
 // enough. Parts of the largest may have larger gaps than those that are much smaller.
 std::size_t PartitionEngine::takeLargest(bool estimate) {
   const std::size_t most = mostOfRound();
+  if (round_.size() < most) round_.resize(most);
   const double needed = missing();
   const double target = targetError(interval().middle());
   const double least = CellDivider::kSoon * queue_.front().gap();
