@@ -70,7 +70,8 @@ struct ProbabilityRequest {
   std::size_t samples = 10'000;
   std::uint64_t seed = 1;
 
-  /// Threads to use, >= 1. Results do not depend on it.
+  /// Threads to use, >= 1: of samples, and of the cells of one interval or estimate. Results do not
+  /// depend on it, to the last bit. Where many queries are answered at once each has one thread.
   unsigned threads = 1;
 
   /// Also compute the gradient of P with respect to the mean displacement (see

@@ -12,14 +12,12 @@ namespace {
 
 // As long as no more cells than these were looked at it is one at a time: a few milliseconds, for
 // which threads are not worth waking.
-constexpr std::size_t kCellsOneByOne = 200;
+constexpr std::size_t kCarvedOneByOne = 200;
 
 // Cells of a round: so many, or one in so many of the open ones.
-constexpr std::size_t kMostOfRound = 64;
-constexpr std::size_t kLeastOfRound = 8;
-constexpr std::size_t kOpenOfRound = 8;
-
-bool hasSmallerGap(const CarvedCell& x, const CarvedCell& y) { return x.gap() < y.gap(); }
+constexpr std::size_t kMostCarvedAtOnce = 64;
+constexpr std::size_t kLeastCarvedAtOnce = 8;
+constexpr std::size_t kOpenCarvedOfRound = 8;
 
 std::size_t memoryOf(const CarvedCell& cell) {
   return sizeof(CarvedCell) + sizeof(CarvedLayer) + cell.body.memory();
@@ -34,23 +32,24 @@ CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
       request_(request),
       statistics_(statistics),
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(*this)),
-      round_(kMostOfRound),
+      round_(1),
       limits_(request, statistics) {
-  CarvedCell root;
-  root.box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
-  root.mass = {0.0, 1.0};
+  auto root = std::make_unique<CarvedCell>();
+  root->box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
+  root->mass = {0.0, 1.0};
   std::vector<FatNode> roots;
   for (int member = 0; member < obstacles.count(); ++member) roots.push_back({member, 0});
-  root.nodes = std::make_shared<const std::vector<FatNode>>(std::move(roots));
+  root->nodes = std::make_shared<const std::vector<FatNode>>(std::move(roots));
   push(std::move(root));
 }
 
-void CarvingEngine::push(CarvedCell&& cell) {
-  open_.lower += cell.inner;
-  open_.upper += cell.mass.upper;
-  cell_memory_ += memoryOf(cell);
-  queue_.push_back(std::move(cell));
-  std::push_heap(queue_.begin(), queue_.end(), hasSmallerGap);
+void CarvingEngine::push(std::unique_ptr<CarvedCell> cell) {
+  open_.lower += cell->inner;
+  open_.upper += cell->mass.upper;
+  cell_memory_ += memoryOf(*cell);
+  const double gap = cell->gap();
+  queue_.push_back({gap, std::move(cell)});
+  std::push_heap(queue_.begin(), queue_.end());
 }
 
 // How many cells were looked at.
@@ -60,15 +59,16 @@ std::size_t CarvingEngine::divideLargest() {
   workers_.visit(
       [this](Worker& worker) { addWork(std::exchange(worker.statistics, {}), statistics_); });
   for (std::size_t i = 0; i < count; ++i) {
-    for (CarvedCell& cell : round_[i].carving.cells) push(std::move(cell));
-    round_[i].cell = {};
+    for (std::unique_ptr<CarvedCell>& cell : round_[i].carving.cells) push(std::move(cell));
+    round_[i].carving.cells.clear();
   }
   return count;
 }
 
 std::size_t CarvingEngine::mostOfRound() const {
-  if (statistics_.cells < kCellsOneByOne) return 1;
-  const std::size_t most = std::clamp(queue_.size() / kOpenOfRound, kLeastOfRound, kMostOfRound);
+  if (statistics_.cells < kCarvedOneByOne) return 1;
+  const std::size_t most =
+      std::clamp(queue_.size() / kOpenCarvedOfRound, kLeastCarvedAtOnce, kMostCarvedAtOnce);
   return std::min(request_.max_cells - statistics_.cells, most);
 }
 
@@ -76,18 +76,19 @@ std::size_t CarvingEngine::mostOfRound() const {
 // enough.
 std::size_t CarvingEngine::takeLargest() {
   const std::size_t most = mostOfRound();
+  if (round_.size() < most) round_.resize(most);
   const double needed = missing();
   double taken = 0.0;
   std::size_t count = 0;
   do {
-    std::pop_heap(queue_.begin(), queue_.end(), hasSmallerGap);
-    CarvedCell& cell = round_[count++].cell;
-    cell = std::move(queue_.back());
-    queue_.pop_back();
+    std::pop_heap(queue_.begin(), queue_.end());
+    const CarvedCell& cell = *queue_.back().cell;
     open_.lower -= cell.inner;
     open_.upper -= cell.mass.upper;
     cell_memory_ -= memoryOf(cell);
     taken += cell.gap();
+    round_[count++].cell = std::move(queue_.back().cell);
+    queue_.pop_back();
   } while (count < most && !queue_.empty() && taken < needed);
   return count;
 }
@@ -96,11 +97,12 @@ std::size_t CarvingEngine::takeLargest() {
 void CarvingEngine::divideTaken(std::size_t count) {
   const bool is_single = count == 1;
   const CarvedSoFar so_far{is_single ? 0.0 : settled_.lower, statistics_.cells + count};
-  const Carving start{is_single ? settled_ : Bounds{0.0, 0.0}, is_single ? slivers_ : 0.0, {}};
   const auto divide = [&](Worker& worker, std::size_t i) {
     auto& [cell, carving] = round_[i];
-    carving = start;
-    worker.carver.divide(std::move(cell), so_far, carving);
+    carving.settled = is_single ? settled_ : Bounds{0.0, 0.0};
+    carving.slivers = is_single ? slivers_ : 0.0;
+    worker.carver.divide(std::move(*cell), so_far, carving);
+    cell.reset();
   };
   workers_.run(
       count, [this] { return std::make_unique<Worker>(*this); }, divide);
@@ -116,9 +118,9 @@ void CarvingEngine::divideTaken(std::size_t count) {
 
 void CarvingEngine::recount() {
   open_ = {0.0, 0.0};
-  for (const CarvedCell& cell : queue_) {
-    open_.lower += cell.inner;
-    open_.upper += cell.mass.upper;
+  for (const Queued& queued : queue_) {
+    open_.lower += queued.cell->inner;
+    open_.upper += queued.cell->mass.upper;
   }
   changes_since_recount_ = 0;
 }

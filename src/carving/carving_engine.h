@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -42,11 +43,19 @@ class CarvingEngine {
 
   /// One of the cells of a round.
   struct Divided {
-    CarvedCell cell;
+    std::unique_ptr<CarvedCell> cell;
     Carving carving;
   };
 
-  void push(CarvedCell&& cell);
+  /// The heap moves these, not the cells.
+  struct Queued {
+    double gap;
+    std::unique_ptr<CarvedCell> cell;
+
+    bool operator<(const Queued& other) const { return gap < other.gap; }
+  };
+
+  void push(std::unique_ptr<CarvedCell> cell);
   std::size_t divideLargest();
   std::size_t mostOfRound() const;
   std::size_t takeLargest();
@@ -64,7 +73,7 @@ class CarvingEngine {
   std::atomic<std::size_t> list_memory_{0};  // before the cells that refer to it
   RoundWorkers<Worker> workers_;
   std::vector<Divided> round_;
-  std::vector<CarvedCell> queue_;  ///< a heap by gap
+  std::vector<Queued> queue_;  ///< a heap
   Bounds settled_;
   double slivers_ = 0.0;  ///< what may lie between cells or belong to two
   Bounds open_;

@@ -73,7 +73,7 @@ struct CarvedCell {
 struct Carving {
   Bounds settled{0.0, 0.0};
   double slivers = 0.0;  ///< what may lie between cells or belong to two
-  std::vector<CarvedCell> cells;
+  std::vector<std::unique_ptr<CarvedCell>> cells;
 };
 
 /// What is known before a cell is looked at. Steers; no bound depends on it.
@@ -145,7 +145,9 @@ class CellCarver {
   Bounds settledMass(const CellPolytope& body) const;
   Bounds openMass(const CellPolytope& body, double parent) const;
   void allowSlivers(const CellPolytope& body, std::size_t cuts);
-  void push(CarvedCell&& cell) { carving_->cells.push_back(std::move(cell)); }
+  void push(CarvedCell&& cell) {
+    carving_->cells.push_back(std::make_unique<CarvedCell>(std::move(cell)));
+  }
 
   ClaimObserver* const observer_ = claim_observer;
   FatMembers& obstacles_;

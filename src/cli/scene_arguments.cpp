@@ -226,7 +226,8 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--samples", arguments.samples, "Number of samples at most")
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", arguments.seed, "Fixes all samples")->check(CLI::NonNegativeNumber);
-  command.add_option("--threads", arguments.threads, "Results do not depend on it")
+  command
+      .add_option("--threads", arguments.threads, "Of one query, too; results do not depend on it")
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--contact", arguments.contact,

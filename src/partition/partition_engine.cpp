@@ -66,7 +66,7 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       statistics_(statistics),
       obstacles_(scene.pair),
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
-      round_(kMostOfRound),
+      round_(1),
       band_(scene.pair.band),
       turning_(scene.pair.turning),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
@@ -130,13 +130,14 @@ std::size_t PartitionEngine::mostOfRound() const {
 // enough. Parts of the largest may have larger gaps than those that are much smaller.
 std::size_t PartitionEngine::takeLargest(bool estimate) {
   const std::size_t most = mostOfRound();
+  if (round_.size() < most) round_.resize(most);
   const double needed = missing();
   const double target = targetError(interval().middle());
   const double least = CellDivider::kSoon * queue_.front().gap();
   double taken = 0.0;
   std::size_t count = 0;
   bool may_be_enough = false;
-  while (count < most && !may_be_enough && !queue_.empty() && !(queue_.front().gap() < least)) {
+  do {
     std::pop_heap(queue_.begin(), queue_.end(), smallerGap);
     OpenCell& cell = round_[count++].cell;
     cell = std::move(queue_.back());
@@ -146,7 +147,7 @@ std::size_t PartitionEngine::takeLargest(bool estimate) {
     const std::size_t cells = statistics_.cells + count * kCellsOfDivided;
     may_be_enough =
         taken >= needed || (estimate && samplesNeeded(target) <= samplesAffordable(cells));
-  }
+  } while (count < most && !may_be_enough && !queue_.empty() && queue_.front().gap() >= least);
   return count;
 }
 
