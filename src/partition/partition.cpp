@@ -16,6 +16,7 @@
 #include "partition/carved_partition.h"
 #include "partition/cell_sampling.h"
 #include "partition/claim_observer.h"
+#include "partition/line_estimate.h"
 #include "partition/partition_engine.h"
 #include "partition/query_frame.h"
 #include "partition/without_contact.h"
@@ -182,6 +183,32 @@ bool carveInTime(const PartitionObject& a, const PartitionObject& b,
   return reached;
 }
 
+// The estimate by lines, where an object can be taken whole and nothing but P is asked for.
+bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
+                     const GaussianDisplacement& displacement, const QueryFrame& frame,
+                     const SolidContact* solids, const ProbabilityRequest& request,
+                     ProbabilityResult& result) {
+  if (request.gradient || request.threshold) return false;
+  const auto lines =
+      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+  if (!lines) return false;
+  const EngineLimits limits(request, result.statistics);
+  const auto estimate = lineEstimate(
+      *lines, request, [&limits](const Bounds& now) { return limits.interruption(now); });
+  if (!estimate) return false;
+  result.status = estimate->status;
+  result.estimate = estimate->value;
+  result.standard_error = estimate->standard_error;
+  result.lower = 0.0;
+  result.upper = estimate->upper;
+  result.statistics.cells = estimate->columns;
+  result.statistics.samples = estimate->lines;
+  result.plan.push_back("mean over " + std::to_string(estimate->lines) + " parallel lines in " +
+                        std::to_string(estimate->columns) +
+                        " columns, against convex meshes taken whole; cells left out");
+  return true;
+}
+
 // A decision is left to polytope cells when it needs more boxes than these. Measured on links
 // beside an arm (`bench states`): 12, 32, 128 and 256 are slower.
 constexpr std::size_t kBoxesBeforeCarving = 64;
@@ -221,6 +248,11 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const bool estimate = request.method == ProbabilityMethod::estimate;
   result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
   if (request.time_limit) request.time_limit = clock.leftOf(*request.time_limit);
+  if (estimate && !ball &&
+      estimateByLines(a, b, displacement, frame, solids.get(), request, result)) {
+    clock.finish("lines");
+    return result;
+  }
   if (may_be_carved) request.max_cells = std::min(request.max_cells, kBoxesBeforeCarving);
   PartitionEngine engine(frame.pair, frame.whitening.rank(), solids.get(), ball, request,
                          result.statistics);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The estimate where convex meshes are taken whole: a mean over lines.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "fcl_prob/bounds.h"
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
+#include "partition/whole_body_lines.h"
+
+namespace fcl_prob::detail {
+
+struct LineEstimate {
+  double value = 0.0;
+  double standard_error = 0.0;
+  double upper = 1.0;  ///< certain
+  std::size_t lines = 0;
+  std::size_t columns = 0;
+  ProbabilityStatus status = ProbabilityStatus::converged;
+};
+
+/// P, as the mean over lines along the first axis of what they have of collisions: of three
+/// dimensions one is exact, and over the other two the mean is smooth. Evenly spread lines are
+/// drawn where a bound on columns says that they matter, in sets whose differences give the
+/// standard error. Nothing where more lines would be needed than pay. \param interruption  asked
+/// between lines with the interval so far; a status ends it
+std::optional<LineEstimate> lineEstimate(
+    WholeBodyLines& lines, const ProbabilityRequest& request,
+    const std::function<std::optional<ProbabilityStatus>(const Bounds&)>& interruption);
+
+}  // namespace fcl_prob::detail
