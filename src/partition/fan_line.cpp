@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gaussian/constants.h"
+#include "partition/slab_kernels.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -20,6 +21,10 @@ constexpr double kLikeness = 0.99;
 
 // Planes that the search for a contact begins with, if they tell most.
 constexpr std::size_t kRememberedFaces = 6;
+
+// Of the reach: what the points within triangles and the heights of others above planes are rounded
+// by, with much to spare.
+constexpr double kInnerRounding = 4096 * kEpsilon;
 
 // Planes exchanged for one triangle: more than that is the doing of rounding.
 constexpr int kMostExchanges = 64;
@@ -158,6 +163,31 @@ std::optional<LineSpan> FanLine::around(int node) {
   return span;
 }
 
+// P put to a point has the y with n·(y - point) <= offset; what is below all faces by their margins
+// is certainly within (see FanContact).
+std::optional<LineSpan> FanLine::within(const Eigen::Vector3d& point) const {
+  const Eigen::Vector2d middle = 0.5 * (column_.lo + column_.hi);
+  const Eigen::Vector2d half = 0.5 * (column_.hi - column_.lo);
+  const Eigen::Vector3d from = Eigen::Vector3d(0.0, middle[0], middle[1]) - point;
+  LineSpan span{-kReach, kReach};
+  for (int f = 0; f < fan_.faceCount(); ++f) {
+    const Eigen::Vector3d& n = fan_.faceNormal(f);
+    const double inner = fan_.faceMargin(f) - fan_.facePad(f) + kInnerRounding * fan_.reach();
+    const double left = fan_.faceOffset(f) - inner - n.dot(from) - n.tail<2>().cwiseAbs().dot(half);
+    if (n.x() > 0.0) {
+      span.hi = std::min(span.hi, left / n.x());
+    } else if (n.x() < 0.0) {
+      span.lo = std::max(span.lo, left / n.x());
+    } else if (left < 0.0) {
+      return std::nullopt;
+    }
+  }
+  span.lo += 8 * kEpsilon * std::fabs(span.lo);
+  span.hi -= 8 * kEpsilon * std::fabs(span.hi);
+  if (!(span.lo < span.hi)) return std::nullopt;
+  return span;
+}
+
 // The d are the corners of the polar polytope, and neighbours share an edge of that: from any of
 // them one climbs to the one that is farthest in a direction.
 int FanLine::highestFace(const Eigen::Vector3d& point) {
@@ -229,7 +259,8 @@ std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen
   for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
     const Eigen::Vector3d z = vertex.place();
     if (z[0] > limit) return std::nullopt;
-    touched_ = base - z[1] * p - z[2] * q;
+    const double alpha = std::clamp(z[1], 0.0, 1.0);
+    touched_ = base - alpha * p - std::clamp(z[2], 0.0, 1.0 - alpha) * q;
     const double edges[] = {-z[1], -z[2], z[1] + z[2] - 1.0};
     const auto edge = std::max_element(edges, edges + 3) - edges;
     Eigen::RowVector3d g;
@@ -239,7 +270,7 @@ std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen
             : edge == 1 ? Eigen::RowVector3d(0, 0, -1)
                         : Eigen::RowVector3d(0, 1, 1));
     } else {
-      const Eigen::Vector3d y = touched_ + Eigen::Vector3d(sign * z[0], 0.0, 0.0);
+      const Eigen::Vector3d y = base - z[1] * p - z[2] * q + Eigen::Vector3d(sign * z[0], 0, 0);
       const int face = highestFace(y);
       const Eigen::Vector3d& d = faces_[face];
       if (!(d.dot(y) > 1.0 + kOutside)) return z[0];

@@ -38,6 +38,9 @@ class FanLine {
   /// they miss it.
   std::optional<LineSpan> around(int node);
 
+  /// What all lines of the column have of P put to a point of T: certain.
+  std::optional<LineSpan> within(const Eigen::Vector3d& point) const;
+
   /// The least sign·s for which (s, u_0, u_1) is in P ⊕ T; nothing if there is none below a limit.
   /// \param corners  of T, columns
   std::optional<double> first(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign,
@@ -45,6 +48,11 @@ class FanLine {
 
   /// After first(): the largest s for which (s, u_0, u_1) is in P put to where T was touched.
   double endBehindFirst() const;
+
+  /// After first(): that point of T.
+  Eigen::Vector3d touchedPoint(const Eigen::Vector2d& u) const {
+    return Eigen::Vector3d(0.0, u[0], u[1]) - touched_;
+  }
 
  private:
   // Measured on robot parts beside an arm: 8, 12 and 16.

@@ -80,6 +80,7 @@ void LineColumns::divideOne(int node, double rest) {
   for (const Column& half : {low, high}) {
     nodes_.push_back(nodeOf(half, most));
     Node& child = nodes_.back();
+    child.least = nodes_[node].least;
     child.weight = by_mass_ ? child.mass() : child.most > 0.0 ? weight : 0.0;
   }
 }

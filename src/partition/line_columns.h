@@ -16,6 +16,7 @@ class LineColumns {
     Column column;
     double most;          ///< of any line
     double measure;       ///< of the normal distribution across the lines
+    double least = 0.0;   ///< of all of them, as far as somebody asked
     double weight = 0.0;  ///< how much it should be divided
     int left = -1;        ///< child; the right one is behind it
 

@@ -23,13 +23,14 @@ struct LineEstimate {
   ProbabilityStatus status = ProbabilityStatus::converged;
 };
 
-/// P, as the mean over lines along the first axis of what they have of collisions: of three
-/// dimensions one is exact, and over the other two the mean is smooth. Evenly spread lines are
-/// drawn where a bound on columns says that they matter, in sets whose differences give the
-/// standard error. Nothing where more lines would be needed than pay. \param interruption  asked
-/// between lines with the interval so far; a status ends it
-std::optional<LineEstimate> lineEstimate(
-    WholeBodyLines& lines, const ProbabilityRequest& request,
-    const std::function<std::optional<ProbabilityStatus>(const Bounds&)>& interruption);
+/// Asked between lines with the interval so far: a status ends the estimate.
+using LineInterruption = std::function<std::optional<ProbabilityStatus>(const Bounds&)>;
+
+/// P, as the mean over lines along the first axis of what they have of collisions: one of three
+/// dimensions is exact, and over the other two the mean is of a function that is mostly smooth. The
+/// space is divided into columns where a bound says that it matters; of each a few lines are drawn,
+/// whose differences give the standard error. Nothing where more columns would be needed than pay.
+std::optional<LineEstimate> lineEstimate(WholeBodyLines& lines, const ProbabilityRequest& request,
+                                         const LineInterruption& interruption);
 
 }  // namespace fcl_prob::detail

@@ -8,12 +8,16 @@
 
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/constants.h"
+#include "partition/slab_kernels.h"
 
 namespace fcl_prob::detail {
 namespace {
 
 // Of a bound on a column: what rounding may take from it.
 constexpr double kRounded = 1e-12;
+
+// Of a line that only tells where contact is.
+constexpr LeftOut kRoughly{0.1, 1e-6};
 
 // Nodes that are smaller than this share of a column tell no more of it by being opened.
 constexpr double kFineEnough = 0.5;
@@ -101,6 +105,20 @@ double WholeBodyLines::mostOn(const Column& column) {
   return std::min(1.0, most * (1.0 + kRounded));
 }
 
+// What the line in the middle meets first tells where to put the member.
+double WholeBodyLines::leastOn(const Column& column) {
+  if ((column.hi - column.lo).maxCoeff() > kReach) return 0.0;
+  massOn(0.5 * (column.lo + column.hi), kRoughly);
+  double least = 0.0;
+  for (const Stretch& stretch : stretches_) {
+    FanLine& line = stretch.first.member->line;
+    line.lookAt(column);
+    const auto span = line.within(stretch.point);
+    if (span) least = std::max(least, normalIntervalMass(span->lo, span->hi));
+  }
+  return least * (1.0 - kRounded);
+}
+
 void WholeBodyLines::beginLine(const LeftOut& negligible) {
   known_.clear();
   for (const Stretch& stretch : stretches_) {
@@ -149,7 +167,8 @@ bool WholeBodyLines::isSettled(LineSpan& span) {
   left_out_below_ = left_out_below_ || span.lo < -beyond_;
   span.lo = std::max(span.lo, -beyond_);
   span.hi = std::min(span.hi, beyond_);
-  for (const auto& [known, first, last] : stretches_) {
+  for (const Stretch& stretch : stretches_) {
+    const LineSpan& known = stretch.span;
     if (known.lo <= span.lo && span.lo <= known.hi) span.lo = known.hi;
     if (known.lo <= span.hi && span.hi <= known.hi) span.hi = known.lo;
   }
@@ -174,12 +193,13 @@ void WholeBodyLines::test(const Visit& visit, const Eigen::Vector2d& u) {
   }
   const auto from = member.line.first(corners, u, 1.0, visit.span.hi);
   if (!from) return;
+  const Eigen::Vector3d point = member.line.touchedPoint(u);
   if (!to) {
     LineSpan left{std::max(*from, visit.span.lo), visit.span.hi};
     if (isSettled(left)) return;
     to = endOf({visit.place, left}, corners, u);
   }
-  if (to && *from < *to) add({{*from, *to}, visit.place, visit.place});
+  if (to && *from < *to) add({{*from, *to}, visit.place, visit.place, point});
 }
 
 // Where what is behind the end of the part that is easily known makes no difference, that will do.
@@ -207,6 +227,7 @@ void WholeBodyLines::add(Stretch stretch) {
     if (last->span.lo < stretch.span.lo) {
       stretch.span.lo = last->span.lo;
       stretch.first = last->first;
+      stretch.point = last->point;
     }
     if (last->span.hi > stretch.span.hi) {
       stretch.span.hi = last->span.hi;

@@ -39,6 +39,9 @@ class WholeBodyLines {
   /// No less than what any line { (s, u) } of a column has of collisions, under N(0, 1): certain.
   double mostOn(const Column& column);
 
+  /// No more than what every line of a column has of collisions, under N(0, 1): certain.
+  double leastOn(const Column& column);
+
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
   double massOn(const Eigen::Vector2d& u, const LeftOut& negligible);
 
@@ -69,8 +72,9 @@ class WholeBodyLines {
   /// A part of the line on which surfaces touch.
   struct Stretch {
     LineSpan span;
-    Place first;  ///< what begins it
-    Place last;   ///< what ends it
+    Place first;            ///< what begins it
+    Place last;             ///< what ends it
+    Eigen::Vector3d point;  ///< of the triangle that begins it, where it is touched first
   };
 
   void begin(const Column& column);
