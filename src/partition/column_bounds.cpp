@@ -12,7 +12,7 @@ namespace {
 // Columns of the first look and of the last one; there are twice as many at every look. Measured on
 // robot parts beside an arm.
 constexpr std::size_t kFirstColumns = 16;
-constexpr std::size_t kMostColumns = 128;
+constexpr std::size_t kMostColumns = 32;
 
 // Of the width of the interval: a threshold that is farther from both of its ends is left to
 // others.

@@ -220,13 +220,13 @@ bool decideByColumns(const PartitionObject& a, const PartitionObject& b,
   if (!lines) return false;
   const ColumnBounds columns = columnBounds(*lines, *request.threshold);
   known = columns.bounds;
-  result.statistics.cells = columns.columns;
   result.lower = known.lower;
   result.upper = known.upper;
   decide(request, result);
   if (result.decision == Decision::undecided) return false;
   result.method = ProbabilityMethod::interval;
   result.status = ProbabilityStatus::decided;
+  result.statistics.cells = columns.columns;
   result.plan.push_back("decided by bounds on " + std::to_string(columns.columns) +
                         " columns, against convex meshes taken whole; cells left out");
   return true;
