@@ -12,11 +12,11 @@ namespace {
 // Columns of the first look and of the last one; there are twice as many at every look. Measured on
 // robot parts beside an arm.
 constexpr std::size_t kFirstColumns = 16;
-constexpr std::size_t kMostColumns = 32;
+constexpr std::size_t kMostColumns = 64;
 
 // Of the width of the interval: a threshold that is farther from both of its ends is left to
 // others.
-constexpr double kNearEnd = 0.35;
+constexpr double kNearEnd = 0.25;
 
 // Of its gap, what a column leaves to each of its halves.
 constexpr double kGapOfHalf = 0.35;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -93,9 +92,7 @@ FanLine::FanLine(const WhitenedFan& fan)
     neighbours_[next[g]++] = f;
   }
   chooseClippingFaces();
-  NodeEnds unknown;
-  unknown.box.lo[0] = std::numeric_limits<double>::quiet_NaN();
-  nodes_.assign(fan.mesh().boxes.size(), unknown);
+  looked_at_.assign(fan.mesh().boxes.size(), -1);
 }
 
 // Those of directions as different as possible.
@@ -119,8 +116,9 @@ void FanLine::chooseClippingFaces() {
 // In P ⊕ box: n·y <= offset + n·middle + |n|·half, which is where a line ends that goes along the
 // first axis, divided by n_0; what is rounded moves it outwards.
 const FanLine::NodeEnds& FanLine::endsOf(int node) {
-  NodeEnds& known = nodes_[node];
-  if (!std::isnan(known.box.lo[0])) return known;
+  if (looked_at_[node] >= 0) return ends_[looked_at_[node]];
+  looked_at_[node] = static_cast<int>(ends_.size());
+  NodeEnds& known = ends_.emplace_back();
   const NodeBox box = fan_.cornerBox(node);
   const Eigen::Map<const Eigen::Vector3d> lo(box.lo), hi(box.hi);
   const Eigen::Vector3d middle = 0.5 * (lo + hi);

@@ -61,7 +61,7 @@ class FanLine {
   using OfClippingFaces = std::array<double, kClippingFaces>;
 
   /// P ⊕ a node's box: its own box, and where it ends by the clipping faces on the line through the
-  /// origin. NaN: not looked at so far.
+  /// origin.
   struct NodeEnds {
     NodeBox box;
     OfClippingFaces ends;
@@ -87,7 +87,8 @@ class FanLine {
   std::vector<int> clipping_;           ///< by rising first coordinate, far from 0
   std::size_t clipping_below_ = 0;      ///< so many of them are below P
   double rounding_;
-  std::vector<NodeEnds> nodes_;
+  std::vector<int> looked_at_;  ///< of all nodes, where among the ends they are; -1: not yet
+  std::vector<NodeEnds> ends_;
   Column column_;
   OfClippingFaces shifts_{};  ///< of the ends, in the column
   int highest_ = 0;           ///< that was found last

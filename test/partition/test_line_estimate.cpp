@@ -103,6 +103,7 @@ TriangleMesh cornerMesh() {
 TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]") {
   RandomBodies random(1);
   int met = 0;
+  int covered = 0;
   for (int scene = 0; scene < 10; ++scene) {
     const TriangleMesh body = fcl_prob_test::transformed(
         hullMesh(random.onSphere(random.integer(4, 200), random.uniform(0.2, 0.6))),
@@ -121,11 +122,15 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       CHECK(std::fabs(mass - massByPoints(*tester, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
       const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
       CHECK(lines->mostOn({u - width, u + width}) >= mass);
+      const double least = lines->leastOn({u - 0.2 * width, u + 0.2 * width});
+      CHECK(least <= mass);
+      covered += least > 0.0;
       CHECK(std::fabs(lines->massOn(u, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
       met += mass > 0.0;
     }
   }
   CHECK(met > 100);
+  CHECK(covered > 50);
 }
 
 TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][slow]") {
@@ -155,11 +160,38 @@ TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][sl
   }
 }
 
+TEST_CASE("bounds by columns hold, and decide what is clear", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
+  RandomBodies random(6);
+  int by_columns = 0;
+  for (int scene = 0; scene < 12; ++scene) {
+    PartitionQuery query(hullMesh(random.onSphere(random.integer(10, 200), 0.5)),
+                         bumpyMesh(0.7, 12, 16, static_cast<std::uint64_t>(scene)));
+    query.pose_a.linear() = random.rotation();
+    query.pose_a.translation() = random.uniform(1.0, 1.6) * random.direction();
+    if (scene % 2 == 0) query.makeSolid();
+    const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(5e-3));
+    for (const double factor : {0.1, 0.3, 0.6, 1.6, 3.0}) {
+      ProbabilityRequest request = fcl_prob_test::intervalRequest(1e-9);
+      request.threshold = std::min(0.999, factor * truth.probability());
+      const ProbabilityResult result = query.run(displacement, request);
+      CAPTURE(scene, factor, truth.probability(), *result.lower, *result.upper);
+      CHECK(*result.lower <= *truth.upper);
+      CHECK(*result.upper >= *truth.lower);
+      CHECK(result.decision == (*request.threshold > truth.probability()
+                                    ? fcl_prob::Decision::below
+                                    : fcl_prob::Decision::above));
+      by_columns += fcl_prob_test::planMentions(result, "columns");
+    }
+  }
+  CHECK(by_columns > 12);
+}
+
 TEST_CASE("an obstacle along the lines is not missed", "[lines]") {
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.2, 0.2, 0.2});
   RandomBodies random(3);
   PartitionQuery query(hullMesh(random.onSphere(60, 0.3)), cornerMesh());
-  const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(1e-3));
+  const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(3e-3));
   for (int seed = 1; seed <= 20; ++seed) {
     const ProbabilityResult result = query.run(displacement, estimateRequest(0.01, seed));
     CHECK(isByLines(result));
