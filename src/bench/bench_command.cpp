@@ -88,6 +88,8 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
   command.add_option(
       "--only", arguments->options.only,
       "Only scenes whose name contains this; table2: also of a scene, a comma and a row");
+  command.add_option("--task", arguments->options.task,
+                     "parts: only tasks whose name contains this (estimate, decision, ...)");
   command.add_option("--seed", arguments->options.seed, "Fixes all samples")
       ->check(CLI::NonNegativeNumber);
   command

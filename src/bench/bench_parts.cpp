@@ -81,7 +81,11 @@ class PartsTable {
       if (loop.estimate() < kLeastProbability) continue;
       std::size_t row = 0;
       for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
-        for (const BenchTask& task : tasks()) addTask(part, scene, contact, task, loop, row++);
+        for (const BenchTask& task : tasks()) {
+          const std::size_t of_task = row++;
+          if (task.name.find(options_.task) == std::string::npos) continue;
+          addTask(part, scene, contact, task, loop, of_task);
+        }
       }
       ++scenes_;
       return;

@@ -16,16 +16,6 @@ constexpr double kSqrt2 = 1.41421356237309504880;
 // Boost would compute in long double, at three times the cost.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-// The point of [lo, hi] below which lies the share `u` of the interval's normal mass.
-double truncatedNormal(double lo, double hi, double u) {
-  if (lo + hi > 0) return -truncatedNormal(-hi, -lo, 1.0 - u);
-  // On the side of the lower tail: Φ(y) = Φ(lo) + u (Φ(hi) - Φ(lo)).
-  const double mass = normalTailMass(-lo) + u * normalIntervalMass(lo, hi);
-  if (!(mass > 0.0)) return hi;
-  const double y = -kSqrt2 * boost::math::erfc_inv(2.0 * std::min(mass, 0.999999), InDouble());
-  return std::clamp(y, lo, hi);
-}
-
 // The axis along which the plane of a cell is steepest; -1 without a plane.
 int steepestAxis(const OpenCell& open) {
   if (!open.hasPlane()) return -1;
@@ -37,6 +27,15 @@ int steepestAxis(const OpenCell& open) {
 }
 
 }  // namespace
+
+double truncatedNormal(double lo, double hi, double u) {
+  if (lo + hi > 0) return -truncatedNormal(-hi, -lo, 1.0 - u);
+  // On the side of the lower tail: Φ(y) = Φ(lo) + u (Φ(hi) - Φ(lo)).
+  const double mass = normalTailMass(-lo) + u * normalIntervalMass(lo, hi);
+  if (!(mass > 0.0)) return hi;
+  const double y = -kSqrt2 * boost::math::erfc_inv(2.0 * std::min(mass, 0.999999), InDouble());
+  return std::clamp(y, lo, hi);
+}
 
 CellDraw drawFrom(const OpenCell& open, const Eigen::Vector3d& uniform) {
   const Cell& cell = open.cell;

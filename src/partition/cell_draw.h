@@ -19,6 +19,9 @@ struct CellDraw {
 /// counts is not left out. \param uniform  in the open unit cube
 CellDraw drawFrom(const OpenCell& open, const Eigen::Vector3d& uniform);
 
+/// The point of [lo, hi] below which lies the share `u` of the interval's normal mass.
+double truncatedNormal(double lo, double hi, double u);
+
 /// No draw of the cell has a larger weight.
 double largestWeight(const OpenCell& open);
 

@@ -73,17 +73,16 @@ SampledVariance average(const SampledVariance& a, double share_a, const SampledV
           square_a * share_a * a.jumps + square_b * share_b * b.jumps};
 }
 
-// Adds a cell's mean of so many sets with this sum of squares.
-void addCell(double sum_squares, int sets, double jump, SampledVariance& total) {
+}  // namespace
+
+void addSets(double sum_squares, int sets, double freedom, double jump, SampledVariance& total) {
   const double of_mean = sum_squares / (sets * (sets - 1.0));
   total.variance += of_mean;
-  total.uncertainty += of_mean * of_mean / (sets - 1.0);
+  total.uncertainty += of_mean * of_mean / freedom;
   const double likely = of_mean + kUnseenHits * jump * jump;
   total.weight += likely;
   total.jumps += likely * jump;
 }
-
-}  // namespace
 
 double SampledVariance::standardError() const {
   if (!(weight > 0.0)) return 0.0;
@@ -177,11 +176,11 @@ void CellSampler::add(const CellMeans& means, const OpenCell& cell, const Sample
   const double jump = std::min(std::max(means.largest_weight, cell.drawn / unit_ / in_set) / sets,
                                cell.gap() / unit_);
   total.mass += unit_ * means.mass;
-  addCell(means.mass_spread, sets, jump, total.spread);
+  addSets(means.mass_spread, sets, sets - 1.0, jump, total.spread);
   total.doubt += unit_ * means.doubt;
   total.moment += unit_ * means.moment;
   for (int k = 0; k < 3; ++k) {
-    addCell(means.moment_spread[k], sets, jump * reach[k],
+    addSets(means.moment_spread[k], sets, sets - 1.0, jump * reach[k],
             total.moment_spread[static_cast<std::size_t>(k)]);
   }
   total.moment_doubt += unit_ * means.doubt * reach;

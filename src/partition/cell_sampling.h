@@ -29,6 +29,11 @@ struct SampledVariance {
   double standardError() const;
 };
 
+/// Adds a mean of so many sets, the squares of whose differences from it have this sum.
+/// \param freedom  its degrees, by which the variance is known
+/// \param jump     what one sample of another kind would have changed
+void addSets(double sum_squares, int sets, double freedom, double jump, SampledVariance& total);
+
 struct SampledMass {
   double mass = 0.0;
   SampledVariance spread;

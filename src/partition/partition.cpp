@@ -13,10 +13,12 @@
 #include "base/decision.h"
 #include "base/number_text.h"
 #include "carving/carved_partition.h"
+#include "carving/column_bounds.h"
 #include "cells/claim_observer.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
 #include "partition/cell_sampling.h"
+#include "partition/line_estimate.h"
 #include "partition/partition_engine.h"
 #include "partition/query_frame.h"
 #include "partition/without_contact.h"
@@ -176,6 +178,54 @@ bool carveInTime(const PartitionObject& a, const PartitionObject& b,
   return reached;
 }
 
+// The estimate by lines, where an object can be taken whole and nothing but P is asked for.
+bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
+                     const GaussianDisplacement& displacement, const QueryFrame& frame,
+                     const SolidContact* solids, const ProbabilityRequest& request,
+                     ProbabilityResult& result) {
+  if (request.gradient || request.threshold) return false;
+  const auto lines =
+      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+  if (!lines) return false;
+  const EngineLimits limits(request, result.statistics);
+  const auto estimate = lineEstimate(
+      *lines, request, [&limits](const Bounds& now) { return limits.interruption(now); });
+  if (!estimate) return false;
+  result.status = estimate->status;
+  result.estimate = estimate->value;
+  result.standard_error = estimate->standard_error;
+  result.lower = 0.0;
+  result.upper = estimate->upper;
+  result.statistics.cells = estimate->columns;
+  result.statistics.samples = estimate->lines;
+  result.plan.push_back("mean over " + std::to_string(estimate->lines) + " parallel lines in " +
+                        std::to_string(estimate->columns) +
+                        " columns, against convex meshes taken whole; cells left out");
+  return true;
+}
+
+// Whether columns decide, where an object can be taken whole. The interval is that of all so far.
+bool decideByColumns(const PartitionObject& a, const PartitionObject& b,
+                     const GaussianDisplacement& displacement, const QueryFrame& frame,
+                     const SolidContact* solids, const ProbabilityRequest& request, Bounds& known,
+                     ProbabilityResult& result) {
+  const auto lines =
+      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+  if (!lines) return false;
+  const ColumnBounds columns = columnBounds(*lines, *request.threshold);
+  known = columns.bounds;
+  result.lower = known.lower;
+  result.upper = known.upper;
+  result.decision = decisionOf(known, request);
+  if (result.decision == Decision::undecided) return false;
+  result.method = ProbabilityMethod::interval;
+  result.status = ProbabilityStatus::decided;
+  result.statistics.cells = columns.columns;
+  result.plan.push_back("decided by bounds on " + std::to_string(columns.columns) +
+                        " columns, against convex meshes taken whole; cells left out");
+  return true;
+}
+
 // A decision is left to polytope cells when it needs more boxes than these. Measured on links
 // beside an arm (`bench states`): 12, 32, 128 and 256 are slower.
 constexpr std::size_t kBoxesBeforeCarving = 64;
@@ -215,6 +265,16 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const bool estimate = request.method == ProbabilityMethod::estimate;
   result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
   if (request.time_limit) request.time_limit = clock.leftOf(*request.time_limit);
+  if (estimate && !ball &&
+      estimateByLines(a, b, displacement, frame, solids.get(), request, result)) {
+    clock.finish("lines");
+    return result;
+  }
+  if (may_be_carved &&
+      decideByColumns(a, b, displacement, frame, solids.get(), request, known, result)) {
+    clock.finish("columns");
+    return result;
+  }
   if (may_be_carved) request.max_cells = std::min(request.max_cells, kBoxesBeforeCarving);
   PartitionEngine engine({frame.pair, frame.whitening.rank(), solids.get(), ball, request.gradient},
                          request, result.statistics);
@@ -230,7 +290,8 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   clock.finish("partition");
   if (result.status == ProbabilityStatus::cell_limit &&
       request.max_cells < whole_request.max_cells) {
-    known = engine.interval();
+    const Bounds of_boxes = engine.interval();
+    known = {std::max(known.lower, of_boxes.lower), std::min(known.upper, of_boxes.upper)};
     if (carved()) return result;
     if (claim_observer) claim_observer->frame(frame.whitening, displacement);
     request.max_cells = whole_request.max_cells;

@@ -45,6 +45,9 @@ class WhitenedFan {
   /// Certainly not below n·y on P.
   double support(const Eigen::Vector3d& n) const;
 
+  /// Pairs of faces: all neighbours, perhaps others.
+  const std::vector<std::pair<int, int>>& arcs() const { return arcs_; }
+
   /// Around P.
   const NodeBox& box() const { return box_; }
 
@@ -80,8 +83,6 @@ class WhitenedFan {
 
  protected:
   const std::vector<Eigen::Vector3d>& normals() const { return normals_; }
-  const std::vector<std::pair<int, int>>& arcs() const { return arcs_; }
-
   /// Margins are this share of P's offset.
   double share() const { return share_; }
 

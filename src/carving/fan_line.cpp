@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "carving/fan_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/constants.h"
+#include "cobstacle/slab_kernels.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Faces that are nearly along the lines tell little of places on them.
+constexpr double kLeastSlope = 1e-3;
+
+constexpr double kLikeness = 0.99;
+
+// Planes that the search for a contact begins with, if they tell most.
+constexpr std::size_t kRememberedFaces = 6;
+
+// Of the reach: what the points within triangles and the heights of others above planes are rounded
+// by, with much to spare.
+constexpr double kInnerRounding = 4096 * kEpsilon;
+
+// Planes exchanged for one triangle: more than that is the doing of rounding.
+constexpr int kMostExchanges = 64;
+
+// Of the size of P or T: what is outside by no more is taken to be on the boundary.
+constexpr double kOutside = 1e-11;
+
+/// Three planes g·z = h in the space of z = (t, α, β), by the inverse of the matrix of their g.
+struct Vertex {
+  Eigen::Matrix3d inverse;
+  Eigen::Vector3d h;
+
+  Eigen::Vector3d place() const { return inverse * h; }
+
+  /// Takes in the half-space g·z <= h, which the place is outside of, for that of the three without
+  /// which t stays as small as can be (dual simplex: the first row of the inverse has the
+  /// multipliers, turned over). False: no place is within all four.
+  bool exchange(const Eigen::RowVector3d& g, double bound) {
+    const Eigen::RowVector3d share = g * inverse;
+    int leaving = -1;
+    double least = kInfinity;
+    for (int i = 0; i < 3; ++i) {
+      if (!(share[i] > 0.0)) continue;
+      const double ratio = std::max(-inverse(0, i), 0.0) / share[i];
+      if (ratio < least) {
+        least = ratio;
+        leaving = i;
+      }
+    }
+    if (leaving < 0) return false;
+    const Eigen::Vector3d column = inverse.col(leaving) / share[leaving];
+    for (int i = 0; i < 3; ++i) {
+      if (i != leaving) inverse.col(i) -= share[i] * column;
+    }
+    inverse.col(leaving) = column;
+    h[leaving] = bound;
+    return true;
+  }
+};
+
+}  // namespace
+
+FanLine::FanLine(const WhitenedFan& fan)
+    : fan_(fan), rounding_(1e-13 * fan.reach()), touched_(Eigen::Vector3d::Zero()) {
+  const auto count = static_cast<std::size_t>(fan.faceCount());
+  int lowest = 0, highest = 0;
+  faces_.reserve(count);
+  for (int f = 0; f < fan.faceCount(); ++f) {
+    faces_.emplace_back(fan.faceNormal(f) / fan.faceOffset(f));
+    const double x = fan.faceNormal(f).x();
+    if (x < fan.faceNormal(lowest).x()) lowest = f;
+    if (x > fan.faceNormal(highest).x()) highest = f;
+  }
+  starts_[0].faces = {lowest};
+  starts_[1].faces = {highest};
+  neighbours_begin_.assign(count + 1, 0);
+  for (const auto& [f, g] : fan.arcs()) {
+    ++neighbours_begin_[f + 1];
+    ++neighbours_begin_[g + 1];
+  }
+  std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
+  std::vector<int> next = neighbours_begin_;
+  neighbours_.resize(2 * fan.arcs().size());
+  for (const auto& [f, g] : fan.arcs()) {
+    neighbours_[next[f]++] = g;
+    neighbours_[next[g]++] = f;
+  }
+  chooseClippingFaces();
+  looked_at_.assign(fan.mesh().boxes.size(), -1);
+}
+
+// Those of directions as different as possible.
+void FanLine::chooseClippingFaces() {
+  std::vector<double> closeness(faces_.size(), -2.0);
+  int next = starts_[0].faces[0];
+  for (std::size_t k = 0; k < kClippingFaces && closeness[next] < kLikeness; ++k) {
+    const Eigen::Vector3d n = fan_.faceNormal(next);
+    if (std::fabs(n.x()) > kLeastSlope) clipping_.push_back(next);
+    for (int f = 0; f < fan_.faceCount(); ++f) {
+      closeness[f] = std::max(closeness[f], n.dot(fan_.faceNormal(f)));
+      if (closeness[f] < closeness[next]) next = f;
+    }
+  }
+  const auto x = [this](int face) { return fan_.faceNormal(face).x(); };
+  std::sort(clipping_.begin(), clipping_.end(), [x](int f, int g) { return x(f) < x(g); });
+  clipping_below_ = static_cast<std::size_t>(
+      std::count_if(clipping_.begin(), clipping_.end(), [x](int f) { return x(f) < 0.0; }));
+}
+
+// In P ⊕ box: n·y <= offset + n·middle + |n|·half, which is where a line ends that goes along the
+// first axis, divided by n_0; what is rounded moves it outwards.
+const FanLine::NodeEnds& FanLine::endsOf(int node) {
+  if (looked_at_[node] >= 0) return ends_[looked_at_[node]];
+  looked_at_[node] = static_cast<int>(ends_.size());
+  NodeEnds& known = ends_.emplace_back();
+  const NodeBox box = fan_.cornerBox(node);
+  const Eigen::Map<const Eigen::Vector3d> lo(box.lo), hi(box.hi);
+  const Eigen::Vector3d middle = 0.5 * (lo + hi);
+  const Eigen::Vector3d half = 0.5 * (hi - lo) + fan_.pad();
+  known.box = fan_.obstacleBox(node);
+  for (std::size_t k = 0; k < clipping_.size(); ++k) {
+    const Eigen::Vector3d& n = fan_.faceNormal(clipping_[k]);
+    const double level = fan_.faceOffset(clipping_[k]) + n.dot(middle) + n.cwiseAbs().dot(half);
+    known.ends[k] = (level + rounding_) / n.x();
+  }
+  return known;
+}
+
+void FanLine::lookAt(const Column& column) {
+  column_ = column;
+  const Eigen::Vector2d middle = 0.5 * (column.lo + column.hi);
+  const Eigen::Vector2d half = 0.5 * (column.hi - column.lo);
+  for (std::size_t k = 0; k < clipping_.size(); ++k) {
+    const Eigen::Vector3d& n = fan_.faceNormal(clipping_[k]);
+    const double least = n.tail<2>().dot(middle) - n.tail<2>().cwiseAbs().dot(half);
+    shifts_[k] = (least - rounding_) / n.x();
+  }
+}
+
+std::optional<LineSpan> FanLine::around(int node) {
+  const NodeEnds& known = endsOf(node);
+  const NodeBox& box = known.box;
+  if (column_.lo[0] > box.hi[1] || column_.hi[0] < box.lo[1] || column_.lo[1] > box.hi[2] ||
+      column_.hi[1] < box.lo[2]) {
+    return std::nullopt;
+  }
+  LineSpan span{box.lo[0], box.hi[0]};
+  for (std::size_t k = 0; k < clipping_below_; ++k) {
+    span.lo = std::max(span.lo, known.ends[k] - shifts_[k]);
+  }
+  for (std::size_t k = clipping_below_; k < clipping_.size(); ++k) {
+    span.hi = std::min(span.hi, known.ends[k] - shifts_[k]);
+  }
+  if (!(span.lo <= span.hi)) return std::nullopt;
+  return span;
+}
+
+// P put to a point has the y with n·(y - point) <= offset; what is below all faces by their margins
+// is certainly within (see FanContact).
+std::optional<LineSpan> FanLine::within(const Eigen::Vector3d& point) const {
+  const Eigen::Vector2d middle = 0.5 * (column_.lo + column_.hi);
+  const Eigen::Vector2d half = 0.5 * (column_.hi - column_.lo);
+  const Eigen::Vector3d from = Eigen::Vector3d(0.0, middle[0], middle[1]) - point;
+  LineSpan span{-kReach, kReach};
+  for (int f = 0; f < fan_.faceCount(); ++f) {
+    const Eigen::Vector3d& n = fan_.faceNormal(f);
+    const double inner = fan_.faceMargin(f) - fan_.facePad(f) + kInnerRounding * fan_.reach();
+    const double left = fan_.faceOffset(f) - inner - n.dot(from) - n.tail<2>().cwiseAbs().dot(half);
+    if (n.x() > 0.0) {
+      span.hi = std::min(span.hi, left / n.x());
+    } else if (n.x() < 0.0) {
+      span.lo = std::max(span.lo, left / n.x());
+    } else if (left < 0.0) {
+      return std::nullopt;
+    }
+  }
+  span.lo += 8 * kEpsilon * std::fabs(span.lo);
+  span.hi -= 8 * kEpsilon * std::fabs(span.hi);
+  if (!(span.lo < span.hi)) return std::nullopt;
+  return span;
+}
+
+// The d are the corners of the polar polytope, and neighbours share an edge of that: from any of
+// them one climbs to the one that is farthest in a direction.
+int FanLine::highestFace(const Eigen::Vector3d& point) {
+  double height = faces_[highest_].dot(point);
+  for (bool climbs = true; climbs;) {
+    climbs = false;
+    const int from = highest_;
+    for (int k = neighbours_begin_[from]; k < neighbours_begin_[from + 1]; ++k) {
+      const double other = faces_[neighbours_[k]].dot(point);
+      if (!(other > height)) continue;
+      height = other;
+      highest_ = neighbours_[k];
+      climbs = true;
+    }
+  }
+  return highest_;
+}
+
+// The one that alone tells most: the largest of its least sign·s over T.
+int FanLine::startFor(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign) const {
+  int best = -1;
+  double most = -kInfinity;
+  for (const int face : starts_[sign > 0 ? 0 : 1].faces) {
+    const Eigen::Vector3d& d = faces_[face];
+    const double extent =
+        std::max({d.dot(corners.col(0)), d.dot(corners.col(1)), d.dot(corners.col(2))});
+    const double least = (1.0 + extent - d.y() * u[0] - d.z() * u[1]) / (sign * d.x());
+    if (!(least > most)) continue;
+    most = least;
+    best = face;
+  }
+  return best;
+}
+
+void FanLine::remember(int face, double sign) {
+  if (!(sign * fan_.faceNormal(face).x() < -kLeastSlope)) return;
+  Starts& starts = starts_[sign > 0 ? 0 : 1];
+  if (std::find(starts.faces.begin(), starts.faces.end(), face) != starts.faces.end()) return;
+  if (starts.faces.size() <= kRememberedFaces) {
+    starts.faces.push_back(face);
+    return;
+  }
+  starts.faces[starts.oldest] = face;
+  starts.oldest = starts.oldest % kRememberedFaces + 1;
+}
+
+// With z = (sign·s, α, β) and T's points c + α p + β q: every face of P asks for
+// n·((s, u) - c - α p - β q) <= offset, and T for α >= 0, β >= 0, α + β <= 1. One face alone has
+// the least t at a corner of T, where it is bounded by two edges of T besides: that is where the
+// search begins, and from then on t only grows.
+std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u,
+                                     double sign, double limit) {
+  const int start = startFor(corners, u, sign);
+  if (start < 0) return std::nullopt;
+  const Eigen::Vector3d n = faces_[start];
+  const double slope = sign * n.x();
+  if (!(slope < 0.0)) return std::nullopt;
+  int corner = 0;
+  (n.transpose() * corners).maxCoeff(&corner);
+  const Eigen::Vector3d c = corners.col(corner);
+  const Eigen::Vector3d p = corners.col((corner + 1) % 3) - c;
+  const Eigen::Vector3d q = corners.col((corner + 2) % 3) - c;
+  const Eigen::Vector3d base = Eigen::Vector3d(0.0, u[0], u[1]) - c;
+  Vertex vertex;
+  vertex.inverse << 1.0 / slope, -n.dot(p) / slope, -n.dot(q) / slope,  //
+      0.0, -1.0, 0.0,                                                   //
+      0.0, 0.0, -1.0;
+  vertex.h << 1.0 - n.dot(base), 0.0, 0.0;
+  for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
+    const Eigen::Vector3d z = vertex.place();
+    if (z[0] > limit) return std::nullopt;
+    const double alpha = std::clamp(z[1], 0.0, 1.0);
+    touched_ = base - alpha * p - std::clamp(z[2], 0.0, 1.0 - alpha) * q;
+    const double edges[] = {-z[1], -z[2], z[1] + z[2] - 1.0};
+    const auto edge = std::max_element(edges, edges + 3) - edges;
+    Eigen::RowVector3d g;
+    double bound = edge == 2 ? 1.0 : 0.0;
+    if (edges[edge] > kOutside) {
+      g << (edge == 0   ? Eigen::RowVector3d(0, -1, 0)
+            : edge == 1 ? Eigen::RowVector3d(0, 0, -1)
+                        : Eigen::RowVector3d(0, 1, 1));
+    } else {
+      const Eigen::Vector3d y = base - z[1] * p - z[2] * q + Eigen::Vector3d(sign * z[0], 0, 0);
+      const int face = highestFace(y);
+      const Eigen::Vector3d& d = faces_[face];
+      if (!(d.dot(y) > 1.0 + kOutside)) return z[0];
+      remember(face, sign);
+      g << sign * d.x(), -d.dot(p), -d.dot(q);
+      bound = 1.0 - d.dot(base);
+    }
+    if (!vertex.exchange(g, bound)) return std::nullopt;
+  }
+  return vertex.place()[0];
+}
+
+double FanLine::endBehindFirst() const {
+  double end = kInfinity;
+  for (const Eigen::Vector3d& d : faces_) {
+    if (d.x() > 0.0) end = std::min(end, (1.0 - d.dot(touched_)) / d.x());
+  }
+  return end;
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "carving/whole_body_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/constants.h"
+#include "cobstacle/slab_kernels.h"
+#include "fcl_prob/normal_mass.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// Of a bound on a column: what rounding may take from it.
+constexpr double kRounded = 1e-12;
+
+// Of a line that only tells where contact is.
+constexpr LeftOut kRoughly{0.1, 1e-6};
+
+// Nodes that are smaller than this share of a column tell no more of it by being opened.
+constexpr double kFineEnough = 0.5;
+
+// Directions in which the width of a member is measured, to both sides.
+constexpr int kWidths = 8;
+constexpr double kPi = 3.14159265358979323846;
+
+// Tails beyond this distance have at most this mass: Φ(-d) <= exp(-d²/2) / 2.
+double distanceOfTail(double mass) {
+  return std::sqrt(std::max(0.0, -2.0 * std::log(std::max(2.0 * mass, 1e-300))));
+}
+
+double nearness(const LineSpan& span) { return std::max({span.lo, -span.hi, 0.0}); }
+
+}  // namespace
+
+std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const WhitenedPair& pair,
+                                                   const PartitionObject& a,
+                                                   const PartitionObject& b,
+                                                   const GaussianDisplacement& displacement,
+                                                   const Eigen::Matrix3d& matrix,
+                                                   const SolidContact* solids) {
+  const auto whole = wholeBodyOf(a, b, displacement, Convexity::exact);
+  if (!whole || pair.band) return nullptr;
+  auto lines = std::make_unique<WholeBodyLines>();
+  lines->solids_ = solids;
+  for (std::size_t i = 0; i < whole->body.parts.size(); ++i) {
+    const PieceTree::Part& part = whole->body.tree->parts[i];
+    WhitenedFan fan(pair, part, *part.fan, whole->body_is_a,
+                    matrix * whole->body.parts[i].pose.linear());
+    if (!fan.usable() || mayHoldPart(*whole, i, fan)) return nullptr;
+    lines->members_.emplace_back(std::move(fan));
+  }
+  return lines;
+}
+
+void WholeBodyLines::begin(const Column& column) {
+  stack_.clear();
+  for (Member& member : members_) {
+    member.line.lookAt(column);
+    if (const auto span = member.line.around(0)) stack_.push_back({{&member, 0}, *span});
+  }
+}
+
+// The node that may be nearer to the lines' middle comes first.
+void WholeBodyLines::pushChildren(const Visit& visit) {
+  Member* const member = visit.place.member;
+  const PieceTree::Node& node = member->fan.mesh().tree->nodes[visit.place.node];
+  const Place left{member, node.left}, right{member, node.right};
+  const auto of_left = member->line.around(left.node);
+  const auto of_right = member->line.around(right.node);
+  const bool left_first = of_left && of_right && nearness(*of_left) < nearness(*of_right);
+  if (of_left && !left_first) stack_.push_back({left, *of_left});
+  if (of_right) stack_.push_back({right, *of_right});
+  if (of_left && left_first) stack_.push_back({left, *of_left});
+}
+
+// The least sign·s of what a column may meet.
+double WholeBodyLines::extremeOf(const Column& column, double sign) {
+  const auto extreme = [sign](const LineSpan& span) { return sign > 0 ? span.lo : -span.hi; };
+  const Eigen::Vector2d fine = kFineEnough * (column.hi - column.lo);
+  begin(column);
+  double least = kInfinity;
+  while (!stack_.empty()) {
+    const Visit visit = stack_.back();
+    stack_.pop_back();
+    if (!(extreme(visit.span) < least)) continue;
+    const WhitenedTree& mesh = visit.place.member->fan.mesh();
+    const NodeBox& box = mesh.boxes[visit.place.node];
+    const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
+    if (is_fine || mesh.tree->nodes[visit.place.node].isLeaf()) {
+      least = extreme(visit.span);
+    } else {
+      pushChildren(visit);
+    }
+  }
+  return least;
+}
+
+double WholeBodyLines::mostOn(const Column& column) {
+  const double from = extremeOf(column, 1.0);
+  double most = normalTailMass(from);
+  if (from < 0.0) most = std::min(most, normalTailMass(extremeOf(column, -1.0)));
+  return std::min(1.0, most * (1.0 + kRounded));
+}
+
+// What the line in the middle meets first tells where to put the member.
+double WholeBodyLines::leastOn(const Column& column) {
+  if ((column.hi - column.lo).maxCoeff() > kReach) return 0.0;
+  massOn(0.5 * (column.lo + column.hi), kRoughly);
+  double least = 0.0;
+  for (const Stretch& stretch : stretches_) {
+    FanLine& line = stretch.first.member->line;
+    line.lookAt(column);
+    const auto span = line.within(stretch.point);
+    if (span) least = std::max(least, normalIntervalMass(span->lo, span->hi));
+  }
+  return least * (1.0 - kRounded);
+}
+
+void WholeBodyLines::beginLine(const LeftOut& negligible) {
+  known_.clear();
+  for (const Stretch& stretch : stretches_) {
+    known_.push_back(stretch.first);
+    known_.push_back(stretch.last);
+  }
+  stretches_.clear();
+  mass_ = 0.0;
+  negligible_ = negligible;
+  beyond_ = distanceOfTail(negligible.mass);
+  left_out_below_ = left_out_above_ = false;
+}
+
+// Most of a line is like the last one.
+void WholeBodyLines::testKnown(const Eigen::Vector2d& u) {
+  for (const Place& place : known_) {
+    const auto span = place.member->line.around(place.node);
+    if (!span) continue;
+    Visit visit{place, *span};
+    if (!isSettled(visit.span)) test(visit, u);
+  }
+}
+
+double WholeBodyLines::massOn(const Eigen::Vector2d& u, const LeftOut& negligible) {
+  beginLine(negligible);
+  begin({u, u});
+  testKnown(u);
+  while (!stack_.empty()) {
+    Visit visit = stack_.back();
+    stack_.pop_back();
+    if (isSettled(visit.span)) continue;
+    if (visit.place.member->fan.mesh().tree->nodes[visit.place.node].isLeaf()) {
+      test(visit, u);
+    } else {
+      pushChildren(visit);
+    }
+  }
+  if (solids_) joinContained(u);
+  return mass_;
+}
+
+// Whether all of it is within known stretches or negligible; otherwise its ends are moved out of
+// those.
+bool WholeBodyLines::isSettled(LineSpan& span) {
+  left_out_above_ = left_out_above_ || span.hi > beyond_;
+  left_out_below_ = left_out_below_ || span.lo < -beyond_;
+  span.lo = std::max(span.lo, -beyond_);
+  span.hi = std::min(span.hi, beyond_);
+  for (const Stretch& stretch : stretches_) {
+    const LineSpan& known = stretch.span;
+    if (known.lo <= span.lo && span.lo <= known.hi) span.lo = known.hi;
+    if (known.lo <= span.hi && span.hi <= known.hi) span.hi = known.lo;
+  }
+  return !(span.lo < span.hi);
+}
+
+bool WholeBodyLines::endsStretch(double s) const {
+  return std::any_of(stretches_.begin(), stretches_.end(),
+                     [s](const Stretch& known) { return known.span.hi == s; });
+}
+
+// Most of what is only open behind a known stretch does not stick out of it: that is asked first.
+void WholeBodyLines::test(const Visit& visit, const Eigen::Vector2d& u) {
+  Member& member = *visit.place.member;
+  const int piece = member.fan.mesh().tree->nodes[visit.place.node].piece;
+  const Eigen::Matrix3d corners = member.fan.corners(piece);
+  std::optional<double> to;
+  if (endsStretch(visit.span.lo)) {
+    const auto last = member.line.first(corners, u, -1.0, -visit.span.lo);
+    if (!last) return;
+    to = -*last;
+  }
+  const auto from = member.line.first(corners, u, 1.0, visit.span.hi);
+  if (!from) return;
+  const Eigen::Vector3d point = member.line.touchedPoint(u);
+  if (!to) {
+    LineSpan left{std::max(*from, visit.span.lo), visit.span.hi};
+    if (isSettled(left)) return;
+    to = endOf({visit.place, left}, corners, u);
+  }
+  if (to && *from < *to) add({{*from, *to}, visit.place, visit.place, point});
+}
+
+// Where what is behind the end of the part that is easily known makes no difference, that will do.
+std::optional<double> WholeBodyLines::endOf(const Visit& visit, const Eigen::Matrix3d& corners,
+                                            const Eigen::Vector2d& u) {
+  FanLine& line = visit.place.member->line;
+  double least = visit.span.lo;
+  const bool sticks_out = endsStretch(least);
+  if (!sticks_out) {
+    least = line.endBehindFirst();
+    if (least >= visit.span.hi) return least;
+  }
+  const auto last = line.first(corners, u, -1.0, -least);
+  if (last) return -*last;
+  return sticks_out ? std::nullopt : std::optional<double>(least);
+}
+
+// United with all that it meets.
+void WholeBodyLines::add(Stretch stretch) {
+  const auto first =
+      std::find_if(stretches_.begin(), stretches_.end(),
+                   [&stretch](const Stretch& known) { return known.span.hi >= stretch.span.lo; });
+  auto last = first;
+  for (; last != stretches_.end() && last->span.lo <= stretch.span.hi; ++last) {
+    if (last->span.lo < stretch.span.lo) {
+      stretch.span.lo = last->span.lo;
+      stretch.first = last->first;
+      stretch.point = last->point;
+    }
+    if (last->span.hi > stretch.span.hi) {
+      stretch.span.hi = last->span.hi;
+      stretch.last = last->last;
+    }
+  }
+  stretches_.insert(stretches_.erase(first, last), stretch);
+  mass_ = 0.0;
+  for (const Stretch& known : stretches_) {
+    mass_ += normalIntervalMass(known.span.lo, known.span.hi);
+  }
+  const double tail = std::max(negligible_.mass, negligible_.share * mass_);
+  beyond_ = std::min(beyond_, distanceOfTail(tail));
+}
+
+// Between two stretches the surfaces do not meet, and one point tells of all. What is before the
+// first and behind the last is joined to where the objects are far apart, unless something was left
+// out there.
+void WholeBodyLines::joinContained(const Eigen::Vector2d& u) {
+  std::vector<LineSpan> gaps;
+  double from = left_out_below_ ? -beyond_ : -kInfinity;
+  for (const Stretch& stretch : stretches_) {
+    gaps.push_back({from, stretch.span.lo});
+    from = stretch.span.hi;
+  }
+  gaps.push_back({from, left_out_above_ ? beyond_ : kInfinity});
+  for (const LineSpan& gap : gaps) {
+    if (!std::isfinite(gap.lo) || !std::isfinite(gap.hi) || !(gap.lo < gap.hi)) continue;
+    const Eigen::Vector3d y(0.5 * (gap.lo + gap.hi), u[0], u[1]);
+    if (solids_->at(y) != Containment::inside) continue;
+    mass_ += normalIntervalMass(gap.lo, gap.hi);
+  }
+  mass_ = std::min(mass_, 1.0);
+}
+
+// The hull of a disc and two points opposite each other has at least the area r·L.
+Silhouette WholeBodyLines::leastSilhouette() const {
+  Silhouette least{kInfinity, kInfinity};
+  for (const Member& member : members_) {
+    double radius = kInfinity, length = 0.0;
+    for (int i = 0; i < kWidths; ++i) {
+      const double angle = kPi * i / kWidths;
+      const Eigen::Vector3d n(0.0, std::cos(angle), std::sin(angle));
+      const double ahead = member.fan.support(n), behind = member.fan.support(-n);
+      radius = std::min({radius, ahead, behind});
+      length = std::max(length, ahead + behind);
+    }
+    least.radius = std::min(least.radius, radius);
+    least.area = std::min(least.area, radius * length);
+  }
+  return least;
+}
+
+}  // namespace fcl_prob::detail

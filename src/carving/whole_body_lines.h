@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Lines through the displacement space against convex meshes, taken whole, and another mesh.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "carving/fan_line.h"
+#include "pieces/containment.h"
+#include "pieces/whole_body.h"
+
+namespace fcl_prob::detail {
+
+/// What may be left out of a line's mass.
+struct LeftOut {
+  double share;  ///< of it
+  double mass;
+};
+
+/// What a convex body covers of a plane, about.
+struct Silhouette {
+  double radius;  ///< of a disc in it
+  double area;    ///< no less
+};
+
+class WholeBodyLines {
+ public:
+  /// Null where no object can be taken whole. Keeps references to the pair and the solids.
+  /// \param matrix  that of the whitening by which the pair was moved
+  /// \param solids  null: surfaces
+  static std::unique_ptr<WholeBodyLines> of(const WhitenedPair& pair, const PartitionObject& a,
+                                            const PartitionObject& b,
+                                            const GaussianDisplacement& displacement,
+                                            const Eigen::Matrix3d& matrix,
+                                            const SolidContact* solids);
+
+  /// No less than what any line { (s, u) } of a column has of collisions, under N(0, 1): certain.
+  double mostOn(const Column& column);
+
+  /// No more than what every line of a column has of collisions, under N(0, 1): certain.
+  double leastOn(const Column& column);
+
+  /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
+  double massOn(const Eigen::Vector2d& u, const LeftOut& negligible);
+
+  /// Of what lines can meet of the smallest member in one place: nothing smaller sticks out of the
+  /// C-obstacle.
+  Silhouette leastSilhouette() const;
+
+ private:
+  struct Member {
+    explicit Member(WhitenedFan whitened) : fan(std::move(whitened)), line(fan) {}
+    Member(const Member&) = delete;
+    Member& operator=(const Member&) = delete;
+
+    WhitenedFan fan;
+    FanLine line;
+  };
+
+  struct Place {
+    Member* member;
+    int node;
+  };
+
+  struct Visit {
+    Place place;
+    LineSpan span;
+  };
+
+  /// A part of the line on which surfaces touch.
+  struct Stretch {
+    LineSpan span;
+    Place first;            ///< what begins it
+    Place last;             ///< what ends it
+    Eigen::Vector3d point;  ///< of the triangle that begins it, where it is touched first
+  };
+
+  void begin(const Column& column);
+  double extremeOf(const Column& column, double sign);
+  void pushChildren(const Visit& visit);
+  bool isSettled(LineSpan& span);
+  void beginLine(const LeftOut& negligible);
+  void testKnown(const Eigen::Vector2d& u);
+  bool endsStretch(double s) const;
+  void test(const Visit& visit, const Eigen::Vector2d& u);
+  std::optional<double> endOf(const Visit& visit, const Eigen::Matrix3d& corners,
+                              const Eigen::Vector2d& u);
+  void add(Stretch stretch);
+  void joinContained(const Eigen::Vector2d& u);
+
+  std::deque<Member> members_;
+  const SolidContact* solids_ = nullptr;
+
+  // Of the line that is looked at.
+  std::vector<Visit> stack_;
+  std::vector<Stretch> stretches_;  ///< in order, none of which meet
+  std::vector<Place> known_;        ///< leaves at the ends of those of the last line
+  double mass_ = 0.0;
+  LeftOut negligible_{0.0, 0.0};
+  double beyond_ = 0.0;          ///< what is farther out is negligible
+  bool left_out_below_ = false;  ///< something was, at that end
+  bool left_out_above_ = false;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Estimates by lines: their lengths against points tested one by one, the estimates against
+// intervals.
+#include <cmath>
+
+#include "carving/whole_body_lines.h"
+#include "carving/whole_body_tester.h"
+#include "catch.h"
+#include "fcl_prob/normal_mass.h"
+#include "partition_query.h"
+#include "random_bodies.h"
+#include "whitened_meshes.h"
+
+namespace {
+
+using fcl_prob::GaussianDisplacement;
+using fcl_prob::normalIntervalMass;
+using fcl_prob::ProbabilityMethod;
+using fcl_prob::ProbabilityRequest;
+using fcl_prob::ProbabilityResult;
+using fcl_prob::TriangleMesh;
+using namespace fcl_prob::detail;
+using fcl_prob_test::boxMesh;
+using fcl_prob_test::bumpyMesh;
+using fcl_prob_test::hullMesh;
+using fcl_prob_test::PartitionQuery;
+using fcl_prob_test::RandomBodies;
+using fcl_prob_test::WhitenedMeshes;
+
+const GaussianDisplacement kUnit(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
+
+template <typename Contacts>
+std::unique_ptr<Contacts> contactsOf(const WhitenedMeshes& meshes) {
+  const PartitionObject a{meshes.tree_a.get(), {{fcl::Transform3d::Identity(), nullptr}}};
+  const PartitionObject b{meshes.tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}};
+  const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
+  if constexpr (std::is_same_v<Contacts, WholeBodyLines>) {
+    return WholeBodyLines::of(meshes.pair, a, b, kUnit, matrix, nullptr);
+  } else {
+    return WholeBodyTester::of(meshes.pair, a, b, kUnit, matrix);
+  }
+}
+
+/// By points, in the middle of steps.
+double massByPoints(WholeBodyTester& tester, const Eigen::Vector2d& u, int steps) {
+  constexpr double kEnd = 6.0;
+  const double step = 2 * kEnd / steps;
+  double mass = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double from = -kEnd + i * step;
+    const Eigen::Vector3d y(from + 0.5 * step, u[0], u[1]);
+    if (tester.at(y) != PointContact::none) mass += normalIntervalMass(from, from + step);
+  }
+  return mass;
+}
+
+ProbabilityRequest estimateRequest(double relative_tolerance, int seed) {
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::estimate;
+  request.absolute_tolerance = 0.0;
+  request.relative_tolerance = relative_tolerance;
+  request.seed = static_cast<std::uint64_t>(seed);
+  return request;
+}
+
+bool isByLines(const ProbabilityResult& result) {
+  return fcl_prob_test::planMentions(result, "parallel lines");
+}
+
+/// What estimates with different seeds are off the truth by, in standard errors, root mean square.
+double deviationOf(const PartitionQuery& query, const GaussianDisplacement& displacement) {
+  constexpr int kSeeds = 60;
+  const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(5e-4));
+  double sum = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const ProbabilityResult result = query.run(displacement, estimateRequest(0.01, seed));
+    REQUIRE(isByLines(result));
+    CHECK(*result.upper >= *truth.lower);
+    CHECK(*result.standard_error <= 0.01 * *result.estimate);
+    const double off = (*result.estimate - truth.probability()) / *result.standard_error;
+    sum += off * off;
+  }
+  return std::sqrt(sum / kSeeds);
+}
+
+/// Two plates, one across and one along the way between the objects.
+TriangleMesh cornerMesh() {
+  TriangleMesh mesh = fcl_prob_test::transformed(
+      boxMesh({0.1, 4, 4}), Eigen::Isometry3d(Eigen::Translation3d(1.05, 0, 0)));
+  const TriangleMesh beside = fcl_prob_test::transformed(
+      boxMesh({4, 0.1, 4}), Eigen::Isometry3d(Eigen::Translation3d(-1, 1.1, 0)));
+  const std::size_t first = mesh.vertices.size();
+  mesh.vertices.insert(mesh.vertices.end(), beside.vertices.begin(), beside.vertices.end());
+  for (const fcl::Triangle& t : beside.triangles) {
+    mesh.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]") {
+  RandomBodies random(1);
+  int met = 0;
+  int covered = 0;
+  for (int scene = 0; scene < 10; ++scene) {
+    const TriangleMesh body = fcl_prob_test::transformed(
+        hullMesh(random.onSphere(random.integer(4, 200), random.uniform(0.2, 0.6))),
+        Eigen::Isometry3d(Eigen::Translation3d(random.uniform(0.5, 1.5) * random.direction())));
+    const TriangleMesh other = bumpyMesh(1.0, 12, 16, static_cast<std::uint64_t>(scene));
+    const bool body_is_a = scene % 2 == 0;
+    const WhitenedMeshes meshes(body_is_a ? body : other, body_is_a ? other : body);
+    const auto lines = contactsOf<WholeBodyLines>(meshes);
+    const auto tester = contactsOf<WholeBodyTester>(meshes);
+    REQUIRE(lines);
+    for (int i = 0; i < 30; ++i) {
+      const Eigen::Vector2d u(random.normal(), random.normal());
+      constexpr int kSteps = 600;
+      const double mass = lines->massOn(u, {0.0, 1e-12});
+      // At most some ends, each within half a step.
+      CHECK(std::fabs(mass - massByPoints(*tester, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
+      const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
+      CHECK(lines->mostOn({u - width, u + width}) >= mass);
+      const double least = lines->leastOn({u - 0.2 * width, u + 0.2 * width});
+      CHECK(least <= mass);
+      covered += least > 0.0;
+      CHECK(std::fabs(lines->massOn(u, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
+      met += mass > 0.0;
+    }
+  }
+  CHECK(met > 100);
+  CHECK(covered > 50);
+}
+
+TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][slow]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
+  RandomBodies random(2);
+  const TriangleMesh bumpy = bumpyMesh(0.7, 12, 16, 5);
+  struct Scene {
+    TriangleMesh body;
+    double distance;
+  };
+  const std::vector<Scene> scenes{
+      {hullMesh(random.onSphere(60, 0.5)), 1.2}, {hullMesh(random.onSphere(60, 0.5)), 1.5},
+      {hullMesh(random.onSphere(40, 0.5)), 2.0}, {hullMesh(random.onSphere(200, 0.1)), 0.95},
+      {boxMesh({0.02, 0.8, 0.8}), 1.0},          {boxMesh({0.8, 0.05, 0.05}), 1.2},
+  };
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    PartitionQuery query(scenes[i].body, bumpy);
+    query.pose_a.linear() = random.rotation();
+    query.pose_a.translation() = Eigen::Vector3d(scenes[i].distance, 0.1, -0.2);
+    for (const bool solid : {false, true}) {
+      if (solid) query.makeSolid();
+      const double deviation = deviationOf(query, displacement);
+      CAPTURE(i, solid);
+      CHECK(deviation > 0.5);
+      CHECK(deviation < 1.3);
+    }
+  }
+}
+
+TEST_CASE("bounds by columns hold, and decide what is clear", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
+  RandomBodies random(6);
+  int by_columns = 0;
+  for (int scene = 0; scene < 12; ++scene) {
+    PartitionQuery query(hullMesh(random.onSphere(random.integer(10, 200), 0.5)),
+                         bumpyMesh(0.7, 12, 16, static_cast<std::uint64_t>(scene)));
+    query.pose_a.linear() = random.rotation();
+    query.pose_a.translation() = random.uniform(1.0, 1.6) * random.direction();
+    if (scene % 2 == 0) query.makeSolid();
+    const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(5e-3));
+    for (const double factor : {0.1, 0.3, 0.6, 1.6, 3.0}) {
+      ProbabilityRequest request = fcl_prob_test::intervalRequest(1e-9);
+      request.threshold = std::min(0.999, factor * truth.probability());
+      const ProbabilityResult result = query.run(displacement, request);
+      CAPTURE(scene, factor, truth.probability(), *result.lower, *result.upper);
+      CHECK(*result.lower <= *truth.upper);
+      CHECK(*result.upper >= *truth.lower);
+      CHECK(result.decision == (*request.threshold > truth.probability()
+                                    ? fcl_prob::Decision::below
+                                    : fcl_prob::Decision::above));
+      by_columns += fcl_prob_test::planMentions(result, "columns");
+    }
+  }
+  CHECK(by_columns > 12);
+}
+
+TEST_CASE("an obstacle along the lines is not missed", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.2, 0.2, 0.2});
+  RandomBodies random(3);
+  PartitionQuery query(hullMesh(random.onSphere(60, 0.3)), cornerMesh());
+  const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(3e-3));
+  for (int seed = 1; seed <= 20; ++seed) {
+    const ProbabilityResult result = query.run(displacement, estimateRequest(0.01, seed));
+    CHECK(isByLines(result));
+    CHECK(std::fabs(*result.estimate - truth.probability()) < 4 * *result.standard_error);
+  }
+}
+
+TEST_CASE("lines in a closed mesh count as collisions of solids, and not of surfaces", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.3, 0.3, 0.3});
+  RandomBodies random(4);
+  PartitionQuery query(hullMesh(random.onSphere(60, 0.2)), bumpyMesh(1.0, 16, 20, 7));
+  query.pose_a.translation() = Eigen::Vector3d(0.6, 0.1, 0.0);
+  for (const bool solid : {false, true}) {
+    if (solid) query.makeSolid();
+    const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(2e-3));
+    const ProbabilityResult result = query.run(displacement, estimateRequest(0.01, 1));
+    CAPTURE(solid, truth.probability(), *result.estimate);
+    CHECK(isByLines(result));
+    CHECK(std::fabs(*result.estimate - truth.probability()) < 5 * *result.standard_error);
+  }
+}
+
+TEST_CASE("an estimate by lines that is interrupted says how little it knows", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
+  RandomBodies random(5);
+  PartitionQuery query(hullMesh(random.onSphere(60, 0.5)), bumpyMesh(0.7, 12, 16, 5));
+  query.pose_a.translation() = Eigen::Vector3d(1.3, 0.1, -0.2);
+  const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(1e-3));
+  for (const int calls : {1, 5, 20}) {
+    ProbabilityRequest request = estimateRequest(0.001, 1);
+    int left = calls;
+    request.on_progress = [&left](const fcl_prob::ProbabilityProgress&) { return --left > 0; };
+    const ProbabilityResult result = query.run(displacement, request);
+    CHECK(result.status == fcl_prob::ProbabilityStatus::cancelled);
+    CHECK(std::fabs(*result.estimate - truth.probability()) < 3 * *result.standard_error);
+    CHECK(*result.upper >= *truth.lower);
+  }
+}
