@@ -20,7 +20,7 @@ constexpr double kRelative = 1.01 * kEpsilon;
 constexpr double kSmallMove = 1e-9;
 
 /// More than products below the least normal number lose.
-constexpr double kUnderflow = 1e-306;
+constexpr double kUnderflowOfBall = 1e-306;
 
 /// One axis: lengths in deviations.
 struct Axis {
@@ -87,8 +87,8 @@ Bounds massBetweenCubes(const Section& ball, const GaussianDisplacement& displac
     mass.upper *= std::min(1.0, massOnLine(axisOf(ball, displacement, k)).upper);
   }
   const double rounding = 8.0 * kEpsilon;
-  return {std::max(0.0, mass.lower * (1.0 - rounding) - kUnderflow),
-          std::min(1.0, mass.upper * (1.0 + rounding) + kUnderflow)};
+  return {std::max(0.0, mass.lower * (1.0 - rounding) - kUnderflowOfBall),
+          std::min(1.0, mass.upper * (1.0 + rounding) + kUnderflowOfBall)};
 }
 
 /// Radius of the section at a distance across the axes that move; 0 if the ball does not reach.

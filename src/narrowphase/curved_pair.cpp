@@ -57,7 +57,7 @@ LongMatrix3 rotationToAxis(const Eigen::Vector3d& direction) {
 
 /// Towards the nearest point or, if the mean is inside or GJK fails, the middle.
 Eigen::Vector3d directionTo(const CObstacle& obstacle, const Eigen::Vector3d& centre) {
-  const Eigen::Vector3d nearest = gjkDirection(obstacle);
+  Eigen::Vector3d nearest = gjkDirection(obstacle);
   if (nearest.squaredNorm() > 0.0 && nearest.allFinite()) return nearest;
   const double distance = centre.stableNorm();
   return distance > 0.0 ? Eigen::Vector3d(centre / distance) : Eigen::Vector3d::UnitZ();

@@ -28,7 +28,6 @@ using namespace fcl_prob_test;
 using Catch::Matchers::Contains;
 
 namespace {
-
 const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
 
 fcl::Transform3d at(const Eigen::Vector3d& p) { return fcl::Transform3d(Eigen::Translation3d(p)); }
