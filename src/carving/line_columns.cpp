@@ -15,7 +15,7 @@ namespace {
 // Columns that reach to the end of the space are divided so far from their inner side.
 constexpr double kStep = 1.5;
 
-constexpr double kRounded = 1e-12;
+constexpr double kRoundedColumns = 1e-12;
 
 double widthOf(double lo, double hi) { return lo <= -kReach || hi >= kReach ? 2 * kStep : hi - lo; }
 
@@ -37,7 +37,7 @@ LineColumns::LineColumns(WholeBodyLines& lines) : lines_(lines) {
 double LineColumns::most() const {
   double sum = 0.0;
   for (const int column : in_order_) sum += nodes_[column].mass();
-  return sum * (1.0 + kRounded);
+  return sum * (1.0 + kRoundedColumns);
 }
 
 LineColumns::Node LineColumns::nodeOf(const Column& column, double most) {

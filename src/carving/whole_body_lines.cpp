@@ -14,7 +14,7 @@ namespace fcl_prob::detail {
 namespace {
 
 // Of a bound on a column: what rounding may take from it.
-constexpr double kRounded = 1e-12;
+constexpr double kRoundedLines = 1e-12;
 
 // Of a line that only tells where contact is.
 constexpr LeftOut kRoughly{0.1, 1e-6};
@@ -102,7 +102,7 @@ double WholeBodyLines::mostOn(const Column& column) {
   const double from = extremeOf(column, 1.0);
   double most = normalTailMass(from);
   if (from < 0.0) most = std::min(most, normalTailMass(extremeOf(column, -1.0)));
-  return std::min(1.0, most * (1.0 + kRounded));
+  return std::min(1.0, most * (1.0 + kRoundedLines));
 }
 
 // What the line in the middle meets first tells where to put the member.
@@ -116,7 +116,7 @@ double WholeBodyLines::leastOn(const Column& column) {
     const auto span = line.within(stretch.point);
     if (span) least = std::max(least, normalIntervalMass(span->lo, span->hi));
   }
-  return least * (1.0 - kRounded);
+  return least * (1.0 - kRoundedLines);
 }
 
 void WholeBodyLines::beginLine(const LeftOut& negligible) {

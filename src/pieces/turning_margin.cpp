@@ -10,7 +10,7 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kRoundedSums = 1e-12;
+constexpr double kRoundedTurns = 1e-12;
 
 }  // namespace
 
@@ -58,13 +58,13 @@ double TurningMargin::along(const Side& side, const Eigen::Vector3d& n, int node
   const Eigen::Vector3d half = 0.5 * (box.max() - box.min());
   double sum = side.motion.along(n, 0.5 * box.min() + 0.5 * box.max());
   for (const Eigen::Vector3d& turn : side.motion.turns) sum += n.cross(turn).cwiseAbs().dot(half);
-  return (sum + side.motion.remainder * n.norm() * half.norm()) * (1.0 + kRoundedSums);
+  return (sum + side.motion.remainder * n.norm() * half.norm()) * (1.0 + kRoundedTurns);
 }
 
 double TurningMargin::along(const Eigen::Vector3d& m, NodePair nodes) const {
   const Eigen::Vector3d n = metres_ * m;
   // What the normal itself is rounded by is within what the motion allows for its sums.
-  return (1.0 + kRoundedSums) * (along(a_, n, nodes.a) + along(b_, n, nodes.b));
+  return (1.0 + kRoundedTurns) * (along(a_, n, nodes.a) + along(b_, n, nodes.b));
 }
 
 void TurningMargin::widen(double* data, int count, NodePair leaves) const {
