@@ -64,11 +64,12 @@ ConvexPcdBaselines convexPcdBaselines(const ConvexBody& a, const fcl::Transform3
 
 /// The probability itself, certified. The bounds differ by a rounding margin only for two bodies
 /// with flat sides, for two balls, and, where the displacement has rank 3, for bodies rounded by a
-/// ball (spheres, capsules, RSS) beside each other or beside bodies with flat sides. There they also
-/// differ by about 1e-6 of themselves or less for ellipsoids beside anything, for cylinders and cones
-/// beside ellipsoids, spheres and bodies with flat sides, and for cylinders and capsules beside
-/// cylinders. For other curved bodies they are the masses of polytopes inside and around the
-/// C-obstacle, which get closer as the resolution of the bodies grows. \throws InvalidPose if a pose is not finite or not rigid
+/// ball (spheres, capsules, RSS) beside each other or beside bodies with flat sides. There they
+/// also differ by about 1e-6 of themselves or less for ellipsoids beside anything, for cylinders
+/// and cones beside ellipsoids, spheres and bodies with flat sides, and for cylinders and capsules
+/// beside cylinders. For other curved bodies they are the masses of polytopes inside and around the
+/// C-obstacle, which get closer as the resolution of the bodies grows. \throws InvalidPose if a
+/// pose is not finite or not rigid
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 

@@ -122,6 +122,8 @@ void SurfaceCubature::add(const SurfacePatch& patch) { addBox(patch, wholePatch(
 
 void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box, int depth) {
   ++cells_;
+  if (isDue(interruption_)) sum_.error = kInfinity;
+  if (!(sum_.error < kInfinity)) return;
   const double target = limits_.tolerance / kInverseTwoPi;
   const PatchCell cell(patch, box, farNormal(patch, box));
   const double all = volumeOf(box) * supremumOf(cell.bound(ComplexBox(box))) * kBoundSlack;
@@ -192,12 +194,8 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
   SurfaceSum best{0.0, kInfinity};
   double about = std::clamp(guess, kUnderflow, 0.1);
   for (int attempt = 0; attempt < kSurfaceAttempts; ++attempt) {
-    SurfaceCubature cubature({kSurfaceTarget * about / count, kMostSurfaceBoxes});
-    for (const SurfacePatch& patch : surface) {
-      if (isDue(interruption)) cubature.leave();
-      if (!(cubature.sum().error < kInfinity)) break;
-      cubature.add(patch);
-    }
+    SurfaceCubature cubature({kSurfaceTarget * about / count, kMostSurfaceBoxes}, interruption);
+    for (const SurfacePatch& patch : surface) cubature.add(patch);
     // Rounding stays, whatever rules leave.
     const bool stays = cubature.sum().error > 0.5 * best.error;
     if (cubature.sum().error < best.error) best = cubature.sum();

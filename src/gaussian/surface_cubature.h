@@ -31,12 +31,11 @@ struct SurfaceSum {
 /// Rules and their errors are as in PartCubature, of two parameters.
 class SurfaceCubature {
  public:
-  explicit SurfaceCubature(const CubatureLimits& limits) : limits_(limits) {}
+  /// \param interruption  outlives this; once it is due, nothing is known of what is left
+  SurfaceCubature(const CubatureLimits& limits, const Interruption& interruption)
+      : limits_(limits), interruption_(interruption) {}
 
   void add(const SurfacePatch& patch);
-
-  /// Leaves off: nothing is known of the other patches.
-  void leave() { sum_.error = kInfinity; }
 
   const SurfaceSum& sum() const { return sum_; }
   bool exhausted() const { return cells_ >= limits_.most_cells; }
@@ -48,6 +47,7 @@ class SurfaceCubature {
                 const std::array<double, 3>& points);
 
   CubatureLimits limits_;
+  const Interruption& interruption_;
   std::size_t cells_ = 0;
   std::array<std::size_t, 3> guess_{5, 5, 5};
   SurfaceSum sum_;

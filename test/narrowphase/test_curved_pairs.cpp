@@ -374,6 +374,23 @@ TEST_CASE("axes that are nearly parallel or perpendicular hold what polytopes en
   }
 }
 
+TEST_CASE("a quadrature that is interrupted knows nothing, or what it knew") {
+  const ConvexBody ellipsoid(fcl::Ellipsoidd(0.3, 0.2, 0.4)), cylinder(fcl::Cylinderd(0.3, 0.5));
+  const auto error = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.05});
+  const Pose pose = at({0.7, 0.2, 0.1});
+  const auto massWithin = [&](int asked) {
+    return detail::curvedPairMass(ellipsoid, Pose::Identity(), cylinder, pose, error,
+                                  [&asked] { return --asked < 0; });
+  };
+  const Bounds whole = massWithin(1'000'000);
+  CHECK(whole.width() <= kWidth * whole.upper);
+  for (const int asked : {0, 1, 10, 100}) {
+    const Bounds part = massWithin(asked);
+    CHECK(part.lower <= whole.lower);
+    CHECK(part.upper >= whole.upper);
+  }
+}
+
 TEST_CASE("cones beside what has an axis are left to polytopes") {
   const ConvexBody cone(fcl::Coned(0.3, 0.5)), capsule(fcl::Capsuled(0.2, 0.4)),
       cylinder(fcl::Cylinderd(0.2, 0.4));

@@ -5,6 +5,7 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 
@@ -241,10 +242,11 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
     Ask ask;
     bool two_sided;
   };
-  const Geometry cylinder = std::make_shared<fcl::Cylinderd>(0.4, 0.6);
-  const Geometry box = std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5);
+  // Enclosed between polytopes, coarse ones and fine ones.
+  const Geometry cone = std::make_shared<fcl::Coned>(0.4, 0.6);
+  const Geometry capsule = std::make_shared<fcl::Capsuled>(0.2, 0.5);
   std::vector<Case> cases;
-  cases.push_back({ofPair(cylinder, box, at(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
+  cases.push_back({ofPair(cone, capsule, at(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
   for (const auto method : {ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min}) {
     cases.push_back({ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), method), false});
   }
