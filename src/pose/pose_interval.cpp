@@ -212,8 +212,9 @@ class PoseInterval {
       return;
     }
     if (!isWorthALook(cell)) return;
-    const CellMotion motion =
-        motionOf(frame_, cell, reference_, size_, std::min(0.5, interval_.upper));
+    // A round body stays round where its displacement does: no shift then joins that.
+    const double expected = contacts_ ? std::min(0.5, interval_.upper) : 0.0;
+    const CellMotion motion = motionOf(frame_, cell, reference_, size_, expected);
     ProbabilityRequest request = request_;
     request.method = ProbabilityMethod::interval;
     request.relative_tolerance = 0.0;

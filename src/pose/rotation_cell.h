@@ -68,7 +68,7 @@ struct CellMotion {
 
 /// \param reference  c, metres, world frame; any point is right, one near the contact is best
 /// \param size       metres: no point that matters is farther from the origin
-/// \param expected   about P given the cell; it only steers
+/// \param expected   about P given the cell; it only steers. 0: `joined` is not asked for
 CellMotion motionOf(const MovedFrame& frame, const RotationCell& cell,
                     const Eigen::Vector3d& reference, double size, double expected);
 
