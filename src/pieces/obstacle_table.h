@@ -102,7 +102,7 @@ class ObstacleTable {
 
   const WhitenedPair& pair_;
   bool shared_ = false;
-  tbb::concurrent_vector<SlabArrays> obstacles_;
+  tbb::concurrent_vector<SlabArrays, std::allocator<SlabArrays>> obstacles_;
   std::array<Part, 16> parts_;
   std::mutex blocks_mutex_;
   std::vector<std::unique_ptr<double[]>> blocks_;
