@@ -8,7 +8,6 @@
 
 #include "base/constants.h"
 #include "cobstacle/perturbation.h"
-#include "base/constants.h"
 #include "narrowphase/axes_surface.h"
 
 namespace fcl_prob::detail {

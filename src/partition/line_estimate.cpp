@@ -40,6 +40,12 @@ constexpr double kVarianceOfHalf = 1.0 / 6.0;
 // A column whose pairs agree is taken to vary by this share of its bound.
 constexpr double kLeastDeviation = 0.07;
 
+// Where a line of a column has less than this share of its bound, an edge of the C-obstacle may
+// pass between its lines, however wide that is: what may be unseen is then this share of a line at
+// least.
+constexpr double kNearlyMissed = 0.02;
+constexpr double kUnseenEdge = 0.5;
+
 // Of the standard error asked for, what may be left out of lines; and of the bound on P.
 constexpr double kLeftOutOfError = 0.05;
 constexpr double kLeftOutOfBound = 1e-6;
@@ -61,16 +67,20 @@ class ColumnSampler {
     const auto words = generator({{static_cast<std::uint64_t>(index), looks_, 0, 0}},
                                  {{request_.seed, 0x636f6c75}});
     double means[kPairs];
-    double apart = 0.0;
+    double apart = 0.0, least = node.most;
     for (int pair = 0; pair < kPairs; ++pair) {
       const Eigen::Vector2d x(unitUniform(words[2 * pair]), unitUniform(words[2 * pair + 1]));
       const Eigen::Vector2d u = placeOf(node, x);
       const Eigen::Vector2d mirrored = placeOf(node, Eigen::Vector2d::Ones() - x);
-      means[pair] = 0.5 * (massOn(node, u) + massOn(node, mirrored));
+      const double mass = massOn(node, u), of_mirrored = massOn(node, mirrored);
+      means[pair] = 0.5 * (mass + of_mirrored);
+      least = std::min({least, mass, of_mirrored});
       apart += 0.5 * (distanceAt(node, u) + distanceAt(node, mirrored)) / kPairs;
     }
     const double off = means[0] - means[1];
-    return {0.5 * (means[0] + means[1]), 0.5 * off * off, unseen(apart)};
+    return {
+        0.5 * (means[0] + means[1]), 0.5 * off * off,
+        least < kNearlyMissed * node.most ? std::max(kUnseenEdge, unseen(apart)) : unseen(apart)};
   }
 
   /// The lines of draw() are others from now on.

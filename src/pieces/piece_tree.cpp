@@ -193,9 +193,9 @@ void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
 }
 
 // The slabs of a polytope of so few faces and a triangle are looked at sooner than polytope cells
-// are cut. Measured beside an arm of 2,000 triangles, 10 % and 1 %: of 6 faces 34 and 195 ms (boxes:
-// 29 and 130), of 8 faces 12 and 31 (8 and 34), of 12 faces 12 and 32 (19 and 79), of 76 faces 13
-// and 29 (89 and 498).
+// are cut. Measured beside an arm of 2,000 triangles, 10 % and 1 %: of 6 faces 34 and 195 ms
+// (boxes: 29 and 130), of 8 faces 12 and 31 (8 and 34), of 12 faces 12 and 32 (19 and 79), of 76
+// faces 13 and 29 (89 and 498).
 constexpr std::size_t kFewFaces = 8;
 
 // The part's origin is where its only body is.

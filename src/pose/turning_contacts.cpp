@@ -16,9 +16,9 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr std::uint64_t kStream = 0x7475726e;
+constexpr std::uint64_t kStreamOfContacts = 0x7475726e;
 constexpr std::uint64_t kLines = 64;
-constexpr std::size_t kEnough = 6;
+constexpr std::size_t kEnoughContacts = 6;
 
 // One over the mean of |n·u| for a unit vector u of random direction, by its dimension.
 constexpr double kCrofton[] = {0.0, 1.0, 1.5707963267948966, 2.0};
@@ -38,8 +38,8 @@ std::vector<Contact> contactsOf(const PartitionObject& a, const PartitionObject&
   LineCrossings crossings(pair);
   std::vector<Contact> contacts;
   for (std::uint64_t i = 0; i < kLines; ++i) {
-    Eigen::Vector3d u = standardNormalFrom(randomWords({seed, kStream}, i, 0));
-    Eigen::Vector3d y = standardNormalFrom(randomWords({seed, kStream}, i, 1));
+    Eigen::Vector3d u = standardNormalFrom(randomWords({seed, kStreamOfContacts}, i, 0));
+    Eigen::Vector3d y = standardNormalFrom(randomWords({seed, kStreamOfContacts}, i, 1));
     for (int k = rank; k < 3; ++k) u[k] = y[k] = 0.0;
     u.normalize();
     y -= y.dot(u) * u;
@@ -89,7 +89,7 @@ std::optional<TurningContacts> turningContacts(const PartitionObject& a, const P
   const std::vector<Contact> contacts = contactsOf(a, b, displacement, seed);
   double sum = 0.0;
   for (const Contact& contact : contacts) sum += contact.weight;
-  if (contacts.size() < kEnough || !(sum > 1e-12)) return std::nullopt;
+  if (contacts.size() < kEnoughContacts || !(sum > 1e-12)) return std::nullopt;
   TurningContacts result;
   result.pushed = 0.0;
   for (const Contact& contact : contacts) result.pushed += contact.weight * contact.normal.norm();

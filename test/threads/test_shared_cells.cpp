@@ -6,12 +6,12 @@
 #include <memory>
 #include <thread>
 
-#include "../partition/whitened_meshes.h"
-#include "catch.h"
 #include "carving/cell_carver.h"
+#include "catch.h"
 #include "partition/cell_divider.h"
 #include "partition/point_tester.h"
 #include "random_bodies.h"
+#include "whitened_meshes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob::detail;
