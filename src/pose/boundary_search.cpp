@@ -12,7 +12,7 @@ namespace fcl_prob::detail {
 namespace {
 
 // A stream of the request's seed that no other method draws from.
-constexpr std::uint64_t kStream = 0x626f756e;
+constexpr std::uint64_t kStreamOfSearch = 0x626f756e;
 
 // Points of a first look, of which so many are to meet and to miss: else they are drawn from a
 // wider distribution, up to so wide a one.
@@ -48,8 +48,8 @@ double BoundarySearch::questionsOfBend(Eigen::Index dimension) {
 Eigen::VectorXd BoundarySearch::normals(std::uint64_t index) const {
   Eigen::VectorXd x(dimension_);
   for (Eigen::Index k = 0; k < dimension_; k += 3) {
-    const Eigen::Vector3d three =
-        standardNormalFrom(randomWords({seed_, kStream}, index, static_cast<std::uint64_t>(k / 3)));
+    const Eigen::Vector3d three = standardNormalFrom(
+        randomWords({seed_, kStreamOfSearch}, index, static_cast<std::uint64_t>(k / 3)));
     const Eigen::Index count = std::min<Eigen::Index>(3, dimension_ - k);
     x.segment(k, count) = three.head(count);
   }
