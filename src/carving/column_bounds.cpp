@@ -40,14 +40,15 @@ Bounds look(LineColumns& columns, WholeBodyLines& lines) {
 ColumnBounds columnBounds(WholeBodyLines& lines, double threshold) {
   LineColumns columns(lines);
   columns.divideByMass(kFirstColumns);
-  for (;;) {
+  for (std::size_t before = 0;;) {
     const Bounds bounds = look(columns, lines);
     const std::size_t count = columns.inOrder().size();
     const double missing = std::min(bounds.upper - threshold, threshold - bounds.lower);
     const bool is_decided = missing < 0.0;
-    if (is_decided || missing > kNearEnd * bounds.width() || 2 * count > kMostColumns) {
-      return {bounds, count};
-    }
+    const bool is_far = missing > kNearEnd * bounds.width() || 2 * count > kMostColumns;
+    // Columns that know all of their mass are not divided.
+    if (is_decided || is_far || count <= before) return {bounds, count};
+    before = count;
     columns.divide(2 * count, kGapOfHalf);
   }
 }

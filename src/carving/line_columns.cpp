@@ -6,6 +6,7 @@
 #include <queue>
 #include <utility>
 
+#include "base/constants.h"
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/normal_mass.h"
 
@@ -37,7 +38,7 @@ LineColumns::LineColumns(WholeBodyLines& lines) : lines_(lines) {
 double LineColumns::most() const {
   double sum = 0.0;
   for (const int column : in_order_) sum += nodes_[column].mass();
-  return sum * (1.0 + kRoundedColumns);
+  return sum * (1.0 + kRoundedColumns) + kUnderflow;
 }
 
 LineColumns::Node LineColumns::nodeOf(const Column& column, double most) {
@@ -56,7 +57,7 @@ void LineColumns::divideByMass(std::size_t count) {
 void LineColumns::divide(std::size_t count, double rest) {
   std::priority_queue<std::pair<double, int>> queue;
   for (const int column : in_order_) queue.push({nodes_[column].weight, column});
-  for (std::size_t now = in_order_.size(); now < count; ++now) {
+  for (std::size_t now = in_order_.size(); now < count && !queue.empty(); ++now) {
     const auto [weight, node] = queue.top();
     if (!(weight > 0.0)) break;
     queue.pop();
