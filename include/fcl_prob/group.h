@@ -31,7 +31,7 @@ class GroupQuery {
   /// members,
   ///         UnsupportedGeometry for a member both occupied and free where the other group has an
   ///         octree, which alone would leave it out
-  GroupQuery(Geometries group_a, Geometries group_b);
+  GroupQuery(const Geometries& group_a, const Geometries& group_b);
   ~GroupQuery();
   GroupQuery(GroupQuery&&) noexcept;
   GroupQuery& operator=(GroupQuery&&) noexcept;

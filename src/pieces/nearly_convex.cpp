@@ -59,7 +59,7 @@ bool mayBeNearlyConvex(const MeshView& view, const std::vector<Eigen::Vector3d>&
     const int t = match.forward.polygon;
     const int s = match.backward.polygon;
     const Eigen::Vector3d n = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
-    const Eigen::Vector3d from = vertices[match.forward.from];
+    const Eigen::Vector3d& from = vertices[match.forward.from];
     double highest = 0.0;
     double length = 0.0;
     for (int k = 0; k < 3; ++k) {

@@ -35,7 +35,7 @@ struct GroupQuery::Implementation {
   detail::GroupsQuery groups;
 };
 
-GroupQuery::GroupQuery(Geometries group_a, Geometries group_b)
+GroupQuery::GroupQuery(const Geometries& group_a, const Geometries& group_b)
     : implementation_(
           new Implementation{{prepared(group_a, "group A"), prepared(group_b, "group B")}}) {}
 
