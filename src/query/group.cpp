@@ -91,10 +91,9 @@ double collisionProbability(const std::vector<const fcl::CollisionObjectd*>& gro
     return geometries;
   };
   Poses poses_a, poses_b;
-  GroupQuery::Geometries a = split(group_a, "group A", poses_a);
-  GroupQuery::Geometries b = split(group_b, "group B", poses_b);
-  return GroupQuery(std::move(a), std::move(b))
-      .collisionProbability(poses_a, poses_b, displacement, request, result);
+  const GroupQuery::Geometries a = split(group_a, "group A", poses_a);
+  const GroupQuery::Geometries b = split(group_b, "group B", poses_b);
+  return GroupQuery(a, b).collisionProbability(poses_a, poses_b, displacement, request, result);
 }
 
 }  // namespace fcl_prob
