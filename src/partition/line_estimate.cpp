@@ -2,9 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "partition/line_estimate.h"
 
-#include <Random123/philox.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -63,9 +62,8 @@ class ColumnSampler {
       : lines_(lines), request_(request), least_(lines.leastSilhouette()) {}
 
   PairsOfColumn draw(const LineColumns::Node& node, int index) {
-    r123::Philox4x64 generator;
-    const auto words = generator({{static_cast<std::uint64_t>(index), looks_, 0, 0}},
-                                 {{request_.seed, 0x636f6c75}});
+    const std::array<std::uint64_t, 4> words =
+        randomWords({request_.seed, 0x636f6c75}, static_cast<std::uint64_t>(index), looks_);
     double means[kPairs];
     double apart = 0.0, least = node.most;
     for (int pair = 0; pair < kPairs; ++pair) {
