@@ -19,7 +19,7 @@
 namespace fcl_prob {
 
 namespace detail {
-struct ConvexBodyData;
+class ConvexSet;
 }
 
 /// A bounded convex solid in its own frame, metres. Immutable; copies share their data.
@@ -64,10 +64,10 @@ class ConvexBody {
   /// A point of the body that lies farthest in a direction (any length).
   Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
 
-  const detail::ConvexBodyData& data() const { return *data_; }
+  const detail::ConvexSet& set() const { return *set_; }
 
  private:
-  std::shared_ptr<const detail::ConvexBodyData> data_;
+  std::shared_ptr<const detail::ConvexSet> set_;
 };
 
 }  // namespace fcl_prob

@@ -73,13 +73,6 @@ class CObstacle {
   const PairFrame& frame_;
 };
 
-/// A zonotope swept by a ball: box, rectangle or point with rounded or sharp edges. Own frame,
-/// metres.
-struct RoundedZonotope {
-  Zonotope core;
-  double radius = 0.0;
-};
-
 /// The C-obstacle of two rounded zonotopes: two boxes (15 pairs of planes; 3 if their axes agree),
 /// two spheres, two RSS, ... A rounding is circumscribed by a rhombic triacontahedron.
 class ZonotopeObstacle final : public CObstacle {

@@ -8,7 +8,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include "cobstacle/bounding_volumes.h"
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/convex_set.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/convex_vertices.h"
 #include "geometry/geometry_kind.h"
@@ -17,28 +17,24 @@
 namespace fcl_prob {
 namespace {
 
-using detail::ConvexBodyData;
-using detail::PolytopeSet;
+using detail::ConvexSet;
 using detail::RoundedZonotope;
-using detail::SweptSet;
 using detail::Zonotope;
 
 constexpr int kLeastResolution = 8;
 
-using Data = std::shared_ptr<const ConvexBodyData>;
+using SharedSet = std::shared_ptr<const ConvexSet>;
 
-Data sharedZonotope(const RoundedZonotope& body, int resolution = 0) {
-  return std::make_shared<const ConvexBodyData>(body, resolution);
+SharedSet sharedZonotope(const RoundedZonotope& body, int resolution = 0) {
+  return std::make_shared<const ConvexSet>(body, resolution);
 }
 
-Data sharedHull(const std::vector<Eigen::Vector3d>& points) {
-  return std::make_shared<const ConvexBodyData>(
-      std::make_unique<const PolytopeSet>(detail::makeConvexMesh(points)));
+SharedSet sharedHull(const std::vector<Eigen::Vector3d>& points) {
+  return std::make_shared<const ConvexSet>(detail::makeConvexMesh(points));
 }
 
-Data sharedDop(const std::vector<detail::Slab>& slabs) {
-  return std::make_shared<const ConvexBodyData>(
-      std::make_unique<const PolytopeSet>(detail::meshOfSlabs(slabs)));
+SharedSet sharedDop(const std::vector<detail::Slab>& slabs) {
+  return std::make_shared<const ConvexSet>(detail::meshOfSlabs(slabs));
 }
 
 void requireResolution(int resolution) {
@@ -62,7 +58,7 @@ RoundedZonotope box(const fcl::Boxd& shape) {
   return body;
 }
 
-Data dataOf(const fcl::CollisionGeometryd& shape, int resolution) {
+SharedSet setOf(const fcl::CollisionGeometryd& shape, int resolution) {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   switch (shape.getNodeType()) {
     case fcl::GEOM_BOX:
@@ -75,8 +71,7 @@ Data dataOf(const fcl::CollisionGeometryd& shape, int resolution) {
     case fcl::GEOM_ELLIPSOID:
     case fcl::GEOM_CYLINDER:
     case fcl::GEOM_CONE:
-      return std::make_shared<const ConvexBodyData>(
-          std::make_unique<const SweptSet>(detail::supportShape(shape), resolution));
+      return std::make_shared<const ConvexSet>(detail::supportShape(shape), resolution);
     default:
       if (const auto vertices = detail::polytopeVertices(shape)) return sharedHull(*vertices);
       throw UnsupportedGeometry("not a bounded convex shape: " +
@@ -89,37 +84,34 @@ Data dataOf(const fcl::CollisionGeometryd& shape, int resolution) {
 ConvexBody::ConvexBody(const fcl::CollisionGeometryd& shape, int resolution) {
   requireResolution(resolution);
   detail::validateGeometry(&shape, "convex body");
-  data_ = dataOf(shape, resolution);
+  set_ = setOf(shape, resolution);
 }
 
 ConvexBody::ConvexBody(const fcl::AABBd& box)
-    : data_(sharedZonotope(detail::roundedZonotope(box))) {}
-ConvexBody::ConvexBody(const fcl::OBBd& box)
-    : data_(sharedZonotope(detail::roundedZonotope(box))) {}
+    : set_(sharedZonotope(detail::roundedZonotope(box))) {}
+ConvexBody::ConvexBody(const fcl::OBBd& box) : set_(sharedZonotope(detail::roundedZonotope(box))) {}
 ConvexBody::ConvexBody(const fcl::OBBRSSd& both) : ConvexBody(both.obb) {}
 ConvexBody::ConvexBody(const fcl::kIOSd& kios) : ConvexBody(kios.obb) {}
-ConvexBody::ConvexBody(const fcl::KDOPd<16>& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
-ConvexBody::ConvexBody(const fcl::KDOPd<18>& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
-ConvexBody::ConvexBody(const fcl::KDOPd<24>& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
-ConvexBody::ConvexBody(const Kdop26& dop) : data_(sharedDop(detail::slabsOf(dop))) {}
-ConvexBody::ConvexBody(const std::vector<Eigen::Vector3d>& points) : data_(sharedHull(points)) {}
+ConvexBody::ConvexBody(const fcl::KDOPd<16>& dop) : set_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const fcl::KDOPd<18>& dop) : set_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const fcl::KDOPd<24>& dop) : set_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const Kdop26& dop) : set_(sharedDop(detail::slabsOf(dop))) {}
+ConvexBody::ConvexBody(const std::vector<Eigen::Vector3d>& points) : set_(sharedHull(points)) {}
 
 ConvexBody::ConvexBody(const fcl::RSSd& rss, int resolution) {
   requireResolution(resolution);
-  data_ = sharedZonotope(detail::roundedZonotope(rss), resolution);
+  set_ = sharedZonotope(detail::roundedZonotope(rss), resolution);
 }
 
 ConvexBody::ConvexBody(const SphereBv& sphere, int resolution) {
   requireResolution(resolution);
-  data_ = sharedZonotope(detail::roundedZonotope(sphere), resolution);
+  set_ = sharedZonotope(detail::roundedZonotope(sphere), resolution);
 }
 
-bool ConvexBody::isPolytope() const {
-  return data_->rounded ? data_->rounded->radius == 0.0 : data_->set().isPolytope();
-}
+bool ConvexBody::isPolytope() const { return set_->isPolytope(); }
 
 Eigen::Vector3d ConvexBody::supportPoint(const Eigen::Vector3d& direction) const {
-  return data_->set().supportPoint(direction);
+  return set_->supportPoint(direction);
 }
 
 }  // namespace fcl_prob

@@ -5,13 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "cobstacle/face_set.h"
 #include "geometry/length.h"
 
 namespace fcl_prob::detail {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
+
+/// No polytope around a ball reaches farther than this times its radius.
+constexpr double kCircumscribed = 2.0;
 
 /// The outer polytope is this much larger than computed, so that rounding leaves no point outside.
 constexpr double kOuterSlack = 1e-12;
@@ -54,29 +60,96 @@ double inradius(const Points& points, bool disk) {
   return least;
 }
 
-}  // namespace
-
-double ConvexSet::size() const {
-  double largest = 0.0;
-  for (const Eigen::Vector3d& v : outerMesh().vertices) largest = std::max(largest, lengthOf(v));
-  return largest;
-}
-
-SweptSet::SweptSet(SupportShape shape, int resolution) : shape_(std::move(shape)) {
-  const bool disk = shape_.semi_axes.col(2).isZero(0.0);
-  const Points ball = disk ? pointsOnCircle(resolution) : pointsOnSphere(resolution);
-  outer_ = hullOf(ball, (1.0 + kOuterSlack) / inradius(ball, disk));
-  inner_ = hullOf(ball, 1.0);
-}
-
-ConvexMesh SweptSet::hullOf(const Points& ball, double scale) const {
-  Points points(shape_.points.begin() + shape_.swept, shape_.points.end());
-  for (int i = 0; i < shape_.swept; ++i) {
+ConvexMesh hullOf(const SupportShape& shape, const Points& ball, double scale) {
+  Points points(shape.points.begin() + shape.swept, shape.points.end());
+  for (int i = 0; i < shape.swept; ++i) {
     for (const Eigen::Vector3d& p : ball) {
-      points.push_back(shape_.points[i] + shape_.semi_axes * (scale * p));
+      points.push_back(shape.points[i] + shape.semi_axes * (scale * p));
     }
   }
   return makeConvexMesh(points);
+}
+
+Points cornersOf(const Zonotope& zonotope) {
+  Points corners;
+  const int count = zonotope.generatorCount();
+  for (unsigned signs = 0; signs < 1u << count; ++signs) {
+    Eigen::Vector3d corner = zonotope.centre();
+    for (int i = 0; i < count; ++i) {
+      corner += ((signs >> i) & 1u ? 1.0 : -1.0) * zonotope.generator(i);
+    }
+    corners.push_back(corner);
+  }
+  return corners;
+}
+
+}  // namespace
+
+ConvexSet::ConvexSet(SupportShape shape, int resolution)
+    : forms_(formsOf(std::move(shape), resolution)) {}
+
+ConvexSet::ConvexSet(ConvexMesh polytope) : forms_{std::nullopt, std::move(polytope), {}} {}
+
+ConvexSet::Forms ConvexSet::formsOf(SupportShape shape, int resolution) {
+  const bool disk = shape.semi_axes.col(2).isZero(0.0);
+  const Points ball = disk ? pointsOnCircle(resolution) : pointsOnSphere(resolution);
+  Forms forms;
+  forms.outer = hullOf(shape, ball, (1.0 + kOuterSlack) / inradius(ball, disk));
+  forms.inner = hullOf(shape, ball, 1.0);
+  forms.curved = std::move(shape);
+  return forms;
+}
+
+ConvexSet::Forms ConvexSet::formsOf(const RoundedZonotope& body, int resolution) {
+  const Points corners = cornersOf(body.core);
+  if (body.radius != 0.0) {
+    const SupportShape shape{corners, static_cast<int>(corners.size()),
+                             body.radius * Eigen::Matrix3d::Identity()};
+    return formsOf(shape, resolution);
+  }
+  if (FaceSet faces; body.core.generatorCount() == 3 && body.core.faces(faces)) {
+    const ConvexPolytope box = toPolytope(faces);
+    if (box.faces.size() == 6) return {std::nullopt, makeConvexMesh(box), {}};
+  }
+  return {std::nullopt, makeConvexMesh(corners), {}};
+}
+
+const ConvexSet::Forms& ConvexSet::forms() const {
+  if (rounded_) {
+    std::call_once(once_, [this] { forms_ = formsOf(*rounded_, resolution_); });
+  }
+  return forms_;
+}
+
+bool ConvexSet::isPolytope() const {
+  return rounded_ ? rounded_->radius == 0.0 : !forms_.curved.has_value();
+}
+
+Eigen::Vector3d ConvexSet::supportPoint(const Eigen::Vector3d& direction) const {
+  const Forms& known = forms();
+  return known.curved ? known.curved->supportPoint(direction) : known.outer.supportPoint(direction);
+}
+
+const SupportShape* ConvexSet::curvedShape() const {
+  const Forms& known = forms();
+  return known.curved ? &*known.curved : nullptr;
+}
+
+const ConvexMesh& ConvexSet::innerMesh() const {
+  const Forms& known = forms();
+  return known.curved ? known.inner : known.outer;
+}
+
+double ConvexSet::size() const {
+  double size = 0.0;
+  if (!rounded_) {
+    for (const Eigen::Vector3d& v : forms_.outer.vertices) size = std::max(size, lengthOf(v));
+    return size;
+  }
+  size = lengthOf(rounded_->core.centre()) + kCircumscribed * rounded_->radius;
+  for (int i = 0; i < rounded_->core.generatorCount(); ++i)
+    size += lengthOf(rounded_->core.generator(i));
+  return size;
 }
 
 }  // namespace fcl_prob::detail

@@ -1,73 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Convex sets with an exact support function and polytopes around and inside them.
+// A convex body with an exact support function and polytopes around and inside it.
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <mutex>
+#include <optional>
 
 #include "cobstacle/convex_mesh.h"
 #include "cobstacle/support_shape.h"
+#include "cobstacle/zonotope.h"
 
 namespace fcl_prob::detail {
 
-/// A convex body in its own frame, metres. Immutable.
+/// A convex body in its own frame, metres: what a ConvexBody holds. Immutable, thread-safe.
 class ConvexSet {
  public:
-  virtual ~ConvexSet() = default;
+  /// A box or a rounding of one, whose C-obstacles have a known structure; its polytopes are made
+  /// when they are first asked for.
+  /// \param resolution  how many points on the ball they are made of
+  explicit ConvexSet(const RoundedZonotope& body, int resolution = 0)
+      : rounded_(body), resolution_(resolution) {}
+
+  /// A curved shape.
+  /// \param resolution  how many points on the ball (disk: on its circle) its polytopes are made of
+  ConvexSet(SupportShape shape, int resolution);
+
+  explicit ConvexSet(ConvexMesh polytope);
+
+  /// Set for boxes and their roundings.
+  const std::optional<RoundedZonotope>& rounded() const { return rounded_; }
+
+  bool isPolytope() const;
 
   /// A point of the set that lies farthest in a direction (any length).
-  virtual Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const = 0;
+  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const;
+
+  /// The shape that the set is, for a curved one; else null.
+  const SupportShape* curvedShape() const;
 
   /// A polytope that contains the set, and one that it contains; for a polytope the set itself.
-  virtual const ConvexMesh& outerMesh() const = 0;
-  virtual const ConvexMesh& innerMesh() const = 0;
+  const ConvexMesh& outerMesh() const { return forms().outer; }
+  const ConvexMesh& innerMesh() const;
 
-  /// The shape that the set is, for a curved one.
-  virtual const SupportShape* curvedShape() const { return nullptr; }
-
-  bool isPolytope() const { return &outerMesh() == &innerMesh(); }
-
-  /// The set reaches out of outerMesh() by no more than this (metres): 0 or rounding.
-  double slack() const { return outerMesh().slack; }
-
-  /// Length of the longest position vector of outerMesh().
+  /// Length of the longest position vector of the body or the polytope around it, or more.
   double size() const;
-};
 
-class PolytopeSet final : public ConvexSet {
- public:
-  explicit PolytopeSet(ConvexMesh mesh) : mesh_(std::move(mesh)) {}
-
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const override {
-    return mesh_.supportPoint(direction);
-  }
-  const ConvexMesh& outerMesh() const override { return mesh_; }
-  const ConvexMesh& innerMesh() const override { return mesh_; }
+  /// The body reaches out of outerMesh() by no more than this (metres): 0 or rounding.
+  double slack() const { return rounded_ ? 0.0 : outerMesh().slack; }
 
  private:
-  ConvexMesh mesh_;
-};
+  struct Forms {
+    std::optional<SupportShape> curved;
+    ConvexMesh outer;
+    ConvexMesh inner;  ///< of a curved one
+  };
 
-/// A curved shape.
-class SweptSet final : public ConvexSet {
- public:
-  /// \param resolution  how many points on the ball (disk: on its circle) the polytopes are made of
-  SweptSet(SupportShape shape, int resolution);
+  const Forms& forms() const;
+  static Forms formsOf(SupportShape shape, int resolution);
+  static Forms formsOf(const RoundedZonotope& body, int resolution);
 
-  Eigen::Vector3d supportPoint(const Eigen::Vector3d& direction) const override {
-    return shape_.supportPoint(direction);
-  }
-  const SupportShape* curvedShape() const override { return &shape_; }
-  const ConvexMesh& outerMesh() const override { return outer_; }
-  const ConvexMesh& innerMesh() const override { return inner_; }
-
- private:
-  ConvexMesh hullOf(const std::vector<Eigen::Vector3d>& ball, double scale) const;
-
-  SupportShape shape_;
-  ConvexMesh outer_;
-  ConvexMesh inner_;
+  std::optional<RoundedZonotope> rounded_;
+  int resolution_ = 0;
+  mutable std::once_flag once_;
+  mutable Forms forms_;  // of a rounded zonotope: from the first call of forms() on
 };
 
 }  // namespace fcl_prob::detail

@@ -59,4 +59,11 @@ class Zonotope {
   int count_ = 0;
 };
 
+/// A zonotope swept by a ball: box, rectangle or point with rounded or sharp edges. Own frame,
+/// metres.
+struct RoundedZonotope {
+  Zonotope core;
+  double radius = 0.0;
+};
+
 }  // namespace fcl_prob::detail

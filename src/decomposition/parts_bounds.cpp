@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/number_text.h"
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/pair_obstacle.h"
 #include "decomposition/intersection_mass.h"
 #include "decomposition/overlap_samples.h"
 #include "fcl_prob/exceptions.h"
@@ -45,7 +45,7 @@ ConvexBody boxAround(const ConvexBody& body) {
     }
   }
   const Eigen::Vector3d padding =
-      Eigen::Vector3d::Constant(16.0 * kEpsilon * body.data().size() + body.data().slack());
+      Eigen::Vector3d::Constant(16.0 * kEpsilon * body.set().size() + body.set().slack());
   return ConvexBody(fcl::AABBd(box.min() - padding, box.max() + padding));
 }
 
@@ -171,7 +171,7 @@ class Sums {
 
   std::optional<KnownObstacle> obstacleOf(const PartPair& pair) const {
     const PairFrame frame = query_.frame(pair);
-    const PairObstacle obstacle(frame, query_.a[pair.a].data(), query_.b[pair.b].data());
+    const PairObstacle obstacle(frame, query_.a[pair.a].set(), query_.b[pair.b].set());
     if (!obstacle->isPolytope() || !frame.fits) return std::nullopt;
     ObstacleScratch scratch;
     const EnclosingFaces enclosing = obstacle->outerFaces(scratch);
@@ -182,7 +182,7 @@ class Sums {
   /// Where the heaviest pair is likeliest to touch.
   Eigen::Vector3d centreOf(const PartPair& pair) const {
     const PairFrame frame = query_.frame(pair);
-    const PairObstacle obstacle(frame, query_.a[pair.a].data(), query_.b[pair.b].data());
+    const PairObstacle obstacle(frame, query_.a[pair.a].set(), query_.b[pair.b].set());
     if (pair.direction.isZero()) return Eigen::Vector3d::Zero();
     return std::max(0.0, -obstacle->support(-pair.direction)) * pair.direction;
   }

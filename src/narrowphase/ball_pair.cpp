@@ -14,7 +14,7 @@ namespace {
 const long double kFine = std::max(std::numeric_limits<long double>::epsilon(), 0x1p-62L);
 
 bool isBall(const ConvexBody& body) {
-  return body.data().rounded && body.data().rounded->core.generatorCount() == 0;
+  return body.set().rounded() && body.set().rounded()->core.generatorCount() == 0;
 }
 
 using LongMatrix = Eigen::Matrix<long double, 3, 3>;
@@ -39,8 +39,8 @@ std::optional<PrincipalBall> ballOfPair(const ConvexBody& a, const fcl::Transfor
                                         const ConvexBody& b, const fcl::Transform3d& pose_b,
                                         const GaussianDisplacement& displacement) {
   if (!isBall(a) || !isBall(b)) return std::nullopt;
-  const RoundedZonotope& body_a = *a.data().rounded;
-  const RoundedZonotope& body_b = *b.data().rounded;
+  const RoundedZonotope& body_a = *a.set().rounded();
+  const RoundedZonotope& body_b = *b.set().rounded();
   ExactPosition offset;
   offset.add(pose_b, body_b.core.centre());
   offset.add(pose_a, body_a.core.centre(), -1.0);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/agreed_bounds.h"
 #include "narrowphase/ball_pair.h"
@@ -51,7 +51,7 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
                               const GaussianDisplacement& displacement,
                               const Interruption& interruption) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  const PairObstacle obstacle(frame, a.data(), b.data());
+  const PairObstacle obstacle(frame, a.set(), b.set());
   PairBounds pair;
   if (obstacle->isPolytope()) return pair.mass(*obstacle, {0.0, interruption});
   Bounds known{0.0, 1.0};
@@ -73,8 +73,8 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;
-  const ConvexSetObstacle outer(frame, a.data().set(), b.data().set(), Faces::outer);
-  const ConvexSetObstacle inner(frame, a.data().set(), b.data().set(), Faces::inner);
+  const ConvexSetObstacle outer(frame, a.set(), b.set(), Faces::outer);
+  const ConvexSetObstacle inner(frame, a.set(), b.set(), Faces::inner);
   const MassEffort effort{kSandwichWidth, interruption};
   return agreed(known, {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper});
 }

@@ -3,8 +3,8 @@
 #include "fcl_prob/convex_pcd.h"
 
 #include "base/constants.h"
-#include "cobstacle/convex_body_data.h"
 #include "cobstacle/nearest.h"
+#include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/normal_mass.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/pair_bounds.h"
@@ -24,7 +24,7 @@ ConvexPcdBounds detail::convexPcd(const ConvexBody& a, const fcl::Transform3d& p
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   PairBounds pair;
   pair.setInterruption(interruption);
-  return pair.bounds(*PairObstacle(frame, a.data(), b.data()));
+  return pair.bounds(*PairObstacle(frame, a.set(), b.set()));
 }
 
 double detail::halfSpaceUpper(const ConvexBody& a, const fcl::Transform3d& pose_a,
@@ -32,7 +32,7 @@ double detail::halfSpaceUpper(const ConvexBody& a, const fcl::Transform3d& pose_
                               const GaussianDisplacement& displacement) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   if (frame.rank < 3 || !frame.fits) return 1.0;
-  const PairObstacle obstacle(frame, a.data(), b.data());
+  const PairObstacle obstacle(frame, a.set(), b.set());
   const Eigen::Vector3d towards = gjkDirection(*obstacle);
   if (!(towards.squaredNorm() > 0.5)) return 1.0;
   const double offset = -obstacle->support(-towards) * (1.0 - kHalfSpaceRounding);
@@ -50,7 +50,7 @@ ConvexPcdBaselines convexPcdBaselines(const ConvexBody& a, const fcl::Transform3
                                       const ConvexBody& b, const fcl::Transform3d& pose_b,
                                       const GaussianDisplacement& displacement) {
   const detail::PairFrame frame = detail::pairFrame(a, pose_a, b, pose_b, displacement);
-  return detail::PairBounds().baselines(*detail::PairObstacle(frame, a.data(), b.data()));
+  return detail::PairBounds().baselines(*detail::PairObstacle(frame, a.set(), b.set()));
 }
 
 }  // namespace fcl_prob

@@ -63,14 +63,14 @@ double Frustum::inradius() const {
 
 std::optional<CurvedBody> curvedBody(const ConvexBody& body, const Eigen::Matrix3d& rotation) {
   const LongMatrix3 turned = rotation.cast<long double>();
-  if (body.data().rounded) return roundedBody(*body.data().rounded, turned);
-  const SupportShape* shape = body.data().set().curvedShape();
+  if (body.set().rounded()) return roundedBody(*body.set().rounded(), turned);
+  const SupportShape* shape = body.set().curvedShape();
   if (!shape) return std::nullopt;
   return sweptBody(*shape, turned);
 }
 
 SupportShape shapeOf(const ConvexBody& body) {
-  if (const auto& rounded = body.data().rounded) {
+  if (const auto& rounded = body.set().rounded()) {
     SupportShape shape{{rounded->core.centre()}, 0, Eigen::Matrix3d::Zero()};
     for (int i = 0; i < rounded->core.generatorCount(); ++i) {
       const std::size_t count = shape.points.size();
@@ -85,8 +85,8 @@ SupportShape shapeOf(const ConvexBody& body) {
     shape.semi_axes = rounded->radius * Eigen::Matrix3d::Identity();
     return shape;
   }
-  if (const SupportShape* shape = body.data().set().curvedShape()) return *shape;
-  return {body.data().set().outerMesh().vertices, 0, Eigen::Matrix3d::Zero()};
+  if (const SupportShape* shape = body.set().curvedShape()) return *shape;
+  return {body.set().outerMesh().vertices, 0, Eigen::Matrix3d::Zero()};
 }
 
 }  // namespace fcl_prob::detail

@@ -5,7 +5,8 @@
 
 #include <optional>
 
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/convex_set.h"
+#include "fcl_prob/convex_body.h"
 #include "gaussian/rounded_parts.h"
 
 namespace fcl_prob::detail {

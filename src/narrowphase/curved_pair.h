@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/interruption.h"
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/bounds.h"
 
 namespace fcl_prob::detail {

@@ -85,8 +85,8 @@ void placePolytope(const ConvexMesh& mesh, const LongMatrix3& rotation, int atte
 }
 
 bool isPolytope(const ConvexBody& body) {
-  if (body.data().rounded && body.data().rounded->radius > 0.0) return false;
-  return body.data().set().isPolytope();
+  if (body.set().rounded() && body.set().rounded()->radius > 0.0) return false;
+  return body.set().isPolytope();
 }
 
 /// Of two axes both have to be straight.
@@ -121,15 +121,15 @@ std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3
   if (isFrustum(body_b) && isPolytope(a)) {
     addFrustum(*body_b, false, parts);
     ConvexMesh reflected;
-    reflect(a.data().set().outerMesh(), Eigen::Matrix3d::Identity(), reflected);
+    reflect(a.set().outerMesh(), Eigen::Matrix3d::Identity(), reflected);
     placePolytope(reflected, body_b->frame.inverse() * rotation_a.cast<long double>(), attempt,
                   parts);
     return parts;
   }
   if (isFrustum(body_a) && isPolytope(b)) {
     addFrustum(*body_a, true, parts);
-    placePolytope(b.data().set().outerMesh(),
-                  body_a->frame.inverse() * rotation_b.cast<long double>(), attempt, parts);
+    placePolytope(b.set().outerMesh(), body_a->frame.inverse() * rotation_b.cast<long double>(),
+                  attempt, parts);
     return parts;
   }
   return std::nullopt;

@@ -21,14 +21,14 @@ constexpr double kPlaceRounding = 0x1p-57;
 
 /// Nothing for what is no ellipsoid. (Spheres are rounded zonotopes.)
 const SupportShape* ellipsoidOf(const ConvexBody& body) {
-  if (body.data().rounded) return nullptr;
-  const SupportShape* shape = body.data().set().curvedShape();
+  if (body.set().rounded()) return nullptr;
+  const SupportShape* shape = body.set().curvedShape();
   return shape && shape->points.size() == 1 && shape->semi_axes(2, 2) > 0.0 ? shape : nullptr;
 }
 
 bool isFlatBody(const ConvexBody& body) {
-  if (body.data().rounded && body.data().rounded->radius > 0.0) return false;
-  return body.data().set().isPolytope();
+  if (body.set().rounded() && body.set().rounded()->radius > 0.0) return false;
+  return body.set().isPolytope();
 }
 
 /// The image of a polytope, about its own origin.
@@ -63,7 +63,7 @@ Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a
   const LongVector3 semi_axes = ellipsoid.semi_axes.diagonal().cast<long double>();
   const LongMatrix3 rotation = (first ? frame.rotation_a : frame.rotation_b).cast<long double>();
   const LongMatrix3 to_ball = semi_axes.cwiseInverse().asDiagonal() * rotation.inverse();
-  const ConvexMesh& flat = (first ? b : a).data().set().outerMesh();
+  const ConvexMesh& flat = (first ? b : a).set().outerMesh();
   ConvexMesh mesh = flat;
   if (!first) reflect(flat, Eigen::Matrix3d::Identity(), mesh);
   const LongMatrix3 turn = (first ? frame.rotation_b : frame.rotation_a).cast<long double>();

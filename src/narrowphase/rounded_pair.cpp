@@ -27,11 +27,11 @@ const double kFarRounding =
     std::max(16.0 * static_cast<double>(std::numeric_limits<long double>::epsilon()), 0x1p-58);
 
 double ballRadius(const ConvexBody& body) {
-  return body.data().rounded ? body.data().rounded->radius : 0.0;
+  return body.set().rounded() ? body.set().rounded()->radius : 0.0;
 }
 
 bool isCoreWithBall(const ConvexBody& body) {
-  return body.data().rounded || body.data().set().isPolytope();
+  return body.set().rounded() || body.set().isPolytope();
 }
 
 /// The points that a sum of segments is the hull of.
@@ -49,9 +49,9 @@ std::vector<Eigen::Vector3d> cornersOfCore(const Zonotope& core) {
 }
 
 ConvexMesh coreMesh(const ConvexBody& body) {
-  const ConvexBodyData& data = body.data();
-  if (!data.rounded || data.rounded->radius == 0.0) return data.set().outerMesh();
-  const std::vector<Eigen::Vector3d> corners = cornersOfCore(data.rounded->core);
+  const ConvexSet& set = body.set();
+  if (set.isPolytope()) return set.outerMesh();
+  const std::vector<Eigen::Vector3d> corners = cornersOfCore(set.rounded()->core);
   if (corners.size() > 2) return makeConvexMesh(corners);
   ConvexMesh mesh;
   mesh.vertices = corners;
@@ -98,7 +98,7 @@ std::optional<CoreFaces> sumOfMeshes(const PairFrame& frame, const ConvexBody& a
   if (!defect) return std::nullopt;
   result.faces.transform(frame.rotation_b, Eigen::Vector3d::Zero());
   result.error =
-      2.0 * kShapeRoundings * kEpsilon * size + *defect + a.data().slack() + b.data().slack();
+      2.0 * kShapeRoundings * kEpsilon * size + *defect + a.set().slack() + b.set().slack();
   return result;
 }
 
@@ -113,7 +113,7 @@ VectorBounds gradientOf(const VectorBounds& moment, const Eigen::Matrix3d& white
 }
 
 Eigen::Vector3d centreOf(const ConvexBody& body, bool by_centre) {
-  return by_centre ? body.data().rounded->core.centre() : Eigen::Vector3d::Zero();
+  return by_centre ? body.set().rounded()->core.centre() : Eigen::Vector3d::Zero();
 }
 
 }  // namespace
@@ -128,10 +128,11 @@ RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pos
                                 const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   if (!frame.fits || frame.rank < 3) return {};
-  const bool by_centre = a.data().rounded && b.data().rounded;
-  const double size = a.data().size() + b.data().size();
-  auto core = by_centre ? sumOfSegments(frame, a.data().rounded->core, b.data().rounded->core, size)
-                        : sumOfMeshes(frame, a, b, size, effort.interruption);
+  const bool by_centre = a.set().rounded() && b.set().rounded();
+  const double size = a.set().size() + b.set().size();
+  auto core = by_centre
+                  ? sumOfSegments(frame, a.set().rounded()->core, b.set().rounded()->core, size)
+                  : sumOfMeshes(frame, a, b, size, effort.interruption);
   if (!core) return {};
   ExactPosition origin;
   origin.add(pose_b, centreOf(b, by_centre));

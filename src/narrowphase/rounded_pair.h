@@ -4,7 +4,7 @@
 // other, beside boxes, triangles and convex polytopes.
 #pragma once
 
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/pair_obstacle.h"
 #include "gaussian/rounded_polytope_mass.h"
 
 namespace fcl_prob::detail {

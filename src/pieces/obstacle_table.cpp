@@ -29,8 +29,8 @@ bool isTriangle(const WhitenedTree& tree, int node) {
   return tree.tree->isTriangle(tree.tree->nodes[node].piece);
 }
 
-const PieceShape& shapeOf(const WhitenedTree& tree, int body) {
-  return tree.shapes[tree.tree->bodies[body].shape].shape;
+const ConvexPiece& shapeOf(const WhitenedTree& tree, int body) {
+  return tree.shapes[tree.tree->bodies[body].shape];
 }
 
 SupportBody bodyAt(const WhitenedTree& tree, int node) {
@@ -161,7 +161,7 @@ bool ObstacleTable::hasFewSlabs(NodePair leaves) const {
   };
   const auto count = [](const WhitenedTree& tree, int node) -> Counts {
     if (isTriangle(tree, node)) return {};
-    const PieceShape& shape = shapeOf(tree, tree.tree->bodyOf(tree.tree->nodes[node].piece));
+    const ConvexPiece& shape = shapeOf(tree, tree.tree->bodyOf(tree.tree->nodes[node].piece));
     return {shape.faces.size(), shape.edges.size(), shape.body.curved()};
   };
   const Counts of_a = count(pair_.a, leaves.a);

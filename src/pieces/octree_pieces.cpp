@@ -14,22 +14,6 @@ namespace {
 using Box = fcl::AABBd;
 using OcTreeNode = fcl::OcTreed::OcTreeNode;
 
-PieceShape cube(double side) {
-  PieceShape shape;
-  for (const double x : {-0.5, 0.5}) {
-    for (const double y : {-0.5, 0.5}) {
-      for (const double z : {-0.5, 0.5})
-        shape.body.points.emplace_back(side * x, side * y, side * z);
-    }
-  }
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d edge = side * Eigen::Vector3d::Unit(k);
-    shape.edges.push_back(edge);
-    shape.faces.emplace_back(edge, side * Eigen::Vector3d::Unit((k + 1) % 3));
-  }
-  return shape;
-}
-
 // Builds subtrees before their parents, so that children come first; the order of the nodes is
 // turned round at the end.
 class OcTreeReader {
@@ -94,7 +78,7 @@ class OcTreeReader {
     int& shape = shape_of_depth_[static_cast<std::size_t>(depth)];
     if (shape < 0) {
       shape = static_cast<int>(tree_.shapes.size());
-      tree_.shapes.push_back(cube(box.max_[0] - box.min_[0]));
+      tree_.shapes.push_back(cubePiece(box.max_[0] - box.min_[0]));
     }
     tree_.bodies.push_back({box.center(), shape});
     return addNode({-1, -1, static_cast<int>(tree_.bodies.size()) - 1});

@@ -13,46 +13,26 @@ namespace fcl_prob::detail {
 
 namespace {
 
-/// An edge, and a bound on the terms that it is the sum of.
-struct Edge {
-  Eigen::Vector3d along;
-  Eigen::Vector3d magnitude;
-};
-
-struct WhitenedPiece {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::pair<Edge, Edge>> faces;
-  std::vector<Edge> edges;
-};
-
-WhitenedPiece whitenedTriangle(const WhitenedTree& tree, int triangle) {
+// A triangle of the vertices as they are.
+ConvexPiece trianglePiece(const WhitenedTree& tree, int triangle) {
   const Eigen::Vector3i& t = tree.tree->triangles[triangle];
   const std::array<Eigen::Vector3d, 3> v{tree.vertices[t[0]], tree.vertices[t[1]],
                                          tree.vertices[t[2]]};
-  // The obstacle is that of the vertices as they are: such a difference is rounded once.
-  const auto edge = [&](std::size_t from, std::size_t to) {
-    const Eigen::Vector3d along = v[to] - v[from];
-    return Edge{along, along.cwiseAbs()};
-  };
-  return {{v[0], v[1], v[2]}, {{edge(0, 1), edge(0, 2)}}, {edge(0, 1), edge(0, 2), edge(1, 2)}};
+  ConvexPiece piece{{{v[0], v[1], v[2]}, 0}, {}, {}};
+  piece.addFace(v[1] - v[0], v[2] - v[0]);
+  piece.addEdge(v[1] - v[0]);
+  piece.addEdge(v[2] - v[0]);
+  piece.addEdge(v[2] - v[1]);
+  return piece;
 }
 
-WhitenedPiece whitenedPiece(const WhitenedTree& tree, int index) {
-  if (tree.tree->isTriangle(index)) return whitenedTriangle(tree, index);
+// At its position.
+ConvexPiece pieceAt(const WhitenedTree& tree, int index) {
+  if (tree.tree->isTriangle(index)) return trianglePiece(tree, index);
   const int body = tree.tree->bodyOf(index);
-  const WhitenedShape& whitened = tree.shapes[tree.tree->bodies[body].shape];
-  const PieceShape& shape = whitened.shape;
-  WhitenedPiece result{shape.body.points, {}, {}};
-  for (Eigen::Vector3d& point : result.vertices) point += tree.positions[body];
-  for (std::size_t i = 0; i < shape.faces.size(); ++i) {
-    const auto& [p, q] = shape.faces[i];
-    const auto& [size_p, size_q] = whitened.face_magnitudes[i];
-    result.faces.push_back({{p, size_p}, {q, size_q}});
-  }
-  for (std::size_t i = 0; i < shape.edges.size(); ++i) {
-    result.edges.push_back({shape.edges[i], whitened.edge_magnitudes[i]});
-  }
-  return result;
+  ConvexPiece piece = tree.shapes[tree.tree->bodies[body].shape];
+  for (Eigen::Vector3d& point : piece.body.points) point += tree.positions[body];
+  return piece;
 }
 
 struct Extent {
@@ -82,7 +62,7 @@ class Factors {
   explicit Factors(std::size_t used)
       : count_(std::max<std::size_t>(4, (used + 3) / 4 * 4)), p_(3 * count_), q_(3 * count_) {}
 
-  void add(const Edge& p, const Edge& q) {
+  void add(const PieceEdge& p, const PieceEdge& q) {
     for (std::size_t k = 0; k < 3; ++k) {
       p_[k * count_ + turns_.size()] = p.along[static_cast<int>(k)];
       q_[k * count_ + turns_.size()] = q.along[static_cast<int>(k)];
@@ -139,12 +119,13 @@ void mergeEqualNormals(PieceSlabs& slabs) {
   }
 }
 
-SlabExtent extentOf(const WhitenedPiece& a, const WhitenedPiece& b, const Eigen::Vector3d& error) {
+SlabExtent extentOf(const ConvexPiece& a, const ConvexPiece& b, const Eigen::Vector3d& error) {
   Eigen::Vector3d width = Eigen::Vector3d::Zero();
-  for (const WhitenedPiece* piece : {&a, &b}) {
-    for (const Edge& edge : piece->edges) width = width.cwiseMax(edge.along.cwiseAbs());
+  for (const ConvexPiece* piece : {&a, &b}) {
+    for (const PieceEdge& edge : piece->edges) width = width.cwiseMax(edge.along.cwiseAbs());
   }
-  const Eigen::Vector3d size = largestCoordinates(a.vertices) + largestCoordinates(b.vertices);
+  const Eigen::Vector3d size =
+      largestCoordinates(a.body.points) + largestCoordinates(b.body.points);
   SlabExtent extent;
   for (int k = 0; k < 3; ++k) {
     extent.width[k] = width[k];
@@ -157,22 +138,22 @@ SlabExtent extentOf(const WhitenedPiece& a, const WhitenedPiece& b, const Eigen:
 }  // namespace
 
 PieceSlabs pieceSlabs(const WhitenedPair& pair, NodePair leaves) {
-  const WhitenedPiece first = whitenedPiece(pair.a, pair.a.tree->nodes[leaves.a].piece);
-  const WhitenedPiece second = whitenedPiece(pair.b, pair.b.tree->nodes[leaves.b].piece);
+  const ConvexPiece first = pieceAt(pair.a, pair.a.tree->nodes[leaves.a].piece);
+  const ConvexPiece second = pieceAt(pair.b, pair.b.tree->nodes[leaves.b].piece);
   Factors factors(first.faces.size() + second.faces.size() +
                   first.edges.size() * second.edges.size());
   for (const auto& [p, q] : first.faces) factors.add(p, q);
   for (const auto& [p, q] : second.faces) factors.add(p, q);
-  for (const Edge& p : first.edges) {
-    for (const Edge& q : second.edges) factors.add(p, q);
+  for (const PieceEdge& p : first.edges) {
+    for (const PieceEdge& q : second.edges) factors.add(p, q);
   }
   PieceSlabs slabs = factors.planes(extentOf(first, second, slabError(pair, leaves)));
   mergeEqualNormals(slabs);
   double* out = slabs.data.data();
   for (int i = 0; i < slabs.count; ++i) {
     const Eigen::Vector3d n(out[i], out[slabs.count + i], out[2 * slabs.count + i]);
-    const Extent of_a = extentAlong(first.vertices, n);
-    const Extent of_b = extentAlong(second.vertices, n);
+    const Extent of_a = extentAlong(first.body.points, n);
+    const Extent of_b = extentAlong(second.body.points, n);
     out[3 * slabs.count + i] += of_b.lo - of_a.hi;
     out[4 * slabs.count + i] += of_b.hi - of_a.lo;
   }

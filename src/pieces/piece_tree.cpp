@@ -106,87 +106,14 @@ void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
   if (view.triangle_count >= kFewestForCaps) fillCaps(view, tree);
 }
 
-// Exact but for components below 1e-308 of the largest.
-Eigen::Vector3d scaledToOne(const Eigen::Vector3d& v) {
-  int exponent = 0;
-  std::frexp(v.cwiseAbs().maxCoeff(), &exponent);
-  return v.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
-}
-
-// Whether two vectors are parallel but for one rounding of each component. That stays so however a
-// linear map stretches them, and counts as what edges are rounded by.
-bool areParallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  for (int k = 0; k < 3; ++k) {
-    const int u = (k + 1) % 3, v = (k + 2) % 3;
-    if (a[u] * b[v] != a[v] * b[u]) return false;
-  }
-  return true;
-}
-
-// Adds the direction unless one that is known is parallel to it; says whether it did.
-bool addDirection(const Eigen::Vector3d& along, std::vector<Eigen::Vector3d>& known) {
-  const Eigen::Vector3d direction = scaledToOne(along);
-  const bool old = std::any_of(known.begin(), known.end(), [&](const Eigen::Vector3d& other) {
-    return areParallel(direction, other);
-  });
-  if (!old) known.push_back(direction);
-  return !old;
-}
-
-// Whether p × q keeps nearly all of its digits.
-bool isWellShaped(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-  return p.cross(q).norm() > 0.25 * p.norm() * q.norm();
-}
-
-// Faces and edges of the hull; parallel ones once, since a slab has two sides. Nearly parallel ones
-// all stay: what is near before whitening need not be after it.
-PieceShape shapeOfHull(const ConvexPolytope& hull) {
-  PieceShape piece{{hull.vertices, 0}, {}, {}};
-  std::vector<Eigen::Vector3d> normals;
-  std::vector<Eigen::Vector3d> directions;
-  for (const ConvexPolytope::Face& face : hull.faces) {
-    const int count = static_cast<int>(face.vertices.size());
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector3d edge =
-          hull.vertices[face.vertices[(i + 1) % count]] - hull.vertices[face.vertices[i]];
-      if (addDirection(edge, directions)) piece.edges.push_back(edge);
-    }
-    const Eigen::Vector3d& corner = hull.vertices[face.vertices[0]];
-    const Eigen::Vector3d p = hull.vertices[face.vertices[1]] - corner;
-    const Eigen::Vector3d q = hull.vertices[face.vertices[count - 1]] - corner;
-    if (isWellShaped(p, q) && !addDirection(p.cross(q), normals)) continue;
-    piece.faces.emplace_back(p, q);
-  }
-  return piece;
-}
-
-// A hull without volume: every pair of vertices may be an edge, which gives more slabs than needed
-// and none too few.
-PieceShape shapeOfFlatHull(const ConvexPolytope& hull) {
-  PieceShape piece{{hull.vertices, 0}, {}, {}};
-  const int count = static_cast<int>(hull.vertices.size());
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < i; ++j) piece.edges.push_back(hull.vertices[i] - hull.vertices[j]);
-  }
-  for (std::size_t i = 1; i < piece.edges.size(); ++i) {
-    piece.faces.emplace_back(piece.edges[0], piece.edges[i]);
-  }
-  return piece;
-}
-
-PieceShape shapeOfPolytope(const std::vector<Eigen::Vector3d>& vertices) {
-  const ConvexPolytope hull = convexHull(vertices);
-  return hull.faces.empty() ? shapeOfFlatHull(hull) : shapeOfHull(hull);
-}
-
 // The middle of the body is its position, so that a body far from its frame's origin loses nothing
 // to rounding.
 void fillConvex(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
   SupportShape body = supportShape(geometry);
   const Eigen::Vector3d position = body.centre();
   for (Eigen::Vector3d& point : body.points) point -= position;
-  tree.shapes.push_back(body.curved() ? PieceShape{std::move(body), {}, {}}
-                                      : shapeOfPolytope(body.points));
+  tree.shapes.push_back(body.curved() ? ConvexPiece{std::move(body), {}, {}}
+                                      : polytopePiece(body.points));
   tree.bodies.push_back({position, 0});
   tree.nodes.resize(1);
   tree.nodes[0].piece = 0;

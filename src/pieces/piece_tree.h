@@ -10,21 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "cobstacle/support_shape.h"
 #include "geometry/surface_caps.h"
 #include "pieces/convex_fan.h"
+#include "pieces/convex_piece.h"
 #include "pieces/nearly_convex.h"
 
 namespace fcl_prob::detail {
-
-/// A convex piece relative to its position, with what its C-obstacles need: if it is a polytope,
-/// every face as a pair of spanning vectors, and the directions of the edges. All of it transforms
-/// linearly.
-struct PieceShape {
-  SupportShape body;
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> faces;
-  std::vector<Eigen::Vector3d> edges;
-};
 
 /// What closes a mesh, for the question which points are inside: caps over its open boundaries.
 struct MeshCaps {
@@ -85,8 +76,8 @@ struct PieceTree {
   std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to the origin of their part
   std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
   std::vector<Body> bodies;
-  std::vector<PieceShape> shapes;  ///< in the axes of their part
-  std::optional<MeshCaps> caps;    ///< of a single mesh of many triangles
+  std::vector<ConvexPiece> shapes;  ///< in the axes of their part
+  std::optional<MeshCaps> caps;     ///< of a single mesh of many triangles
 
   /// Of an octree: a cell is both occupied and free.
   bool any_cell_also_free = false;

@@ -56,26 +56,14 @@ void fitBoxes(WhitenedTree& whitened) {
   }
 }
 
-// `magnitudes` bounds the terms that the entries of `linear` are sums of.
-WhitenedShape whitenShape(const PieceShape& shape, const Eigen::Matrix3d& linear,
-                          const Eigen::Matrix3d& magnitudes) {
-  WhitenedShape result;
-  result.shape.body = shape.body.transformed(linear);
-  const auto magnitude = [&](const Eigen::Vector3d& v) { return magnitudes * v.cwiseAbs(); };
-  for (const auto& [p, q] : shape.faces) {
-    result.shape.faces.emplace_back(linear * p, linear * q);
-    result.face_magnitudes.emplace_back(magnitude(p), magnitude(q));
-  }
-  for (const Eigen::Vector3d& edge : shape.edges) {
-    result.shape.edges.push_back(linear * edge);
-    result.edge_magnitudes.push_back(magnitude(edge));
-  }
+NodeBox boxOf(const SupportShape& body) {
+  NodeBox box;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
-    result.lo[k] = -result.shape.body.supportValue(-axis);
-    result.hi[k] = result.shape.body.supportValue(axis);
+    box.lo[k] = -body.supportValue(-axis);
+    box.hi[k] = body.supportValue(axis);
   }
-  return result;
+  return box;
 }
 
 /// The middle of a part relative to the origin of a whitened frame.
@@ -107,7 +95,8 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
     result.positions.push_back(linear * tree.bodies[i].position + offset);
   }
   for (int i = part.shapes.begin; i < part.shapes.end; ++i) {
-    result.shapes.push_back(whitenShape(tree.shapes[i], linear, magnitudes));
+    result.shapes.push_back(tree.shapes[i].mapped(linear, magnitudes));
+    result.shape_boxes.push_back(boxOf(result.shapes.back().body));
   }
 }
 
@@ -203,6 +192,7 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
   result.vertices.clear();
   result.positions.clear();
   result.shapes.clear();
+  result.shape_boxes.clear();
   result.vertices.reserve(object.tree->vertices.size());
   Eigen::Vector3d farthest = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
@@ -224,9 +214,10 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
 }  // namespace
 
 NodeBox bodyBox(const WhitenedTree& whitened, int body) {
-  const WhitenedShape& shape = whitened.shapes[whitened.tree->bodies[body].shape];
+  const NodeBox& box = whitened.shape_boxes[whitened.tree->bodies[body].shape];
   const Eigen::Vector3d& position = whitened.positions[body];
-  return paddedBox(position + shape.lo, position + shape.hi, whitened.error);
+  return paddedBox(position + Eigen::Map<const Eigen::Vector3d>(box.lo),
+                   position + Eigen::Map<const Eigen::Vector3d>(box.hi), whitened.error);
 }
 
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,

@@ -47,17 +47,6 @@ inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
   return box;
 }
 
-/// A shape of the pieces and its extent, relative to the position of a piece. What its edges, and
-/// the edges p and q of its faces, are rounded by is 8 ε of their magnitudes: of the terms that
-/// they are sums of.
-struct WhitenedShape {
-  PieceShape shape;
-  std::vector<Eigen::Vector3d> edge_magnitudes;
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> face_magnitudes;
-  Eigen::Vector3d lo;
-  Eigen::Vector3d hi;
-};
-
 /// Vertices and node boxes of one object in the whitened frame. With A's and B's trees of one
 /// query, `b - a` over their points is the C-obstacle. All is relative to the middle of A's first
 /// part, B also to the mean.
@@ -65,8 +54,9 @@ struct WhitenedTree {
   const PieceTree* tree = nullptr;
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3d> positions;  ///< of tree->bodies
-  std::vector<WhitenedShape> shapes;
-  std::vector<NodeBox> boxes;  ///< of tree->nodes, padded by `error`
+  std::vector<ConvexPiece> shapes;         ///< of tree->shapes
+  std::vector<NodeBox> shape_boxes;        ///< around them, up to rounding
+  std::vector<NodeBox> boxes;              ///< of tree->nodes, padded by `error`
 
   /// Bound on the error of a vertex or point of a piece, for each axis.
   Eigen::Vector3d error = Eigen::Vector3d::Zero();

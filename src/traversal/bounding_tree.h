@@ -10,31 +10,30 @@
 #include <vector>
 
 #include "cobstacle/bounding_volumes.h"
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/convex_set.h"
 #include "fcl_prob/convex_body.h"
 #include "geometry/length.h"
 
 namespace fcl_prob::detail {
 
-using ConvexBodyPtr = std::unique_ptr<const ConvexBodyData>;
+using ConvexSetPtr = std::unique_ptr<const ConvexSet>;
 
-inline ConvexBodyPtr makeBody(const RoundedZonotope& body) {
-  return std::make_unique<const ConvexBodyData>(body, ConvexBody::kDefaultResolution);
+inline ConvexSetPtr makeBody(const RoundedZonotope& body) {
+  return std::make_unique<const ConvexSet>(body, ConvexBody::kDefaultResolution);
 }
-inline ConvexBodyPtr makeBody(ConvexMesh mesh) {
-  return std::make_unique<const ConvexBodyData>(
-      std::make_unique<const PolytopeSet>(std::move(mesh)));
+inline ConvexSetPtr makeBody(ConvexMesh mesh) {
+  return std::make_unique<const ConvexSet>(std::move(mesh));
 }
 
 template <typename BV>
-ConvexBodyPtr bodyOf(const BV& volume) {
+ConvexSetPtr bodyOf(const BV& volume) {
   return makeBody(roundedZonotope(volume));
 }
 template <std::size_t N>
-ConvexBodyPtr bodyOf(const fcl::KDOP<double, N>& dop) {
+ConvexSetPtr bodyOf(const fcl::KDOP<double, N>& dop) {
   return makeBody(meshOfSlabs(slabsOf(dop)));
 }
-inline ConvexBodyPtr bodyOf(const Kdop26& dop) { return makeBody(meshOfSlabs(slabsOf(dop))); }
+inline ConvexSetPtr bodyOf(const Kdop26& dop) { return makeBody(meshOfSlabs(slabsOf(dop))); }
 
 /// A binary tree of nested convex bodies over the pieces of a geometry, in its frame. Node 0 is the
 /// root. Bodies are made when they are first asked for: not for concurrent use.
@@ -49,8 +48,8 @@ class BoundingTree {
   virtual double volume(int node) const = 0;
 
   /// The bounding body of a node, and the piece itself of a leaf.
-  virtual const ConvexBodyData& body(int node) const = 0;
-  virtual const ConvexBodyData& piece(int leaf) const = 0;
+  virtual const ConvexSet& body(int node) const = 0;
+  virtual const ConvexSet& piece(int leaf) const = 0;
 
   /// No coordinate of a body is larger than this, metres.
   virtual double size() const = 0;
@@ -73,12 +72,12 @@ class ModelTree final : public BoundingTree {
   }
   double volume(int node) const override { return model_.getBV(node).bv.volume(); }
 
-  const ConvexBodyData& body(int node) const override {
+  const ConvexSet& body(int node) const override {
     if (!bodies_[node]) bodies_[node] = bodyOf(model_.getBV(node).bv);
     return *bodies_[node];
   }
 
-  const ConvexBodyData& piece(int leaf) const override {
+  const ConvexSet& piece(int leaf) const override {
     if (!pieces_[leaf]) {
       const fcl::Triangle& triangle = model_.tri_indices[model_.getBV(leaf).primitiveId()];
       pieces_[leaf] =
@@ -101,8 +100,8 @@ class ModelTree final : public BoundingTree {
   static constexpr double kReach = 4.0;
 
   const fcl::BVHModel<BV>& model_;
-  mutable std::vector<ConvexBodyPtr> bodies_;
-  mutable std::vector<ConvexBodyPtr> pieces_;
+  mutable std::vector<ConvexSetPtr> bodies_;
+  mutable std::vector<ConvexSetPtr> pieces_;
 };
 
 /// One convex shape as a tree of one node.
@@ -112,10 +111,10 @@ class ShapeTree final : public BoundingTree {
 
   int leftChild(int) const override { return -1; }
   double volume(int) const override { return 0.0; }  // never compared: a leaf is not refined
-  const ConvexBodyData& body(int) const override { return body_.data(); }
-  const ConvexBodyData& piece(int) const override { return body_.data(); }
-  double size() const override { return body_.data().size(); }
-  double slack() const override { return body_.data().slack(); }
+  const ConvexSet& body(int) const override { return body_.set(); }
+  const ConvexSet& piece(int) const override { return body_.set(); }
+  double size() const override { return body_.set().size(); }
+  double slack() const override { return body_.set().slack(); }
 
  private:
   ConvexBody body_;

@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "cobstacle/nearest.h"
+#include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/prior_methods.h"
 #include "geometry/validation.h"

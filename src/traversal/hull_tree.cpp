@@ -31,7 +31,7 @@ ConvexMesh HullTree::hullOf(const Node& node) const {
   if (node.left < 0) return makeTriangle(node.triangle[0], node.triangle[1], node.triangle[2]);
   std::vector<Eigen::Vector3d> points;
   for (const int child : {node.left, node.left + 1}) {
-    const ConvexMesh& mesh = nodes_[child].body->set().outerMesh();
+    const ConvexMesh& mesh = nodes_[child].body->outerMesh();
     points.insert(points.end(), mesh.vertices.begin(), mesh.vertices.end());
   }
   return makeConvexMesh(points);

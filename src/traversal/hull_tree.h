@@ -35,8 +35,8 @@ class HullTree final : public BoundingTree {
 
   int leftChild(int node) const override { return nodes_[node].left; }
   double volume(int node) const override { return nodes_[node].volume; }
-  const ConvexBodyData& body(int node) const override { return *nodes_[node].body; }
-  const ConvexBodyData& piece(int leaf) const override { return *nodes_[leaf].body; }
+  const ConvexSet& body(int node) const override { return *nodes_[node].body; }
+  const ConvexSet& piece(int leaf) const override { return *nodes_[leaf].body; }
   double size() const override { return size_; }
   double slack() const override { return slack_; }
 
@@ -44,7 +44,7 @@ class HullTree final : public BoundingTree {
   struct Node {
     int left = -1;
     std::array<Eigen::Vector3d, 3> triangle;  // of a leaf
-    ConvexBodyPtr body;
+    ConvexSetPtr body;
     double volume = 0.0;
     double slack = 0.0;  // of the hulls down to the leaves
   };

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "traversal/node_pairs.h"
 
+#include "cobstacle/pair_obstacle.h"
+
 namespace fcl_prob::detail {
 
 double NodePairs::bound(int node_a, int node_b) {

@@ -22,8 +22,8 @@ class PartBoundingTree final : public BoundingTree {
 
   int leftChild(int node) const override { return nodes_[node].left; }
   double volume(int node) const override { return nodes_[node].volume; }
-  const ConvexBodyData& body(int node) const override { return nodes_[node].body->data(); }
-  const ConvexBodyData& piece(int leaf) const override { return nodes_[leaf].piece->data(); }
+  const ConvexSet& body(int node) const override { return nodes_[node].body->set(); }
+  const ConvexSet& piece(int leaf) const override { return nodes_[leaf].piece->set(); }
   double size() const override { return size_; }
   double slack() const override { return slack_; }
 

@@ -73,7 +73,7 @@ Bounded bounded(PartVolume volume, const Points& points) {
       return boundedBy<Kdop26>(points);
     case PartVolume::convex: {
       const ConvexBody hull(points);
-      return {hull, volumeOf(hull.data().set().outerMesh())};
+      return {hull, volumeOf(hull.set().outerMesh())};
     }
   }
   throw InvalidRequest("not one of PartVolume");
@@ -112,8 +112,8 @@ void PartBoundingTree::fill(Node& node, const Branch& branch, const ConvexParts&
   if (branch.left < 0) node.piece = parts.body(branch.part);
   for (const auto& body : {node.body, node.piece}) {
     if (!body) continue;
-    size_ = std::max(size_, body->data().size());
-    slack_ = std::max(slack_, body->data().slack());
+    size_ = std::max(size_, body->set().size());
+    slack_ = std::max(slack_, body->set().slack());
   }
 }
 

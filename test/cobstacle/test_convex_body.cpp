@@ -12,7 +12,7 @@
 #include <fcl/geometry/shape/triangle_p.h>
 
 #include "catch.h"
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/convex_set.h"
 #include "fcl_prob/exceptions.h"
 #include "mesh_shapes.h"
 #include "random_bodies.h"
@@ -30,7 +30,7 @@ void checkShape(const fcl::CollisionGeometryd& shape, bool polytope, const Suppo
   RandomBodies random(31);
   const ConvexBody body(shape);
   CHECK(body.isPolytope() == polytope);
-  const auto& set = body.data().set();
+  const auto& set = body.set();
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d d = random.direction();
     const double expected = support(d);
@@ -42,7 +42,7 @@ void checkShape(const fcl::CollisionGeometryd& shape, bool polytope, const Suppo
     CHECK(outer <= 1.08 * expected);
     CHECK(inner >= 0.93 * expected);
   }
-  CHECK(body.data().size() >= set.outerMesh().supportPoint(Eigen::Vector3d::UnitX()).norm());
+  CHECK(body.set().size() >= set.outerMesh().supportPoint(Eigen::Vector3d::UnitX()).norm());
 }
 
 TEST_CASE("FCL's convex shapes as convex bodies") {

@@ -6,7 +6,7 @@
 #include <fcl/geometry/shape/cylinder.h>
 
 #include "catch.h"
-#include "cobstacle/convex_body_data.h"
+#include "cobstacle/pair_obstacle.h"
 #include "random_bodies.h"
 
 namespace {
@@ -49,7 +49,7 @@ TEST_CASE("the direction of closest approach of polytopes and curved bodies") {
     const Eigen::Isometry3d pose_a = random.pose(1.0);
     const Eigen::Isometry3d pose_b = random.pose(6.0);
     const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-    const PairObstacle v(frame, a.data(), b.data());
+    const PairObstacle v(frame, a.set(), b.set());
     ObstacleScratch scratch;
     v->outerFaces(scratch);
     const Separation separation = separationOf(scratch.faces);

@@ -136,7 +136,7 @@ TEST_CASE("an ellipsoid's sections against those of a fine polytope") {
     const PairFrame frame(displacement, Eigen::Isometry3d::Identity(), 1.0, pose_b, 1.0);
     const Ellipsoid ball{frame.offset, radius};
     const Eigen::Vector3d n = (frame.whitening * ball.centre).normalized();
-    const SweptSet fine({{frame.offset}, 1, radius * Eigen::Matrix3d::Identity()}, 600);
+    const ConvexSet fine({{frame.offset}, 1, radius * Eigen::Matrix3d::Identity()}, 600);
     double bound[2];
     for (int outer = 0; outer < 2; ++outer) {
       FaceSet faces;
