@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <functional>
 
+#include "base/stopwatch.h"
 #include "bench/bench_clouds.h"
 #include "bench/cloud_scenes.h"
 #include "bench/depth_image.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -48,7 +48,7 @@ Outcome outcomeOf(const CloudScene& scene, const Geometry& finger, const SensorM
   request.coverage = kCoverage;
   request.unseen = UnseenSpace::free;
   Outcome outcome;
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   const Reconstruction free = reconstruct(cloud, request);
   outcome.reconstruction_ms = watch.milliseconds();
   request.unseen = UnseenSpace::occupied;

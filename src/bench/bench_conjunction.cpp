@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/encounters.h"
 #include "bench/uniforms.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/exceptions.h"
 
@@ -39,7 +39,7 @@ double largestSize(const std::vector<double>& values) {
 class ConjunctionTable {
  public:
   void add(const Encounter& encounter) {
-    const Stopwatch stopwatch;
+    const detail::Stopwatch stopwatch;
     const GaussianDisplacement displacement = encounter.displacement();
     const fcl::Sphered half(0.5 * encounter.radius);
     fcl::Transform3d pose = fcl::Transform3d::Identity();

@@ -8,12 +8,12 @@
 #include <optional>
 #include <sstream>
 
+#include "base/stopwatch.h"
 #include "bench/bench_scenes.h"
 #include "bench/benchmark.h"
 #include "bench/fetch_arm.h"
 #include "cli/number_text.h"
 #include "cli/random_frames.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/pose_probability.h"
 
 namespace fcl_prob::cli {
@@ -58,7 +58,7 @@ class PoseScene {
 
   TimedResult query(const PoseError& error, const ProbabilityRequest& request) const {
     TimedResult timed;
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     query_.collisionProbability(prepared_.objectA().pose, prepared_.objectB().pose, error, request,
                                 timed.result);
     timed.time_ms = watch.milliseconds();
@@ -78,7 +78,7 @@ class PoseScene {
       poses.push_back(displacedPose(prepared_.objectA().pose, error.convention(), sample));
     }
     const fcl::CollisionRequestd request;
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     for (const fcl::Transform3d& pose : poses) {
       fcl::CollisionResultd result;
       fcl::collide(a_.get(), pose, b_.get(), prepared_.objectB().pose, request, result);
@@ -128,7 +128,7 @@ class PoseTable {
     const RandomJoints joints = arm.configuration(degrees * kRadiansADegree, kAside);
     const auto answer = [&](const ProbabilityRequest& request) {
       TimedResult timed;
-      const Stopwatch watch;
+      const detail::Stopwatch watch;
       arm.query().collisionProbability(joints, request, timed.result);
       timed.time_ms = watch.milliseconds();
       return timed;

@@ -9,11 +9,11 @@
 #include <memory>
 #include <numeric>
 
+#include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/superquadric.h"
 #include "bench/uniforms.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/pose_probability.h"
 #include "fcl_prob/prior_methods.h"
@@ -152,7 +152,7 @@ class PairMethods {
   template <typename Method>
   static PairAnswer timed(bool bound, const Method& method) {
     PairAnswer answer;
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     answer.value = method();
     answer.time_ms = watch.milliseconds();
     answer.bound = bound;

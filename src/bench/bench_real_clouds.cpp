@@ -3,10 +3,10 @@
 // The part of bench cloud that has no truth: real clouds from file to answer.
 #include <filesystem>
 
+#include "base/stopwatch.h"
 #include "bench/bench_clouds.h"
 #include "bench/cloud_scenes.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -41,12 +41,12 @@ fcl::Transform3d fingerBeside(const Reconstruction& seen, const Eigen::Vector3d&
 
 void addCloud(const RealCloud& real, const std::filesystem::path& folder, const Geometry& finger,
               TextTable& table, BenchReport& report) {
-  const Stopwatch reading;
+  const detail::Stopwatch reading;
   const PointCloud cloud = loadPointCloud((folder / real.file).string());
   const double read_ms = reading.milliseconds();
   ReconstructionRequest request;
   request.unseen = UnseenSpace::free;
-  const Stopwatch meshing;
+  const detail::Stopwatch meshing;
   const Reconstruction seen = reconstruct(cloud, request);
   const double mesh_ms = meshing.milliseconds();
   const fcl::Transform3d pose = fingerBeside(seen, cloud.sensor.translation(), finger);

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/uniforms.h"
 #include "cli/geometry.h"
 #include "cli/number_text.h"
 #include "cli/random_frames.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/batch.h"
 #include "fcl_prob/group.h"
 #include "fcl_prob/mesh_io.h"
@@ -70,7 +70,7 @@ double timeCollide(const Geometry& a, const fcl::Transform3d& pose_a, const Geom
   }
   const fcl::CollisionRequestd request;
   const fcl::Transform3d identity = fcl::Transform3d::Identity();
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   for (const fcl::Transform3d& pose : poses) {
     fcl::CollisionResultd result;
     fcl::collide(a.get(), pose, b.get(), identity, request, result);
@@ -111,7 +111,7 @@ class RobotTable {
       request.threshold = 0.05;
       request.relative_tolerance = 1e-3;
       ProbabilityResult result;
-      const Stopwatch watch;
+      const detail::Stopwatch watch;
       queries[link].collisionProbability(pose, fcl::Transform3d::Identity(), error, request,
                                          result);
       times.push_back(watch.milliseconds());
@@ -146,14 +146,14 @@ class RobotTable {
       }
       const GaussianDisplacement error = randomError(random, kLeastSigma, kMostSigma);
       ProbabilityResult result;
-      const Stopwatch watch;
+      const detail::Stopwatch watch;
       group.collisionProbability(poses, {fcl::Transform3d::Identity()}, error, request, result);
       times.push_back(watch.milliseconds());
       double dearest = 0.0, sum = 0.0;
       for (std::size_t i = 0; i < kLinks; ++i) {
         const PreparedQuery single(links[i], robot_.arm);
         ProbabilityResult of_one;
-        const Stopwatch single_watch;
+        const detail::Stopwatch single_watch;
         single.collisionProbability(poses[i], fcl::Transform3d::Identity(), error, request, of_one);
         dearest = std::max(dearest, single_watch.milliseconds());
         sum += *of_one.upper;
@@ -181,7 +181,7 @@ class RobotTable {
     BatchResult results[2];
     for (const unsigned threads : {1u, 2u}) {
       request.query.threads = threads;
-      const Stopwatch watch;
+      const detail::Stopwatch watch;
       results[threads - 1] = collisionProbabilities(query, waypoints, request);
       times[threads - 1] = watch.milliseconds();
     }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/stability_case.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -110,7 +110,7 @@ void judge(const Truth& truth, ProbabilityMethod method, double absolute_toleran
 void runCase(const StabilityCase& scene, const StabilityFamily& family,
              const ProbabilityRequest& request, std::size_t index, MethodRow& row) {
   ++row.cases;
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   try {
     const ProbabilityResult result = ask(scene, request);
     row.slowest_ms = std::max(row.slowest_ms, watch.milliseconds());

@@ -3,11 +3,11 @@
 // fcl_prob bench states: decisions on the states of a Fetch arm along paths past a human arm.
 #include <fcl/narrowphase/collision.h>
 
+#include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/table2_methods.h"
 #include "bench/uniforms.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/motion_planning.h"
 
 namespace fcl_prob::cli {
@@ -37,7 +37,7 @@ struct StateTimes {
 /// All bodies against the obstacle where it is expected, kCollides times.
 double timeCollide(const RobotQuery& query, const Eigen::VectorXd& values) {
   const auto poses = query.robot().poses(values);
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   for (int i = 0; i < kCollides; ++i) {
     for (std::size_t body = 0; body < poses.size(); ++body) {
       for (const Obstacle& obstacle : query.obstacles()) {
@@ -52,13 +52,13 @@ double timeCollide(const RobotQuery& query, const Eigen::VectorXd& values) {
 
 void addState(const RobotQuery& query, const Eigen::VectorXd& values, std::uint64_t seed,
               StateTimes& times) {
-  const Stopwatch certified_watch;
+  const detail::Stopwatch certified_watch;
   const Decision certified = query.state(values, decision()).decision;
   times.certified.push_back(certified_watch.milliseconds());
   ProbabilityRequest request = decision();
   request.threshold.reset();
   request.seed = seed;
-  const Stopwatch probable_watch;
+  const detail::Stopwatch probable_watch;
   const ProbableResult probable =
       query.decideProbably({values}, kThreshold, kChanceOfError, request);
   times.probable.push_back(probable_watch.milliseconds());

@@ -5,12 +5,12 @@
 #include <limits>
 #include <map>
 
+#include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/table2_methods.h"
 #include "bench/table2_plot.h"
 #include "bench/uniforms.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/certified_planning.h"
 
 namespace fcl_prob::cli {
@@ -75,7 +75,7 @@ class Table2Run {
     double query_ms = 0.0;
     const StateTest test = [&](const Eigen::VectorXd& values) {
       if (scene_.self.collides(values)) return false;
-      const Stopwatch watch;
+      const detail::Stopwatch watch;
       const bool below = method.probability(values, kMostProbable) < kMostProbable;
       query_ms += watch.milliseconds();
       return below;

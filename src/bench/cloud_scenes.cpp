@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "cli/stopwatch.h"
+#include "base/stopwatch.h"
 #include "fcl_prob/mesh_io.h"
 
 namespace fcl_prob::cli {
@@ -112,11 +112,11 @@ CloudScene randomCloudScene(const TriangleMesh& mesh, const Geometry& finger, do
 CloudAnswer askMesh(const Geometry& finger, const fcl::Transform3d& pose,
                     const GaussianDisplacement& displacement, const TriangleMesh& mesh,
                     const ProbabilityRequest& request) {
-  const Stopwatch building;
+  const detail::Stopwatch building;
   const Geometry object = buildTree(mesh, "obbrss");
   CloudAnswer answer;
   answer.tree_ms = building.milliseconds();
-  const Stopwatch asking;
+  const detail::Stopwatch asking;
   ProbabilityResult result;
   collisionProbability(finger.get(), pose, object.get(), fcl::Transform3d::Identity(), displacement,
                        request, result);

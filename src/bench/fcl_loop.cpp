@@ -4,8 +4,8 @@
 
 #include <fcl/narrowphase/collision.h>
 
+#include "base/stopwatch.h"
 #include "cli/random_frames.h"
-#include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -33,7 +33,7 @@ FclLoop timeFclLoop(const PreparedScene& scene, std::size_t samples, std::uint64
   FclLoop best;
   for (int loop = 0; loop < kLoops; ++loop) {
     FclLoop now{samples, 0, 0.0};
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     for (const fcl::Transform3d& pose_a : poses) {
       fcl::CollisionResultd result;
       if (fcl::collide(a.get(), pose_a, b.get(), pose_b, request, result) > 0) ++now.hits;

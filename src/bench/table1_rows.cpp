@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "bench/fcl_loop.h"
 #include "cli/number_text.h"
 #include "cli/parts_scene.h"
 #include "cli/prior_runs.h"
 #include "cli/random_frames.h"
-#include "cli/stopwatch.h"
 #include "cli/tree_pair.h"
 #include "cli/volumes.h"
 
@@ -127,11 +127,11 @@ Table1Scene::TreeBounds Table1Scene::boundByTrees(const std::string& volume,
   bounds.level_volume = volumes.back();
   GeneralPcdRequest request;
   request.confidence = kConfidence;
-  Stopwatch watch;
+  detail::Stopwatch watch;
   bounds.sum = trees->bound(pair.pose_a, pair.pose_b, pair.displacement, request);
   bounds.sum_ms = watch.milliseconds();
   request.variant = GeneralPcdVariant::minimum;
-  watch = Stopwatch();
+  watch = detail::Stopwatch();
   bounds.minimum = trees->bound(pair.pose_a, pair.pose_b, pair.displacement, request);
   bounds.minimum_ms = watch.milliseconds();
   return bounds;
@@ -168,7 +168,7 @@ Table1Row Table1Scene::partsRow(const std::string& volume, const PartsPair& part
     GeneralPcdRequest request;
     request.confidence = kConfidence;
     request.variant = variant;
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     const GeneralPcdResult result = generalPcd(a, scene_.objectA().pose, b, scene_.objectB().pose,
                                                scene_.displacement(), request);
     time_ms = watch.milliseconds();
@@ -187,7 +187,7 @@ Table1Row Table1Scene::partsRow(const std::string& volume, const PartsPair& part
 }
 
 Table1Row Table1Scene::partsBoundsRow(const PartsPair& parts) const {
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   const PartsBoundsResult bounds = partsBounds(parts.a, scene_.objectA().pose, parts.b,
                                                scene_.objectB().pose, scene_.displacement());
   Table1Row row =

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "cli/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -160,7 +160,7 @@ class OtherMethods {
       parts_.emplace(scene_.objectA(), scene_.objectB(), scene_.displacement(), kVolumeOfParts);
     }
     TimedResult timed;
-    const Stopwatch watch;
+    const detail::Stopwatch watch;
     timed.result = parts_->answer(run.parts, run.request);
     timed.time_ms = watch.milliseconds();
     return timed;

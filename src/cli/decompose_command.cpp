@@ -7,10 +7,10 @@
 #include <iomanip>
 #include <sstream>
 
+#include "base/stopwatch.h"
 #include "cli/number_text.h"
 #include "cli/output.h"
 #include "cli/run.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/mesh_io.h"
 
 namespace fcl_prob::cli {
@@ -35,7 +35,7 @@ std::string summaryOf(const ConvexParts& parts, const TriangleMesh& mesh, double
 
 int runDecompose(const DecomposeArguments& arguments) {
   const TriangleMesh mesh = loadMeshIsolated(arguments.mesh, arguments.options);
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   DecompositionRequest request = arguments.request;
   request.pieces = std::max(request.pieces, request.max_parts);
   const ConvexParts parts(mesh, request);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/stopwatch.h"
 #include "cli/gradient_report.h"
 #include "cli/json_values.h"
 #include "cli/number_text.h"
@@ -13,7 +14,6 @@
 #include "cli/result_report.h"
 #include "cli/run.h"
 #include "cli/self_report.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
 
@@ -88,7 +88,7 @@ RobotScene sceneOf(const PathArguments& arguments) {
 
 PathReport answer(RobotScene scene, const PathArguments& arguments) {
   PathReport report;
-  const Stopwatch building;
+  const detail::Stopwatch building;
   const RobotQuery query = loadRobotQuery(scene);
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   report.waypoints = waypoints.size();
@@ -97,7 +97,7 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   noteInterrupts();
   ProgressBar bar("fcl_prob path");
   scene.request.on_progress = std::ref(bar);
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   report.time_ms = watch.milliseconds();
   if (arguments.by_body) report.by_body = query.byBody(waypoints, scene.request);
@@ -259,7 +259,7 @@ ProbableReport answerProbably(RobotScene scene, double chance) {
     throw InvalidRequest("a probable decision is of waypoints with persistent errors");
   }
   ProbableReport report;
-  const Stopwatch building;
+  const detail::Stopwatch building;
   const RobotQuery query = loadRobotQuery(scene);
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   report.waypoints = waypoints.size();
@@ -267,7 +267,7 @@ ProbableReport answerProbably(RobotScene scene, double chance) {
   noteInterrupts();
   ProgressBar bar("fcl_prob path");
   scene.request.on_progress = std::ref(bar);
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   report.result = query.decideProbably(waypoints, *scene.request.threshold, chance, scene.request);
   report.time_ms = watch.milliseconds();
   return report;

@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/stopwatch.h"
 #include "cli/output.h"
 #include "cli/planned_path.h"
 #include "cli/progress_bar.h"
 #include "cli/run.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
 
@@ -70,7 +70,7 @@ CertifiedPlanningRequest requestOf(const RobotScene& scene, const PlanArguments&
 
 int runPlan(const PlanArguments& arguments) {
   const RobotScene scene = planSceneOf(arguments);
-  const Stopwatch building;
+  const detail::Stopwatch building;
   const RobotQuery query = loadRobotQuery(scene);
   const Robot& robot = query.robot();
   const SelfCollision self = loadSelfCollision(scene, robot);
@@ -85,7 +85,7 @@ int runPlan(const PlanArguments& arguments) {
                  (progress.shortening ? ", shortening a path" : ", looking for a path"));
     return !interrupted();
   };
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   const CertifiedPlan plan = planCertified(query, self, robot.values(scene.plan->start),
                                            robot.values(scene.plan->goal), request);
   const bool solved = plan.path.status == PlanningStatus::solved;

@@ -6,8 +6,8 @@
 #include <future>
 
 #include "base/decision.h"
+#include "base/stopwatch.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -57,7 +57,7 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
       displacement_(displacement),
       pose_error_(pose_error),
       use_of_parts_(parts) {
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   std::future<Geometry> possible_a, possible_b;
   if (a_.possible || b_.possible) {
     if (pose_error || parts != PartsUse::none || isOwnVolume(bounding_volume)) {
@@ -115,7 +115,7 @@ std::vector<std::string> PreparedScene::importNotes() const {
 
 TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
   TimedResult timed;
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   if (pose_query_) {
     pose_query_->collisionProbability(a_.pose, b_.pose, *pose_error_, request, timed.result);
   } else if (parts_) {

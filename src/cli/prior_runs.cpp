@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/stopwatch.h"
 #include "cli/number_text.h"
-#include "cli/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -99,7 +99,7 @@ PriorAnswer PriorScene::ofObjects(const PriorRun& run) const {
   const BoundingSphere b = boundingSphere(*b_);
   const bool park = run.method == PriorMethod::park;
   const auto method = park ? parkBound : duToitBurdick;
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   const double raw =
       method(a, scene_.objectA().pose, b, scene_.objectB().pose, scene_.displacement());
   const double time_ms = watch.milliseconds();
@@ -114,7 +114,7 @@ PriorAnswer PriorScene::ofTrees(const PriorRun& run) const {
   request.max_pairs = ProbabilityRequest().max_cells;  // what general-pcd has by default
   const fcl::Transform3d& pose_a = scene_.objectA().pose;
   const fcl::Transform3d& pose_b = scene_.objectB().pose;
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   if (run.method == PriorMethod::du_toit_burdick) {
     const double raw =
         duToitBurdickSum(*tree_a_, pose_a, *tree_b_, pose_b, scene_.displacement(), request);
@@ -126,7 +126,7 @@ PriorAnswer PriorScene::ofTrees(const PriorRun& run) const {
 }
 
 PriorAnswer PriorScene::enlarged(double confidence) const {
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   const EnlargedCollision result = enlargedCollision(
       *a_, scene_.objectA().pose, *b_, scene_.objectB().pose, scene_.displacement(), confidence);
   PriorAnswer answer;

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "cli/number_text.h"
 #include "cli/progress_bar.h"
 #include "cli/run.h"
-#include "cli/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "sweep/sweep.h"
 
@@ -35,13 +35,13 @@ class SweepReport {
     const double total = static_cast<double>(std::max<std::size_t>(progress.total, 1));
     bar_.show(static_cast<double>(progress.done) / total, textOf(progress));
     if (since_last_.milliseconds() < kBetweenLines_ms) return;
-    since_last_ = Stopwatch();
+    since_last_ = detail::Stopwatch();
     std::cerr << "fcl_prob sweep: " << textOf(progress) << std::endl;
   }
 
  private:
   ProgressBar bar_{"fcl_prob sweep"};
-  Stopwatch since_last_;
+  detail::Stopwatch since_last_;
 };
 
 int runSweep(const SweepArguments& arguments) {
@@ -55,7 +55,7 @@ int runSweep(const SweepArguments& arguments) {
   }
   if (options.threads == 0) throw InvalidRequest("--threads is 0, must be at least 1");
   noteInterrupts();
-  const Stopwatch watch;
+  const detail::Stopwatch watch;
   sweep::SweepProgress progress;
   {
     SweepReport report;

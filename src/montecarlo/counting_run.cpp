@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "fcl_prob/monte_carlo.h"
 
 namespace fcl_prob::detail {

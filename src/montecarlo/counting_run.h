@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "montecarlo/sampling_run.h"
 
 namespace fcl_prob::detail {

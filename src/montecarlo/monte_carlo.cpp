@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/monte_carlo.h"
+#include "base/stopwatch.h"
 
 #include <algorithm>
 #include <utility>

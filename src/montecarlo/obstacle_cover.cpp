@@ -13,13 +13,15 @@ namespace {
 /// Every box is looked at for every hit, so more of them stop paying off.
 constexpr std::size_t kMostBoxes = 128;
 
-struct NodePair {
+struct BoxedPair {
   int a;
   int b;
   CoverBox box;
 };
 
-bool lighter(const NodePair& left, const NodePair& right) { return left.box.mass < right.box.mass; }
+bool lighter(const BoxedPair& left, const BoxedPair& right) {
+  return left.box.mass < right.box.mass;
+}
 
 class CoverBuilder {
  public:
@@ -33,7 +35,7 @@ class CoverBuilder {
     ObstacleCover best = state();
     while (!heap_.empty() && heap_.size() + closed_.size() < kMostBoxes && !isDue(interruption)) {
       std::pop_heap(heap_.begin(), heap_.end(), lighter);
-      const NodePair pair = heap_.back();
+      const BoxedPair pair = heap_.back();
       heap_.pop_back();
       open(pair);
       ObstacleCover now = state();
@@ -67,7 +69,7 @@ class CoverBuilder {
     std::push_heap(heap_.begin(), heap_.end(), lighter);
   }
 
-  void open(const NodePair& pair) {
+  void open(const BoxedPair& pair) {
     const bool may_a = opens(a_, pair.a);
     const bool may_b = opens(b_, pair.b);
     if (!may_a && !may_b) {
@@ -84,7 +86,7 @@ class CoverBuilder {
   ObstacleCover state() const {
     ObstacleCover cover;
     cover.boxes = closed_;
-    for (const NodePair& pair : heap_) cover.boxes.push_back(pair.box);
+    for (const BoxedPair& pair : heap_) cover.boxes.push_back(pair.box);
     for (const CoverBox& box : cover.boxes) cover.mass += box.mass;
     return cover;
   }
@@ -93,7 +95,7 @@ class CoverBuilder {
   const CoverSide& b_;
   int rank_;
   Eigen::Vector3d margin_;
-  std::vector<NodePair> heap_;
+  std::vector<BoxedPair> heap_;
   std::vector<CoverBox> closed_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/random_words.h"
+#include "base/stopwatch.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/validation.h"
 #include "montecarlo/counting_run.h"

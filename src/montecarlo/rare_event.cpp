@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/decision.h"
+#include "base/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "montecarlo/displaced_collider.h"

@@ -9,20 +9,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 
+#include "base/stopwatch.h"
+
 namespace fcl_prob::detail {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Runs samples in chunks, of one sample at first, that take a fraction of a second each; between
 /// two chunks the calling thread may look at the clock and report progress. What a sample evaluates

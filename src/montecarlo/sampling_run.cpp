@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/sampling_run.h"
 #include "base/decision.h"
+#include "base/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/decision.h"
+#include "base/stopwatch.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/whitening.h"

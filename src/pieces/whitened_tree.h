@@ -10,6 +10,7 @@
 
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/whitening.h"
+#include "geometry/node_pair.h"
 #include "pieces/partition_object.h"
 
 namespace fcl_prob::detail {
@@ -107,12 +108,6 @@ WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Wh
 /// The same into the memory of an earlier one, which must not be referred to any more.
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
             WhitenedPair& result);
-
-/// A node of A's tree and one of B's.
-struct NodePair {
-  int a;
-  int b;
-};
 
 /// Bound on the error of b - a over the points of two nodes, without what `band` pays for.
 inline Eigen::Vector3d slabError(const WhitenedPair& pair, NodePair nodes) {

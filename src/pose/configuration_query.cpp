@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "base/random_words.h"
 #include "base/refuse_band.h"
+#include "base/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/pose_probability.h"
 #include "montecarlo/placement_monte_carlo.h"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "montecarlo/sample_loop.h"

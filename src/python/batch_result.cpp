@@ -14,7 +14,7 @@ namespace {
 
 using Field = std::optional<double> ProbabilityResult::*;
 
-py::object column(const BatchResult& batch, Field field) {
+py::object column(const BatchArrays& batch, Field field) {
   std::vector<double> values;
   values.reserve(batch.answers.size());
   for (const auto& answer : batch.answers) {
@@ -24,7 +24,7 @@ py::object column(const BatchResult& batch, Field field) {
   return arrayOf(values);
 }
 
-py::object probabilities(const BatchResult& batch) {
+py::object probabilities(const BatchArrays& batch) {
   std::vector<double> values;
   for (const auto& answer : batch.answers) {
     values.push_back(answer ? answer->probability() : std::numeric_limits<double>::quiet_NaN());
@@ -34,7 +34,7 @@ py::object probabilities(const BatchResult& batch) {
 
 /// An array of names, picked by number: `of` gives that of an answer, 0 stands for none.
 template <class Of>
-py::object nameColumn(const BatchResult& batch, const std::vector<std::string>& names,
+py::object nameColumn(const BatchArrays& batch, const std::vector<std::string>& names,
                       const Of& of) {
   std::vector<std::int64_t> numbers;
   numbers.reserve(batch.answers.size());
@@ -42,21 +42,21 @@ py::object nameColumn(const BatchResult& batch, const std::vector<std::string>& 
   return py::module_::import("numpy").attr("array")(names).attr("take")(arrayOf(numbers));
 }
 
-py::object statuses(const BatchResult& batch) {
+py::object statuses(const BatchArrays& batch) {
   std::vector<std::string> names = {"cancelled"};
   for (const ProbabilityStatus status : kStatuses) names.push_back(toString(status));
   return nameColumn(batch, names,
                     [](const ProbabilityResult& r) { return 1 + static_cast<int>(r.status); });
 }
 
-py::object decisions(const BatchResult& batch) {
+py::object decisions(const BatchArrays& batch) {
   std::vector<std::string> names = {"none"};
   for (const Decision decision : kDecisions) names.push_back(toString(decision));
   return nameColumn(batch, names,
                     [](const ProbabilityResult& r) { return 1 + static_cast<int>(r.decision); });
 }
 
-py::object gradients(const BatchResult& batch) {
+py::object gradients(const BatchArrays& batch) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(batch.answers.size()),
                                                    3, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < batch.answers.size(); ++i) {
@@ -66,7 +66,7 @@ py::object gradients(const BatchResult& batch) {
   return arrayOf(rows);
 }
 
-py::tuple pathOf(const BatchResult& batch) {
+py::tuple pathOf(const BatchArrays& batch) {
   std::vector<Bounds> all;
   for (const auto& answer : batch.answers) {
     all.push_back(answer ? Bounds{answer->lower.value_or(0.0), answer->upper.value_or(1.0)}
@@ -75,25 +75,25 @@ py::tuple pathOf(const BatchResult& batch) {
   return pairOf(anyOf(all));
 }
 
-std::size_t doneOf(const BatchResult& batch) {
+std::size_t doneOf(const BatchArrays& batch) {
   std::size_t done = 0;
   for (const auto& answer : batch.answers) done += answer ? 1 : 0;
   return done;
 }
 
-py::object itemOf(const BatchResult& batch, py::ssize_t i) {
+py::object itemOf(const BatchArrays& batch, py::ssize_t i) {
   const auto size = static_cast<py::ssize_t>(batch.answers.size());
   if (i < -size || i >= size)
     throw py::index_error("there are " + std::to_string(size) + " results");
   return orNone(batch.answers[static_cast<std::size_t>(i < 0 ? i + size : i)]);
 }
 
-std::string reprOf(const BatchResult& batch) {
+std::string reprOf(const BatchArrays& batch) {
   return "<BatchResult of " + std::to_string(batch.answers.size()) + " queries, " +
          std::to_string(doneOf(batch)) + " answered>";
 }
 
-py::dict dictOf(const BatchResult& batch) {
+py::dict dictOf(const BatchArrays& batch) {
   py::dict dict;
   dict["probability"] = probabilities(batch);
   dict["lower"] = column(batch, &ProbabilityResult::lower);
@@ -108,7 +108,7 @@ py::dict dictOf(const BatchResult& batch) {
 }  // namespace
 
 void bindBatchResult(py::module_& module) {
-  using Batch = BatchResult;
+  using Batch = BatchArrays;
   py::class_<Batch>(module, "BatchResult",
                     "Answers of many queries, in their order. An attribute makes a new array of n "
                     "entries: NaN where a method does not compute the number, or the query was not "

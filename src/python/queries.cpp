@@ -118,7 +118,7 @@ class Count {
   std::string name_;
 };
 
-BatchResult askAll(const Pair& pair, const py::object& displacement, const py::object& pose_a,
+BatchArrays askAll(const Pair& pair, const py::object& displacement, const py::object& pose_a,
                    const py::object& pose_b, const py::object& covariances, const py::object& means,
                    const std::string& convention, const py::kwargs& request) {
   Question question = questionFrom(request);
@@ -134,10 +134,10 @@ BatchResult askAll(const Pair& pair, const py::object& displacement, const py::o
     pair.answer(poses_a.at(i), poses_b.at(i), randomness.at(i), of, result);
   };
   return {answerAll(count.value(), std::move(question), one,
-                    [](const Answers& answers) { return py::cast(BatchResult{answers}); })};
+                    [](const Answers& answers) { return py::cast(BatchArrays{answers}); })};
 }
 
-BatchResult askAllOnce(const py::object& a, const py::object& b, const py::object& displacement,
+BatchArrays askAllOnce(const py::object& a, const py::object& b, const py::object& displacement,
                        const py::object& pose_a, const py::object& pose_b,
                        const py::object& covariances, const py::object& means,
                        const std::string& convention, const py::kwargs& request) {

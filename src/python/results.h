@@ -45,7 +45,7 @@ inline constexpr std::array<ProbabilityStatus, 11> kStatuses = {
 py::object decisionOf(Decision decision);
 
 /// Answers as arrays, of which an array is not written before it is asked for.
-struct BatchResult {
+struct BatchArrays {
   Answers answers;
 };
 

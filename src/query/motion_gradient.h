@@ -5,8 +5,8 @@
 
 #include <optional>
 
+#include "base/stopwatch.h"
 #include "fcl_prob/motion_gradient.h"
-#include "montecarlo/sample_loop.h"
 #include "partition/motion_flux.h"
 
 namespace fcl_prob::detail {

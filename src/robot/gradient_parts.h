@@ -5,8 +5,8 @@
 
 #include <cstddef>
 
+#include "base/stopwatch.h"
 #include "fcl_prob/motion_gradient.h"
-#include "montecarlo/sample_loop.h"
 
 namespace fcl_prob::detail {
 

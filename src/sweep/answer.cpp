@@ -47,7 +47,7 @@ std::optional<Record> answer(const NumberedLine& line, const std::filesystem::pa
   QueryLine query;
   try {
     readQueryLine(line, folder, query);
-    const PreparedScene prepared = scenes.of(query);
+    const SceneWithPair prepared = scenes.of(query);
     ProbabilityRequest request = prepared.scene.request;
     request.threads = 1;
     request.on_progress = [&](const ProbabilityProgress&) { return goes_on(); };

@@ -55,12 +55,12 @@ void PreparedScenes::loadMesh(const SceneObject& object) {
   }
 }
 
-PreparedScene PreparedScenes::of(const QueryLine& query) {
+SceneWithPair PreparedScenes::of(const QueryLine& query) {
   const auto pairOf = [this](const Scene& scene) {
     return std::make_shared<const PreparedPair>(geometryOf(scene.a), geometryOf(scene.b));
   };
   if (query.scene_file.empty()) {
-    PreparedScene inline_scene{sceneOf(query, {}), nullptr};
+    SceneWithPair inline_scene{sceneOf(query, {}), nullptr};
     inline_scene.pair = pairs_.get(query.shapes_key, [&] { return pairOf(inline_scene.scene); });
     return inline_scene;
   }

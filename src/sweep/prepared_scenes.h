@@ -77,7 +77,7 @@ class PreparedPair {
 };
 
 /// A scene and the pair of its geometries.
-struct PreparedScene {
+struct SceneWithPair {
   Scene scene;
   std::shared_ptr<const PreparedPair> pair;
 };
@@ -86,7 +86,7 @@ struct PreparedScene {
 class PreparedScenes {
  public:
   /// The scene as the query wants it. \throws what loading and preparing throw
-  PreparedScene of(const QueryLine& query);
+  SceneWithPair of(const QueryLine& query);
 
   /// Reads the meshes that the query needs, which then are there for of(). Whatever goes wrong is
   /// left to of().

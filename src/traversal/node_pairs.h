@@ -6,16 +6,11 @@
 #include <array>
 
 #include "cobstacle/pair_frame.h"
+#include "geometry/node_pair.h"
 #include "narrowphase/pair_bounds.h"
 #include "traversal/bounding_tree.h"
 
 namespace fcl_prob::detail {
-
-/// A node of A and one of B.
-struct NodePair {
-  int a;
-  int b;
-};
 
 /// Bounds pairs of nodes by the structure of their bodies. Not for concurrent use.
 class NodePairs {
