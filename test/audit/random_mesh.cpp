@@ -6,16 +6,13 @@
 
 #include "fcl_prob/convex_polytope.h"
 #include "mesh_shapes.h"
+#include "random_shape.h"
 
 namespace fcl_prob_audit {
 namespace {
 
 using Eigen::Vector3d;
 using namespace fcl_prob_test;
-
-bool chance(RandomBodies& random, double probability) {
-  return random.uniform(0.0, 1.0) < probability;
-}
 
 /// An L of two boxes in one surface: twelve vertices, not convex.
 TriangleMesh angleMesh(double width) {

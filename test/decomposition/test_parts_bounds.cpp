@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
-DecompositionRequest quick() {
+DecompositionRequest quickRequest() {
   DecompositionRequest request;
   request.max_parts = 6;
   request.pieces = 10;
@@ -75,7 +75,7 @@ void checkRandomScene(RandomBodies& random) {
   const TriangleMesh a = randomMesh(random), b = randomMesh(random);
   const fcl::Transform3d pose_a = random.pose(0.2), pose_b = random.pose(1.5);
   const GaussianDisplacement displacement = randomDisplacement(random);
-  const ConvexParts parts_a(a, quick()), parts_b(b, quick());
+  const ConvexParts parts_a(a, quickRequest()), parts_b(b, quickRequest());
   const PartsBoundsResult bounds = partsBounds(parts_a, pose_a, parts_b, pose_b, displacement);
   CHECK(bounds.any.lower <= bounds.any.upper);
   CHECK(bounds.any.upper <= std::min(1.0, bounds.sum * (1 + 1e-12)));
@@ -195,7 +195,7 @@ TEST_CASE("bounds of parts refuse what they cannot use", "[decomposition]") {
 }
 
 TEST_CASE("thresholds that sums decide start no partition", "[decomposition]") {
-  const ConvexParts torus(torusMesh(1.0, 0.3, 20, 10), quick());
+  const ConvexParts torus(torusMesh(1.0, 0.3, 20, 10), quickRequest());
   REQUIRE(torus.size() > 1);
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.translation() = Vector3d(2.7, 0.2, 0.1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
+#include "base/constants.h"
 #include "fcl_prob/polytope_mass.h"
 
 #include <Eigen/Geometry>
@@ -20,6 +21,7 @@
 namespace fcl_prob {
 namespace {
 
+using detail::kEpsilon;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using fcl_prob_test::boxPolytope;
@@ -32,8 +34,6 @@ using fcl_prob_test::simplexPolytope;
 using fcl_prob_test::trueIntervalMass;
 using fcl_prob_test::uniform;
 using fcl_prob_test::withVertices;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 struct Box {
   Vector3d lo, hi;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include <Eigen/Geometry>
 
+#include "base/constants.h"
 #include "catch.h"
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
@@ -12,6 +13,7 @@
 namespace fcl_prob {
 namespace {
 
+using detail::kEpsilon;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using fcl_prob_test::boxPolytope;
@@ -19,8 +21,6 @@ using fcl_prob_test::logUniform;
 using fcl_prob_test::randomRotation;
 using fcl_prob_test::randomVector;
 using fcl_prob_test::uniform;
-
-constexpr double kEpsilon = 2.220446049250313e-16;
 
 Vector3d boxMoment(const Vector3d& lo, const Vector3d& hi) {
   Vector3d moment;

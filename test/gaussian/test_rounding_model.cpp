@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "catch.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/narrow_interval.h"
@@ -16,11 +17,10 @@
 namespace fcl_prob {
 namespace {
 
+using detail::kEpsilon;
 using fcl_prob_test::HighPrecision;
 using fcl_prob_test::relativeError;
 using fcl_prob_test::uniform;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Not known when compiling, so that nothing is folded.
 double hidden(double value) {

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "catch.h"
+#include "closed_meshes.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/closed_mesh.h"
 #include "mesh_shapes.h"
@@ -13,10 +14,6 @@ using namespace fcl_prob_test;
 namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
-ClosedMesh closed(const TriangleMesh& mesh) {
-  return ClosedMesh(meshView(*makeModel<fcl::OBBRSSd>(mesh)), "mesh");
-}
 
 std::optional<std::string> openness(const TriangleMesh& mesh) {
   return opennessOf(meshView(*makeModel<fcl::OBBRSSd>(mesh)));
@@ -44,7 +41,7 @@ TEST_CASE("vertices of equal coordinates are one vertex") {
     soup.triangles.emplace_back(n - 3, n - 2, n - 1);
   }
   CHECK_FALSE(openness(soup));
-  CHECK(closed(soup).contains({0.4, 0.9, 1.4}) == Containment::inside);
+  CHECK(closedMesh(soup).contains({0.4, 0.9, 1.4}) == Containment::inside);
   soup.vertices[0][0] = std::nextafter(soup.vertices[0][0], 2.0);
   CHECK(openness(soup));
 }
@@ -54,7 +51,7 @@ TEST_CASE("open, branching and twisted meshes are refused by name of the edge") 
   hole.triangles.pop_back();
   REQUIRE(openness(hole));
   CHECK_THAT(*openness(hole), Catch::Matchers::Contains("one face only"));
-  CHECK_THROWS_AS(closed(hole), fcl_prob::OpenMesh);
+  CHECK_THROWS_AS(closedMesh(hole), fcl_prob::OpenMesh);
 
   TriangleMesh fin = boxMesh({1, 1, 1});
   fin.vertices.push_back({2, 2, 2});
@@ -76,7 +73,7 @@ TEST_CASE("containment in a box mesh agrees with the box") {
   std::mt19937_64 generator(11);
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
   const Eigen::Vector3d sides(1, 2, 1.5);
-  const ClosedMesh mesh = closed(boxMesh(sides));
+  const ClosedMesh mesh = closedMesh(boxMesh(sides));
   int inside = 0;
   const int count = 20000;
   for (int i = 0; i < count; ++i) {
@@ -92,7 +89,7 @@ TEST_CASE("containment in a box mesh agrees with the box") {
 TEST_CASE("containment in a torus agrees with its faceted cross-sections") {
   std::mt19937_64 generator(12);
   std::uniform_real_distribution<double> coordinate(-1.4, 1.4);
-  const ClosedMesh mesh = closed(torusMesh(1, 0.3, 96, 64));
+  const ClosedMesh mesh = closedMesh(torusMesh(1, 0.3, 96, 64));
   int inside = 0;
   int outside = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -110,7 +107,7 @@ TEST_CASE("containment in a torus agrees with its faceted cross-sections") {
 
 TEST_CASE("points on the surface are never certain, points an ulp-scale away always right") {
   const TriangleMesh box = boxMesh({1, 1, 1});
-  const ClosedMesh mesh = closed(box);
+  const ClosedMesh mesh = closedMesh(box);
   for (const auto& vertex : box.vertices) CHECK(mesh.contains(vertex) == Containment::unknown);
   CHECK(mesh.contains({0.5, 0.1, 0.2}) == Containment::unknown);
   CHECK(mesh.contains({0.5 + 1e-12, 0.1, 0.2}) == Containment::outside);
@@ -120,7 +117,7 @@ TEST_CASE("points on the surface are never certain, points an ulp-scale away alw
 TEST_CASE(
     "far from the origin the uncertain layer grows with the coordinates and nothing is wrong") {
   const Eigen::Vector3d offset(1e6, -2e6, 3e6);
-  const ClosedMesh mesh = closed(transformed(boxMesh({1, 1, 1}), moved(1e6, -2e6, 3e6)));
+  const ClosedMesh mesh = closedMesh(transformed(boxMesh({1, 1, 1}), moved(1e6, -2e6, 3e6)));
   CHECK(mesh.contains(offset + Eigen::Vector3d(0.49, 0.3, 0.2)) == Containment::inside);
   CHECK(mesh.contains(offset + Eigen::Vector3d(0.51, 0.3, 0.2)) == Containment::outside);
   CHECK(mesh.contains({0, 0, 0}) == Containment::outside);
@@ -129,17 +126,17 @@ TEST_CASE(
 TEST_CASE("shells: cavities, overlapping shells, inside-out meshes, parts") {
   const TriangleMesh outer = boxMesh({2, 2, 2});
   const TriangleMesh inner = boxMesh({1, 1, 1});
-  const ClosedMesh hollow = closed(joined(outer, reversed(inner)));
+  const ClosedMesh hollow = closedMesh(joined(outer, reversed(inner)));
   CHECK(hollow.contains({0, 0, 0}) == Containment::outside);
   CHECK(hollow.contains({0.75, 0, 0}) == Containment::inside);
   CHECK(hollow.partPoints().size() == 2);
 
-  const ClosedMesh overlapping = closed(joined(outer, transformed(outer, moved(1, 0.5, 0.3))));
+  const ClosedMesh overlapping = closedMesh(joined(outer, transformed(outer, moved(1, 0.5, 0.3))));
   CHECK(overlapping.contains({0.5, 0.1, 0.2}) == Containment::inside);
   CHECK(overlapping.contains({1.5, 0.1, 0.2}) == Containment::inside);
   CHECK(overlapping.contains({2.5, 0.1, 0.2}) == Containment::outside);
 
-  const ClosedMesh inside_out = closed(reversed(outer));
+  const ClosedMesh inside_out = closedMesh(reversed(outer));
   CHECK(inside_out.contains({0.3, 0, 0}) == Containment::inside);
   CHECK(inside_out.contains({1.3, 0, 0}) == Containment::outside);
   CHECK(inside_out.partPoints().size() == 1);
@@ -153,7 +150,7 @@ TEST_CASE("triangles with equal corners are parts of the surface") {
   mesh.triangles.emplace_back(16, 16, 16);
   mesh.triangles.emplace_back(17, 17, 17);
   mesh.triangles.emplace_back(0, 0, 1);  // hangs together with the first box
-  const ClosedMesh solid = closed(mesh);
+  const ClosedMesh solid = closedMesh(mesh);
   REQUIRE(solid.partPoints().size() == 4);
   CHECK(solid.partOfVertex().size() == mesh.vertices.size());
   CHECK(solid.partOfVertex().back() == -1);
@@ -166,7 +163,7 @@ TEST_CASE("triangles with equal corners are parts of the surface") {
 TEST_CASE("points that are known with an error are certain only that far from the surface") {
   std::mt19937_64 generator(13);
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
-  const ClosedMesh mesh = closed(boxMesh({1, 2, 1.5}));
+  const ClosedMesh mesh = closedMesh(boxMesh({1, 2, 1.5}));
   const Eigen::Vector3d half(0.5, 1, 0.75);
   int certain = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -189,7 +186,7 @@ TEST_CASE("containment at scales at which products leave the normal numbers") {
   std::mt19937_64 generator(14);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   for (const double scale : {1e-120, 1e-150, 1e-156, 1e-158, 1e-160, 1e-165, 1e120}) {
-    const ClosedMesh mesh = closed(boxMesh({scale, scale, scale}));
+    const ClosedMesh mesh = closedMesh(boxMesh({scale, scale, scale}));
     for (int i = 0; i < 500; ++i) {
       const Eigen::Vector3d p(coordinate(generator), coordinate(generator), coordinate(generator));
       const bool expected = p.cwiseAbs().maxCoeff() < 0.5;
@@ -201,7 +198,7 @@ TEST_CASE("containment at scales at which products leave the normal numbers") {
 }
 
 TEST_CASE("points that are not finite are unknown") {
-  const ClosedMesh mesh = closed(boxMesh({1, 1, 1}));
+  const ClosedMesh mesh = closedMesh(boxMesh({1, 1, 1}));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(mesh.contains({nan, 0, 0}) == Containment::unknown);
 }

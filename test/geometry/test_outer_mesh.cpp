@@ -14,6 +14,7 @@
 #include <random>
 
 #include "catch.h"
+#include "closed_meshes.h"
 #include "geometry/closed_mesh.h"
 #include "geometry/outer_mesh.h"
 #include "mesh_shapes.h"
@@ -46,10 +47,6 @@ double support(const fcl::CollisionGeometryd& shape, const Eigen::Vector3d& u) {
       return std::max(0.5 * cone.lz * u.z(), cone.radius * across - 0.5 * cone.lz * u.z());
     }
   }
-}
-
-ClosedMesh closed(const TriangleMesh& mesh) {
-  return ClosedMesh(meshView(*makeModel<fcl::OBBRSSd>(mesh)), "mesh");
 }
 
 }  // namespace
@@ -92,7 +89,7 @@ TEST_CASE("a half-space is a box and a plane a square within the reach") {
   const Eigen::Vector3d centre(5, -3, 1);
   const OuterMeshRequest request{kTolerance, centre, 4.0};
   for (double offset : {-2.0, normal.dot(centre), 7.0}) {
-    const ClosedMesh box = closed(outerMesh(fcl::Halfspaced(normal, offset), request));
+    const ClosedMesh box = closedMesh(outerMesh(fcl::Halfspaced(normal, offset), request));
     std::mt19937_64 generator(5);
     std::uniform_real_distribution<double> step(-2.3, 2.3);
     for (int i = 0; i < 1000; ++i) {
@@ -109,7 +106,7 @@ TEST_CASE("a half-space is a box and a plane a square within the reach") {
 
 TEST_CASE("flat shapes, meshes and octrees keep their surface") {
   const OuterMeshRequest request{kTolerance, Eigen::Vector3d::Zero(), 0.0};
-  const ClosedMesh box = closed(outerMesh(fcl::Boxd(1, 2, 3), request));
+  const ClosedMesh box = closedMesh(outerMesh(fcl::Boxd(1, 2, 3), request));
   CHECK(box.contains({0.49, 0.99, 1.49}) == Containment::inside);
   CHECK(box.contains({0.51, 0.99, 1.49}) == Containment::outside);
 
@@ -122,7 +119,7 @@ TEST_CASE("flat shapes, meshes and octrees keep their surface") {
   const std::vector<int> faces = {3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 0, 3, 2};
   const fcl::Convexd tetrahedron(std::make_shared<const std::vector<Eigen::Vector3d>>(vertices), 4,
                                  std::make_shared<const std::vector<int>>(faces));
-  const ClosedMesh solid = closed(outerMesh(tetrahedron, request));
+  const ClosedMesh solid = closedMesh(outerMesh(tetrahedron, request));
   CHECK(solid.contains({0.3, 0.3, 0.3}) == Containment::inside);
   CHECK(solid.contains({0.4, 0.4, 0.4}) == Containment::outside);
 
@@ -132,6 +129,6 @@ TEST_CASE("flat shapes, meshes and octrees keep their surface") {
   const TriangleMesh cells =
       outerMesh(fcl::OcTreed(std::shared_ptr<const octomap::OcTree>(tree)), request);
   CHECK(cells.triangles.size() == 24);
-  CHECK(closed(cells).contains({1.1, 0.1, 0.4}) == Containment::inside);
-  CHECK(closed(cells).contains({0.75, 0.1, 0.4}) == Containment::outside);
+  CHECK(closedMesh(cells).contains({1.1, 0.1, 0.4}) == Containment::inside);
+  CHECK(closedMesh(cells).contains({0.75, 0.1, 0.4}) == Containment::outside);
 }

@@ -11,17 +11,12 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
-
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(double x, double y, double z) {
-  return fcl::Transform3d(Eigen::Translation3d(x, y, z));
-}
 
 ProbabilityRequest requestOf(std::size_t samples) {
   ProbabilityRequest request;

@@ -13,17 +13,14 @@
 #include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(const Eigen::Vector3d& p) { return fcl::Transform3d(Eigen::Translation3d(p)); }
-
-ProbabilityRequest requestOf(std::size_t samples) {
+ProbabilityRequest rareRequest(std::size_t samples) {
   ProbabilityRequest request;
   request.samples = samples;
   request.relative_tolerance = 1e-9;
@@ -73,7 +70,7 @@ TEST_CASE("rare events agree with the box probability, from certain to 1e-98") {
     const auto displacement = GaussianDisplacement::fromStandardDeviations(scene.sigma);
     const fcl::Boxd a(scene.sides_a), b(scene.sides_b);
     checkClose(
-        rareEventProbability(a, kIdentity, b, at(scene.offset), displacement, requestOf(10000)),
+        rareEventProbability(a, kIdentity, b, at(scene.offset), displacement, rareRequest(10000)),
         scene.probability(), scene.largest_error);
   }
   CHECK(boxScenes()[0].probability() == Approx(1.07e-8).epsilon(0.01));
@@ -91,7 +88,7 @@ TEST_CASE("rare events of meshes agree with the box probability at 1e-8 and 1e-1
     const auto a = makeModel<fcl::OBBRSSd>(boxMesh(scene.sides_a));
     const auto b = makeModel<fcl::OBBRSSd>(boxMesh(scene.sides_b));
     checkClose(rareEventProbability(*a, world, *b, world * at(scene.offset + mean), displacement,
-                                    requestOf(10000)),
+                                    rareRequest(10000)),
                scene.probability(), scene.largest_error);
   }
 }
@@ -101,7 +98,7 @@ TEST_CASE("both sides of an obstacle are found") {
   const auto b = makeModel<fcl::OBBRSSd>(joined(transformed(boxMesh(kOne), at({1.6, 0, 0})),
                                                 transformed(boxMesh(kOne), at({-1.62, 0, 0}))));
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
-  checkClose(rareEventProbability(*a, kIdentity, *b, kIdentity, displacement, requestOf(10000)),
+  checkClose(rareEventProbability(*a, kIdentity, *b, kIdentity, displacement, rareRequest(10000)),
              normalTailMass(6.0) + normalTailMass(6.2), 0.01);
 }
 
@@ -109,20 +106,20 @@ TEST_CASE("round, unbounded and voxel shapes") {
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
   const fcl::Boxd box(1, 1, 1);
   const auto run = [&](const fcl::CollisionGeometryd& b, const Eigen::Vector3d& offset) {
-    return rareEventProbability(box, kIdentity, b, at(offset), displacement, requestOf(10000));
+    return rareEventProbability(box, kIdentity, b, at(offset), displacement, rareRequest(10000));
   };
   checkClose(run(fcl::Halfspaced(0, 0, 1, -1.1), {5, 6, 0}), normalTailMass(6), 0.01);
   checkClose(run(fcl::Planed(0, 0, 1, -1.1), {5, 6, 0}), normalTailMass(6) - normalTailMass(16),
              0.01);
   checkClose(rareEventProbability(fcl::Halfspaced(0, 0, 1, -1.1), kIdentity, box, kIdentity,
-                                  displacement, requestOf(10000)),
+                                  displacement, rareRequest(10000)),
              normalTailMass(6), 0.01);
   // A ball of two standard deviations, eight away: Φ(-6) - Φ(-10) - (φ(6) - φ(10)) / 8.
   const double inverse_root = 0.39894228040143268;
   const double ball = normalTailMass(6) - normalTailMass(10) -
                       inverse_root * (std::exp(-18.0) - std::exp(-50.0)) / 8;
   checkClose(rareEventProbability(fcl::Sphered(0.1), kIdentity, fcl::Sphered(0.1), at({0.8, 0, 0}),
-                                  displacement, requestOf(10000)),
+                                  displacement, rareRequest(10000)),
              ball, 0.02);
 
   auto tree = std::make_shared<octomap::OcTree>(0.5);
@@ -139,7 +136,7 @@ TEST_CASE("displacements along a plane or a line") {
   const auto run = [&](const Eigen::Vector3d& sigma, const Eigen::Vector3d& offset) {
     return rareEventProbability(box, world, box, world * at(offset),
                                 GaussianDisplacement::fromStandardDeviations(sigma, turn),
-                                requestOf(10000));
+                                rareRequest(10000));
   };
   checkClose(run({0.1, 0.1, 0}, {1.6, 0.3, 0.4}), normalTailMass(6), 0.01);
   checkClose(run({0, 0.1, 0}, {0.3, -1.6, 0.4}), normalTailMass(6), 0.01);
@@ -154,7 +151,7 @@ TEST_CASE("a solid within another is not rare") {
   const auto outer = makeModel<fcl::OBBRSSd>(sphereMesh(2, 12, 16));
   const auto inner = makeModel<fcl::OBBRSSd>(sphereMesh(0.2, 6, 8));
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
-  ProbabilityRequest request = requestOf(4000);
+  ProbabilityRequest request = rareRequest(4000);
   CHECK(
       *rareEventProbability(*inner, kIdentity, *outer, kIdentity, displacement, request).estimate <
       1e-50);
@@ -171,7 +168,7 @@ TEST_CASE("the confidence interval covers") {
   const fcl::Boxd a(1, 1, 1), b(1, 1, 1);
   const auto corner = boxScenes()[3];
   const auto displacement = GaussianDisplacement::fromStandardDeviations(corner.sigma);
-  ProbabilityRequest request = requestOf(1500);
+  ProbabilityRequest request = rareRequest(1500);
   request.confidence = 0.9;
   int covered = 0;
   double width = 0.0;
@@ -194,7 +191,7 @@ TEST_CASE("a scene of real meshes agrees with plain sampling where that can reac
   const auto a = makeModel<fcl::OBBRSSd>(scene->a);
   const auto b = makeModel<fcl::OBBRSSd>(scene->b);
   const auto result = rareEventProbability(*a, scene->pose_a, *b, scene->pose_b,
-                                           scene->displacement, requestOf(5000));
+                                           scene->displacement, rareRequest(5000));
   checkClose(result, scene->estimate, 0.02);
   CHECK(*result.statistics.effective_samples > 500);
   CHECK(result.confidence_interval->contains(scene->estimate));
@@ -204,7 +201,7 @@ TEST_CASE("rare events do not depend on the number of threads") {
   const auto a = makeModel<fcl::OBBRSSd>(bumpyMesh(1, 8, 12, 1));
   const auto b = makeModel<fcl::OBBRSSd>(bumpyMesh(1, 8, 12, 2));
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.06, 0.08});
-  ProbabilityRequest request = requestOf(3000);
+  ProbabilityRequest request = rareRequest(3000);
   request.gradient = true;
   const auto one = rareEventProbability(*a, kIdentity, *b, at({2.6, 0, 0}), displacement, request);
   REQUIRE(*one.estimate > 0.0);
@@ -220,7 +217,7 @@ TEST_CASE("the gradient of a rare event") {
   const fcl::Boxd box(1, 1, 1);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1}, turn);
-  ProbabilityRequest request = requestOf(10000);
+  ProbabilityRequest request = rareRequest(10000);
   request.gradient = true;
   const auto result =
       rareEventProbability(box, kIdentity, box, at({1.6, 0, 0}), displacement, request);

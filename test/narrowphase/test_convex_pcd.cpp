@@ -19,6 +19,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "narrowphase/convex_pair_mass.h"
+#include "poses.h"
 #include "random_bodies.h"
 #include "slice_cubature.h"
 
@@ -29,12 +30,6 @@ using fcl_prob::ConvexBody;
 using fcl_prob::ConvexPcdBaselines;
 using fcl_prob::ConvexPcdBounds;
 using fcl_prob::GaussianDisplacement;
-
-Eigen::Isometry3d at(const Eigen::Vector3d& position) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = position;
-  return pose;
-}
 
 /// Two cubes whose C-obstacle has this side and starts at this distance along x.
 ConvexPcdBounds cubes(double side, double distance) {

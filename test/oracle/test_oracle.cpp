@@ -18,6 +18,7 @@
 #include "catch.h"
 #include "mesh_shapes.h"
 #include "oracle/oracle.h"
+#include "poses.h"
 
 using namespace fcl_prob_test;
 using oracle::Contact;
@@ -29,12 +30,6 @@ namespace {
 using Vector3 = Eigen::Vector3d;
 
 const double kTiny = std::numeric_limits<double>::denorm_min();
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = Vector3(x, y, z);
-  return pose;
-}
 
 Verdict touch(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
               const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,

@@ -17,19 +17,12 @@
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
-
 namespace {
-
-fcl::Transform3d at(const Eigen::Vector3d& position) {
-  fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = position;
-  return pose;
-}
 
 ProbabilityRequest banded(double band_a, double band_b) {
   ProbabilityRequest request;

@@ -21,6 +21,7 @@
 #include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;
@@ -28,9 +29,6 @@ using namespace fcl_prob_test;
 using Catch::Matchers::Contains;
 
 namespace {
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(const Eigen::Vector3d& p) { return fcl::Transform3d(Eigen::Translation3d(p)); }
 
 ProbabilityResult answer(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
                          const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,

@@ -79,7 +79,7 @@ struct WallScene {
 
 /// The far translations cancel up to about a metre and what is far rounds of that, in one of three
 /// ways: by the poses, by the mean, or by the body's distance from its own frame's origin.
-WallScene randomScene(RandomBodies& random) {
+WallScene randomWall(RandomBodies& random) {
   WallScene scene;
   const double far = std::ldexp(random.uniform(0.5, 1.0), random.integer(1, 40));
   const Eigen::Vector3d away = far * random.direction();
@@ -134,7 +134,7 @@ TEST_CASE("a mesh and a wall far away: the interval holds the mass on a line") {
   const int count = 400;
   for (int i = 0; i < count; ++i) {
     INFO("scene " << i);
-    const WallScene scene = randomScene(random);
+    const WallScene scene = randomWall(random);
     const auto model = makeModel<fcl::OBBRSSd>(scene.body);
     const fcl::Boxd wall(2 * scene.half_wall);
     ProbabilityResult result;
@@ -158,7 +158,7 @@ TEST_CASE("truncated far away: the interval holds the mass within the cut") {
   RandomBodies random(52);
   for (int i = 0; i < 100; ++i) {
     INFO("scene " << i);
-    const WallScene scene = randomScene(random);
+    const WallScene scene = randomWall(random);
     const auto model = makeModel<fcl::OBBRSSd>(scene.body);
     const auto wall = std::make_shared<fcl::Boxd>(2 * scene.half_wall);
     const double cut = random.uniform(0.5, 4.0);
@@ -178,7 +178,7 @@ TEST_CASE("groups far away: the interval holds the mass of the union on a line")
   RandomBodies random(53);
   for (int i = 0; i < 100; ++i) {
     INFO("scene " << i);
-    WallScene scene = randomScene(random);
+    WallScene scene = randomWall(random);
     const auto model = makeModel<fcl::OBBRSSd>(scene.body);
     const auto wall = std::make_shared<fcl::Boxd>(2 * scene.half_wall);
     // Another wall, so far along x that the two contacts are apart.

@@ -14,8 +14,10 @@
 #include "catch.h"
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/normal_mass.h"
+#include "poses.h"
 
 using namespace fcl_prob;
+using fcl_prob_test::at;
 
 namespace {
 
@@ -45,10 +47,6 @@ fcl::Transform3d poseOf(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& 
   pose.linear() = rotation;
   pose.translation() = position;
   return pose;
-}
-
-fcl::Transform3d at(double x, double y, double z) {
-  return poseOf(Eigen::Quaterniond::Identity(), {x, y, z});
 }
 
 /// The bounds of one method; upper bounds only have a lower one of 0.

@@ -18,6 +18,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
 #include "montecarlo/displaced_collider.h"
+#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
@@ -27,14 +28,6 @@ namespace {
 
 using Geometries = GroupQuery::Geometries;
 using Poses = std::vector<fcl::Transform3d>;
-
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = kIdentity;
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
 
 struct GroupScene {
   Geometries a, b;

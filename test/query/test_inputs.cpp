@@ -9,6 +9,7 @@
 #include "catch.h"
 #include "fcl_prob/fcl_prob.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
@@ -16,7 +17,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
 const GaussianDisplacement kDisplacement =
     GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
 

@@ -17,34 +17,34 @@
 #include "fcl_prob/group.h"
 #include "fcl_prob/mixture.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "random_bodies.h"
+#include "shapes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
 
+using MutableGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
+
 using Ask = std::function<void(const ProbabilityRequest&, ProbabilityResult&)>;
-using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
-
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(double x, double y, double z) {
+fcl::Transform3d tiltedAt(double x, double y, double z) {
   fcl::Transform3d pose = kIdentity;
   pose.linear() = Eigen::Quaterniond(0.8, 0.3, -0.2, 0.4).normalized().toRotationMatrix();
   pose.translation() = Eigen::Vector3d(x, y, z);
   return pose;
 }
 
-Geometry bumpy() { return makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 5, 7, 1)); }
-Geometry torus() { return makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 10, 6)); }
+MutableGeometry bumpy() { return makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 5, 7, 1)); }
+MutableGeometry torus() { return makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.2, 10, 6)); }
 
 GaussianDisplacement displacement() {
   return GaussianDisplacement::fromStandardDeviations({0.1, 0.05, 0.08},
                                                       Eigen::Quaterniond(1, 0.2, 0.1, -0.3));
 }
 
-Ask ofPair(const Geometry& a, const Geometry& b, const fcl::Transform3d& pose_a,
+Ask ofPair(const MutableGeometry& a, const MutableGeometry& b, const fcl::Transform3d& pose_a,
            ProbabilityMethod method = ProbabilityMethod::interval) {
   const auto query = std::make_shared<PreparedQuery>(a, b);
   return [=](ProbabilityRequest request, ProbabilityResult& result) {
@@ -58,7 +58,7 @@ Ask ofGroup() {
       GroupQuery::Geometries{bumpy(), std::make_shared<fcl::Boxd>(0.2, 0.3, 0.4)},
       GroupQuery::Geometries{torus()});
   return [=](const ProbabilityRequest& request, ProbabilityResult& result) {
-    query->collisionProbability({at(0.9, 0.1, 0.1), at(-0.8, 0.1, 0.0)}, {kIdentity},
+    query->collisionProbability({tiltedAt(0.9, 0.1, 0.1), tiltedAt(-0.8, 0.1, 0.0)}, {kIdentity},
                                 displacement(), request, result);
   };
 }
@@ -68,7 +68,7 @@ Ask ofMixture() {
   const GaussianMixture mixture(
       {{0.7, displacement()}, {0.3, displacement().withMean({-0.1, 0.1, 0.05})}});
   return [=](const ProbabilityRequest& request, ProbabilityResult& result) {
-    collisionProbability(*query, at(0.9, 0.1, 0.1), kIdentity, mixture, request, result);
+    collisionProbability(*query, tiltedAt(0.9, 0.1, 0.1), kIdentity, mixture, request, result);
   };
 }
 
@@ -76,17 +76,17 @@ Ask ofTruncated() {
   const auto query = std::make_shared<PreparedQuery>(bumpy(), torus());
   const TruncatedGaussian truncated(displacement(), 2.0);
   return [=](const ProbabilityRequest& request, ProbabilityResult& result) {
-    collisionProbability(*query, at(0.9, 0.1, 0.1), kIdentity, truncated, request, result);
+    collisionProbability(*query, tiltedAt(0.9, 0.1, 0.1), kIdentity, truncated, request, result);
   };
 }
 
 /// Certified queries that take some time.
 std::map<std::string, Ask> certifiedQueries() {
-  const Geometry a = bumpy(), b = torus();
-  return {{"interval", ofPair(a, b, at(0.9, 0.1, 0.1))},
-          {"estimate", ofPair(a, b, at(0.9, 0.1, 0.1), ProbabilityMethod::estimate)},
+  const MutableGeometry a = bumpy(), b = torus();
+  return {{"interval", ofPair(a, b, tiltedAt(0.9, 0.1, 0.1))},
+          {"estimate", ofPair(a, b, tiltedAt(0.9, 0.1, 0.1), ProbabilityMethod::estimate)},
           {"shapes", ofPair(std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5),
-                            std::make_shared<fcl::Cylinderd>(0.3, 0.5), at(0.6, 0.1, 0.1))},
+                            std::make_shared<fcl::Cylinderd>(0.3, 0.5), tiltedAt(0.6, 0.1, 0.1))},
           {"group", ofGroup()},
           {"mixture", ofMixture()},
           {"truncated", ofTruncated()}};
@@ -211,10 +211,10 @@ TEST_CASE("an exception of on_progress comes through and leaves the result alone
 }
 
 TEST_CASE("interrupted sampling has a valid confidence interval", "[query]") {
-  const Geometry a = bumpy(), b = torus();
-  const Reference reference = referenceOf(ofPair(a, b, at(0.9, 0.1, 0.1)));
+  const MutableGeometry a = bumpy(), b = torus();
+  const Reference reference = referenceOf(ofPair(a, b, tiltedAt(0.9, 0.1, 0.1)));
   for (const auto method : {ProbabilityMethod::monte_carlo, ProbabilityMethod::rare_event}) {
-    const Ask ask = ofPair(a, b, at(0.9, 0.1, 0.1), method);
+    const Ask ask = ofPair(a, b, tiltedAt(0.9, 0.1, 0.1), method);
     ProbabilityRequest request = requestWithin(1e-4);
     request.samples = 8'000;
     request.confidence = 1.0 - 1e-9;
@@ -243,12 +243,12 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
     bool two_sided;
   };
   // Enclosed between polytopes, coarse ones and fine ones.
-  const Geometry cone = std::make_shared<fcl::Coned>(0.4, 0.6);
-  const Geometry capsule = std::make_shared<fcl::Capsuled>(0.2, 0.5);
+  const MutableGeometry cone = std::make_shared<fcl::Coned>(0.4, 0.6);
+  const MutableGeometry capsule = std::make_shared<fcl::Capsuled>(0.2, 0.5);
   std::vector<Case> cases;
-  cases.push_back({ofPair(cone, capsule, at(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
+  cases.push_back({ofPair(cone, capsule, tiltedAt(0.6, 0.1, 0.1), ProbabilityMethod::exact), true});
   for (const auto method : {ProbabilityMethod::general_pcd, ProbabilityMethod::general_pcd_min}) {
-    cases.push_back({ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), method), false});
+    cases.push_back({ofPair(bumpy(), torus(), tiltedAt(0.9, 0.1, 0.1), method), false});
   }
   for (const Case& tried : cases) {
     const Ask& ask = tried.ask;
@@ -296,7 +296,7 @@ TEST_CASE("pilot samples of rare events obey the limits too", "[query]") {
   request.samples = 100'000'000;
   request.time_limit = 1e-9;
   ProbabilityResult result;
-  ofPair(bumpy(), torus(), at(0.9, 0.1, 0.1), ProbabilityMethod::rare_event)(request, result);
+  ofPair(bumpy(), torus(), tiltedAt(0.9, 0.1, 0.1), ProbabilityMethod::rare_event)(request, result);
   CHECK(result.status == ProbabilityStatus::time_limit);
   CHECK(result.statistics.samples < 1000);
   CHECK(result.confidence_interval.value().upper > 0.0);
@@ -306,7 +306,8 @@ TEST_CASE("a batch passes an exception of on_progress on", "[query][threads]") {
   const PreparedQuery query(bumpy(), torus());
   std::vector<Waypoint> waypoints(12);
   for (int i = 0; i < 12; ++i) {
-    waypoints[static_cast<std::size_t>(i)] = {at(0.9 + 0.02 * i, 0, 0), kIdentity, displacement()};
+    waypoints[static_cast<std::size_t>(i)] = {tiltedAt(0.9 + 0.02 * i, 0, 0), kIdentity,
+                                              displacement()};
   }
   BatchRequest request;
   request.query.relative_tolerance = 0.1;
@@ -359,7 +360,7 @@ TEST_CASE("an interrupted query of a manager is valid, or leaves the result alon
   fcl::DynamicAABBTreeCollisionManagerd manager;
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
   for (const double x : {-0.9, 0.0, 0.95}) {
-    objects.push_back(std::make_unique<fcl::CollisionObjectd>(bumpy(), at(x, 0.1, 0.1)));
+    objects.push_back(std::make_unique<fcl::CollisionObjectd>(bumpy(), tiltedAt(x, 0.1, 0.1)));
     manager.registerObject(objects.back().get());
   }
   manager.setup();

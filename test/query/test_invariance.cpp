@@ -10,13 +10,12 @@
 #include "catch.h"
 #include "fcl_prob/fcl_prob.h"
 #include "mesh_shapes.h"
+#include "shapes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
-
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
 /// Makes a geometry in a unit of length: the same shape with all lengths multiplied by `scale`.
 using Maker = std::function<Geometry(double scale)>;

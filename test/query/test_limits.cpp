@@ -13,20 +13,13 @@
 #include "catch.h"
 #include "fcl_prob/fcl_prob.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
-
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = kIdentity;
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
 
 /// A call that is made of something, and what it may be asked.
 struct Call {

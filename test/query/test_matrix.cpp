@@ -25,8 +25,6 @@ using fcl_prob::detail::DisplacedCollider;
 
 namespace {
 
-using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
-
 std::vector<NamedGeometry> allGeometries() {
   const TriangleMesh ball = bumpyMesh(0.5, 4, 6, 3);
   const TriangleMesh torus = torusMesh(0.4, 0.15, 7, 4);

@@ -17,6 +17,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
 #include "montecarlo/displaced_collider.h"
+#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
@@ -24,14 +25,7 @@ using namespace fcl_prob_test;
 
 namespace {
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
 const double kInfinity = std::numeric_limits<double>::infinity();
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = kIdentity;
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
 
 void checkHolds(const ProbabilityResult& result, double expected, double tolerance) {
   CAPTURE(*result.lower, *result.upper, expected);

@@ -17,6 +17,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "random_bodies.h"
 #include "shapes.h"
 
@@ -27,12 +28,6 @@ namespace {
 
 using Poses = std::vector<fcl::Transform3d>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
 
 /// Moved by a twist about the world's origin.
 fcl::Transform3d moved(const fcl::Transform3d& pose, const Vector6& twist) {
@@ -46,7 +41,7 @@ fcl::Transform3d moved(const fcl::Transform3d& pose, const Vector6& twist) {
 }
 
 /// Everything about one query but where A is.
-struct Scene {
+struct GradientScene {
   GroupQuery::Geometries a;
   GroupQuery::Geometries b;
   Poses poses_a;
@@ -75,7 +70,7 @@ struct Scene {
   }
 };
 
-void checkProbability(const Scene& scene, const MotionGradient& gradient) {
+void checkProbability(const GradientScene& scene, const MotionGradient& gradient) {
   const ProbabilityResult interval = scene.certified(scene.poses_a, 1e-3);
   CAPTURE(gradient.probability, gradient.standard_error, *interval.lower, *interval.upper);
   CHECK(gradient.probability > *interval.lower - 5.0 * gradient.standard_error);
@@ -83,7 +78,7 @@ void checkProbability(const Scene& scene, const MotionGradient& gradient) {
 }
 
 /// A that moves as one is displaced.
-void checkTranslation(const Scene& scene, const MotionGradient& gradient) {
+void checkTranslation(const GradientScene& scene, const MotionGradient& gradient) {
   const ProbabilityResult certified = scene.certified(scene.poses_a, 1e-4, true);
   REQUIRE(certified.gradient);
   for (int axis = 0; axis < 3; ++axis) {
@@ -100,7 +95,7 @@ void checkTranslation(const Scene& scene, const MotionGradient& gradient) {
   }
 }
 
-void checkDifferences(const Scene& scene, const MotionGradient& gradient, double step,
+void checkDifferences(const GradientScene& scene, const MotionGradient& gradient, double step,
                       double tolerance) {
   for (std::size_t i = 0; i < scene.a.size(); ++i) {
     for (int axis = 0; axis < 6; ++axis) {
@@ -128,8 +123,8 @@ bool isSame(const MotionGradient& x, const MotionGradient& y) {
          x.lines == y.lines;
 }
 
-Scene twoBodiesBesideABox(const GaussianDisplacement& displacement) {
-  Scene scene;
+GradientScene twoBodiesBesideABox(const GaussianDisplacement& displacement) {
+  GradientScene scene;
   scene.a = {std::make_shared<fcl::Boxd>(1.0, 0.4, 0.3),
              makeModel<fcl::OBBRSSd>(bumpyMesh(0.4, 4, 6, 1))};
   scene.b = {std::make_shared<fcl::Boxd>(0.8, 0.9, 0.7)};
@@ -149,7 +144,7 @@ TEST_CASE("gradients for single members agree with central differences, at every
   for (const Eigen::Vector3d& deviations :
        {Eigen::Vector3d(0.3, 0.25, 0.2), Eigen::Vector3d(0.3, 0.25, 0.0),
         Eigen::Vector3d(0.3, 0.0, 0.0)}) {
-    const Scene scene = twoBodiesBesideABox(
+    const GradientScene scene = twoBodiesBesideABox(
         GaussianDisplacement::fromStandardDeviations(deviations, random.quaternion()));
     const MotionGradient gradient = scene.gradient(40'000);
     CAPTURE(deviations.transpose());
@@ -173,7 +168,7 @@ TEST_CASE("moved all together, members have the certified gradient of the displa
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const auto& shape = shapes[i];
     const bool beside_mesh = i % 2 == 0;
-    Scene scene;
+    GradientScene scene;
     scene.a = {shape, std::make_shared<fcl::Sphered>(0.2)};
     if (beside_mesh) {
       scene.b = {mesh};
@@ -193,7 +188,7 @@ TEST_CASE("moved all together, members have the certified gradient of the displa
 }
 
 TEST_CASE("a ball that turns about its centre changes nothing, and about another point it moves") {
-  Scene scene;
+  GradientScene scene;
   scene.a = {std::make_shared<fcl::Sphered>(0.3)};
   scene.b = {std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0)};
   const Eigen::Vector3d centre(0.2, -0.1, 0.3);
@@ -208,7 +203,7 @@ TEST_CASE("a ball that turns about its centre changes nothing, and about another
 
 TEST_CASE("within a solid there is no boundary, beside its surface there is") {
   for (const auto contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
-    Scene scene;
+    GradientScene scene;
     scene.a = {makeModel<fcl::OBBRSSd>(bumpyMesh(0.15, 4, 6, 3))};
     scene.b = {makeModel<fcl::OBBRSSd>(boxMesh({2.0, 2.0, 2.0}))};
     scene.poses_a = {at(0.7, 0.1, 0.0)};
@@ -222,7 +217,7 @@ TEST_CASE("within a solid there is no boundary, beside its surface there is") {
 }
 
 TEST_CASE("a wall without end has a gradient, too") {
-  Scene scene;
+  GradientScene scene;
   scene.a = {std::make_shared<fcl::Sphered>(0.1)};
   scene.b = {std::make_shared<fcl::Halfspaced>(Eigen::Vector3d(0, 0, 1), 0.0)};
   scene.poses_a = {at(0.3, 0.2, 0.15)};
@@ -238,7 +233,7 @@ TEST_CASE("a wall without end has a gradient, too") {
 }
 
 TEST_CASE("lines are fixed by the seed, whatever the number of threads, and end in time") {
-  const Scene scene =
+  const GradientScene scene =
       twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
   const GroupQuery query(scene.a, scene.b);
   MotionGradientRequest request;
@@ -265,7 +260,7 @@ TEST_CASE("lines are fixed by the seed, whatever the number of threads, and end 
 }
 
 TEST_CASE("a gradient tells how far it is, and cancelled it is that of the lines so far") {
-  const Scene scene =
+  const GradientScene scene =
       twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
   const GroupQuery query(scene.a, scene.b);
   MotionGradientRequest request;
@@ -312,7 +307,8 @@ TEST_CASE("a gradient tells how far it is, and cancelled it is that of the lines
 }
 
 TEST_CASE("a gradient of two lines has none left to cancel, and that of nothing is exact") {
-  Scene scene = twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
+  GradientScene scene =
+      twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
   CHECK(scene.gradient(2).status == ProbabilityStatus::sampled);
   const auto unoccupied = std::make_shared<fcl::Boxd>(0.8, 0.9, 0.7);
   unoccupied->cost_density = 0.0;
@@ -323,7 +319,7 @@ TEST_CASE("a gradient of two lines has none left to cancel, and that of nothing 
 }
 
 TEST_CASE("gradients refuse what has none") {
-  const Scene scene =
+  const GradientScene scene =
       twoBodiesBesideABox(GaussianDisplacement::fromStandardDeviations({0.3, 0.25, 0.2}));
   const GroupQuery query(scene.a, scene.b);
   const auto ask = [&](const GaussianDisplacement& displacement, const MemberVelocities& velocities,

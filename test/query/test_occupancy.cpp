@@ -18,6 +18,7 @@
 #include "geometry/geometry_kind.h"
 #include "geometry/occupancy.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
@@ -25,9 +26,7 @@ using namespace fcl_prob_test;
 
 namespace {
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+using MutableGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 TriangleMesh triangleMesh() {
   TriangleMesh mesh;
@@ -37,7 +36,7 @@ TriangleMesh triangleMesh() {
 }
 
 /// An octree of one cell.
-Geometry singleCell() {
+MutableGeometry singleCell() {
   const auto tree = std::make_shared<octomap::OcTree>(0.5);
   tree->setNodeValue(0.25, 0.25, 0.25, 1.0F);
   return std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree));
@@ -76,7 +75,7 @@ bool crashesFcl(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd&
          (is(b, GeometryKind::mesh) && is(a, GeometryKind::unbounded));
 }
 
-bool hit(const Geometry& a, const Geometry& b) {
+bool hit(const MutableGeometry& a, const MutableGeometry& b) {
   fcl::CollisionResultd result;
   return fcl::collide(a.get(), kIdentity, b.get(), kIdentity, fcl::CollisionRequestd(), result) > 0;
 }
@@ -86,7 +85,8 @@ const GaussianDisplacement& someDisplacement() {
   return displacement;
 }
 
-ProbabilityResult answer(const Geometry& a, const Geometry& b, const ProbabilityRequest& request,
+ProbabilityResult answer(const MutableGeometry& a, const MutableGeometry& b,
+                         const ProbabilityRequest& request,
                          const GaussianDisplacement& displacement = someDisplacement()) {
   ProbabilityResult result;
   collisionProbability(a.get(), kIdentity, b.get(), kIdentity, displacement, request, result);
@@ -152,10 +152,10 @@ TEST_CASE("a pair that fcl::collide leaves out has probability 0 by every method
 }
 
 TEST_CASE("free space for methods of few kinds, mixtures, truncations and solids") {
-  const Geometry ball = std::make_shared<fcl::Sphered>(0.5);
-  const Geometry box = std::make_shared<fcl::Boxd>(1, 1, 1);
-  const Geometry outer = makeModel<fcl::OBBRSSd>(boxMesh({4, 4, 4}));
-  const Geometry inner = makeModel<fcl::OBBRSSd>(boxMesh({1, 1, 1}));
+  const MutableGeometry ball = std::make_shared<fcl::Sphered>(0.5);
+  const MutableGeometry box = std::make_shared<fcl::Boxd>(1, 1, 1);
+  const MutableGeometry outer = makeModel<fcl::OBBRSSd>(boxMesh({4, 4, 4}));
+  const MutableGeometry inner = makeModel<fcl::OBBRSSd>(boxMesh({1, 1, 1}));
   box->cost_density = inner->cost_density = 0.0;
   for (const auto method : {ProbabilityMethod::exact, ProbabilityMethod::convex_pcd}) {
     ProbabilityRequest request;
@@ -218,7 +218,7 @@ TEST_CASE("members of groups that are not occupied are left out") {
   // What is occupied and free at once meets all but octrees: no one group of pieces can say that.
   const auto both = std::make_shared<fcl::Boxd>(1, 1, 1);
   both->threshold_free = 1.0;
-  const Geometry octree = randomOcTree(50, 0.1, 0.5, 1);
+  const MutableGeometry octree = randomOcTree(50, 0.1, 0.5, 1);
   CHECK_THROWS_AS(GroupQuery({both, ball}, {octree, ball}), UnsupportedGeometry);
   CHECK_NOTHROW(GroupQuery({both, ball}, {ball, ball}));
 }
@@ -230,11 +230,12 @@ TEST_CASE("two octrees with cells both occupied and free are refused") {
     tree->setNodeValue(0.15, 0.05, 0.05, log_odds);  // of the same parent
     return std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree));
   };
-  const Geometry doubtful = treeOf(0.0F);  // at or above one threshold, at or below the other
-  const Geometry clear = treeOf(0.5F);
+  const MutableGeometry doubtful =
+      treeOf(0.0F);  // at or above one threshold, at or below the other
+  const MutableGeometry clear = treeOf(0.5F);
   CHECK_THROWS_AS(answer(doubtful, clear, {}), UnsupportedGeometry);
   CHECK_THROWS_AS(answer(clear, doubtful, {}), UnsupportedGeometry);
   CHECK_NOTHROW(answer(clear, clear, {}));
-  const Geometry box = std::make_shared<fcl::Boxd>(1, 1, 1);
+  const MutableGeometry box = std::make_shared<fcl::Boxd>(1, 1, 1);
   CHECK_NOTHROW(answer(doubtful, box, {}));
 }

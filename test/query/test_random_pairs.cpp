@@ -27,8 +27,6 @@ namespace {
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 using Eigen::Vector3d;
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
-
 // Five standard errors of a normal distribution.
 constexpr double kFiveSigma = 0.9999994;
 

@@ -14,20 +14,13 @@
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
-
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(double x, double y, double z) {
-  fcl::Transform3d pose = kIdentity;
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
-}
 
 ProbabilityResult answer(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
                          const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,

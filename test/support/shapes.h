@@ -15,6 +15,8 @@
 
 namespace fcl_prob_test {
 
+using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+
 struct NamedGeometry {
   std::string name;
   std::shared_ptr<fcl::CollisionGeometryd> geometry;

@@ -19,13 +19,13 @@ using namespace fcl_prob_test;
 
 namespace {
 
-constexpr std::size_t kThreads = 4;
+constexpr std::size_t kWorkers = 4;
 constexpr int kDivided = 60;
 
 /// What `work()` comes to on each of several threads at once.
 template <typename Work>
 std::vector<std::vector<double>> onThreads(const Work& work) {
-  std::vector<std::vector<double>> results(kThreads);
+  std::vector<std::vector<double>> results(kWorkers);
   std::vector<std::thread> threads;
   for (auto& result : results) threads.emplace_back([&result, &work] { result = work(); });
   for (std::thread& thread : threads) thread.join();

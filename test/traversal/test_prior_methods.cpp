@@ -14,6 +14,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/prior_methods.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "random_bodies.h"
 
 namespace {
@@ -28,12 +29,6 @@ double radiusOf(double confidence) {
 
 GaussianDisplacement isotropic(double sigma) {
   return GaussianDisplacement::fromStandardDeviations(Eigen::Vector3d::Constant(sigma));
-}
-
-Eigen::Isometry3d at(const Eigen::Vector3d& position) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = position;
-  return pose;
 }
 
 double meshDistance(const fcl::BVHModel<fcl::OBBRSSd>& a, const Eigen::Isometry3d& pose_a,
