@@ -3,15 +3,42 @@
 // What tests of pose errors share.
 #pragma once
 
+#include <fcl/geometry/shape/box.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <memory>
+
 #include "fcl_prob/pose_probability.h"
+#include "poses.h"
 #include "random_bodies.h"
 
 namespace fcl_prob_test {
 
-inline fcl::Transform3d poseAt(double x, double y, double z) {
-  fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = Eigen::Vector3d(x, y, z);
-  return pose;
+inline double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+
+/// E f(σ z) for a standard normal z.
+template <typename Function>
+double gaussianMean(double sigma, const Function& f) {
+  const auto integrand = [&](double z) {
+    return f(sigma * z) * std::exp(-0.5 * z * z) * 0.39894228040143268;
+  };
+  return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(integrand, -9.0, 9.0, 12,
+                                                                       1e-12);
+}
+
+inline fcl_prob::PreparedPoseQuery boxes() {
+  return {std::make_shared<fcl::Boxd>(1.0, 0.4, 0.2), std::make_shared<fcl::Boxd>(0.5, 0.8, 0.6)};
+}
+
+inline fcl_prob::ProbabilityResult answer(const fcl_prob::PreparedPoseQuery& query,
+                                          const fcl::Transform3d& pose_a,
+                                          const fcl::Transform3d& pose_b,
+                                          const fcl_prob::PoseError& error,
+                                          const fcl_prob::ProbabilityRequest& request) {
+  fcl_prob::ProbabilityResult result;
+  query.collisionProbability(pose_a, pose_b, error, request, result);
+  return result;
 }
 
 /// F Fᵀ of a random factor of so many columns: metres of about `length`, radians of about `angle`.

@@ -6,12 +6,12 @@
 
 #include "catch.h"
 #include "pose/boundary_search.h"
+#include "pose_cases.h"
 
 using namespace fcl_prob::detail;
+using namespace fcl_prob_test;
 
 namespace {
-
-double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 Eigen::VectorXd normals(std::mt19937_64& engine, Eigen::Index dimension) {
   std::normal_distribution<double> normal;

@@ -7,9 +7,11 @@
 #include "catch.h"
 #include "fcl_prob/normal_mass.h"
 #include "pose/even_regression.h"
+#include "pose_cases.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob::detail;
+using namespace fcl_prob_test;
 
 namespace {
 
@@ -39,8 +41,6 @@ double calibration(int count, int dimension, const Function& f, double truth, do
   }
   return std::sqrt(sum / kRepeats);
 }
-
-double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 }  // namespace
 

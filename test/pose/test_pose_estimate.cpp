@@ -23,32 +23,6 @@ namespace {
 
 using Method = ProbabilityMethod;
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
-
-/// E f(σ z) for a standard normal z.
-template <typename Function>
-double gaussianMean(double sigma, const Function& f) {
-  const auto integrand = [&](double z) {
-    return f(sigma * z) * std::exp(-0.5 * z * z) * 0.39894228040143268;
-  };
-  return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(integrand, -9.0, 9.0, 12,
-                                                                       1e-12);
-}
-
-ProbabilityResult answer(const PreparedPoseQuery& query, const fcl::Transform3d& pose_a,
-                         const fcl::Transform3d& pose_b, const PoseError& error,
-                         const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  query.collisionProbability(pose_a, pose_b, error, request, result);
-  return result;
-}
-
-PreparedPoseQuery boxes() {
-  return {std::make_shared<fcl::Boxd>(1.0, 0.4, 0.2), std::make_shared<fcl::Boxd>(0.5, 0.8, 0.6)};
-}
-
 bool isCounted(const ProbabilityResult& result) {
   return result.plan.back().find("that of fcl::collide") != std::string::npos;
 }
@@ -65,7 +39,7 @@ TEST_CASE("a sphere that turns about its centre collides as if it did not turn")
   const PreparedPoseQuery query(std::make_shared<fcl::Sphered>(0.3),
                                 std::make_shared<fcl::Boxd>(1, 1, 1));
   const auto translation = GaussianDisplacement::fromStandardDeviations({0.1, 0.05, 0.08});
-  const fcl::Transform3d pose_a = poseAt(0.9, 0.1, 0.0);
+  const fcl::Transform3d pose_a = at(0.9, 0.1, 0.0);
   for (const double sigma : {1e-6, 0.02, 1.0}) {
     const auto error =
         PoseError::fromIndependent(translation, sigma * sigma * Eigen::Matrix3d::Identity(),
@@ -92,11 +66,11 @@ TEST_CASE("a sphere on a lever before a wall has a closed form") {
       const double expected = gaussianMean(
           angle, [&](double theta) { return normalCdf((lever * std::sin(theta) - gap) / sigma); });
       RandomPoses::Body arm{
-          {poseAt(lever, 0, 0)},
+          {at(lever, 0, 0)},
           kIdentity,
           PoseError::fromStandardDeviations({sigma, sigma, sigma}, {0, 0, angle})};
       for (const bool bounded : {false, true}) {
-        const fcl::Transform3d pose_b = poseAt(lever, gap + radius + (bounded ? 2.0 : 0.0), 0);
+        const fcl::Transform3d pose_b = at(lever, gap + radius + (bounded ? 2.0 : 0.0), 0);
         const RandomPoses poses(arm, {{pose_b}, pose_b, PoseError()});
         const ConfigurationQuery query(
             {sphere}, {bounded ? std::static_pointer_cast<fcl::CollisionGeometryd>(block)
@@ -122,7 +96,7 @@ TEST_CASE("an exponential about the world's origin, against quadrature") {
     const double shrunk = std::fabs(theta) < 1e-6 ? 1.0 : std::sin(0.5 * theta) / (0.5 * theta);
     return normalCdf((lever * std::sin(theta) - gap) / (sigma * shrunk));
   });
-  const auto result = answer(query, poseAt(lever, 0, 0), poseAt(0, gap + radius, 0), error,
+  const auto result = answer(query, at(lever, 0, 0), at(0, gap + radius, 0), error,
                              poseRequest(Method::estimate, 0.005));
   checkNear(result, expected, 1e-9);
 }
@@ -214,7 +188,7 @@ TEST_CASE("covariances of low rank are answered, and standard errors stay true")
     ProbabilityRequest counting = poseRequest(Method::monte_carlo, 1e-9);
     counting.samples = 5'000;
     counting.seed = static_cast<std::uint64_t>(++i);
-    const fcl::Transform3d pose_b = poseAt(0.85, 0.1, 0.1);
+    const fcl::Transform3d pose_b = at(0.85, 0.1, 0.1);
     const auto counted = answer(query, kIdentity, pose_b, error, counting);
     const auto result =
         answer(query, kIdentity, pose_b, error, poseRequest(Method::automatic, 0.03));
@@ -239,8 +213,8 @@ TEST_CASE("covariances of low rank are answered, and standard errors stay true")
     const double other = direction + std::acos(0.53 / corner);
     // Symmetric: |θ| between the two angles (0.4 deviations times 0.2 and far beyond).
     const double expected = 2.0 * (normalCdf(other / 0.2) - normalCdf(touching / 0.2));
-    const auto result = answer(before_wall, kIdentity, poseAt(0.53, 0, 0), error,
-                               poseRequest(Method::estimate, 0.02));
+    const auto result =
+        answer(before_wall, kIdentity, at(0.53, 0, 0), error, poseRequest(Method::estimate, 0.02));
     checkNear(result, expected, 1e-3);
   }
 }
@@ -255,7 +229,7 @@ TEST_CASE("without rotation every answer is that of the translation, to the last
     const auto translation = GaussianDisplacement::fromStandardDeviations(
         {0.1, 0.05, 0.02}, random.quaternion(), 0.05 * random.normalVector());
     const auto error = PoseError::fromIndependent(translation, Eigen::Matrix3d::Zero());
-    const fcl::Transform3d pose_a(random.pose(0.2)), pose_b = poseAt(0.8, 0.1, 0.1);
+    const fcl::Transform3d pose_a(random.pose(0.2)), pose_b = at(0.8, 0.1, 0.1);
     for (const auto method : {Method::automatic, Method::interval, Method::estimate, Method::exact,
                               Method::convex_pcd, Method::monte_carlo}) {
       ProbabilityResult expected, result;
@@ -276,17 +250,17 @@ TEST_CASE("the seed fixes the answer, whatever the number of threads") {
   for (const bool gradient : {true, false}) {
     ProbabilityRequest request = poseRequest(Method::estimate);
     request.gradient = gradient;
-    const auto one = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
+    const auto one = answer(query, kIdentity, at(0.9, 0, 0), error, request);
     CHECK(isCounted(one) == !gradient);
     request.threads = 3;
-    const auto three = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
+    const auto three = answer(query, kIdentity, at(0.9, 0, 0), error, request);
     CHECK(*one.estimate == *three.estimate);
     CHECK(*one.standard_error == *three.standard_error);
     CHECK(one.statistics.samples == three.statistics.samples);
     CHECK(one.gradient.has_value() == gradient);
     if (gradient) CHECK(*one.gradient == *three.gradient);
     request.seed = 2;
-    const auto other = answer(query, kIdentity, poseAt(0.9, 0, 0), error, request);
+    const auto other = answer(query, kIdentity, at(0.9, 0, 0), error, request);
     CHECK(*one.estimate != *other.estimate);
   }
 }
@@ -295,7 +269,7 @@ TEST_CASE("estimates that count are calibrated, and take less than counting at r
   const PreparedPoseQuery query = boxes();
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.3, 0.4, 0.3});
   for (const double x : {0.7, 0.9}) {
-    const fcl::Transform3d pose_b = poseAt(x, 0, 0);
+    const fcl::Transform3d pose_b = at(x, 0, 0);
     ProbabilityRequest request = poseRequest(Method::estimate, 0.001);
     request.seed = 1000;
     const auto reference = answer(query, kIdentity, pose_b, error, request);
@@ -323,14 +297,14 @@ TEST_CASE("estimates that count are calibrated, and take less than counting at r
 
 TEST_CASE("estimates count where that is sooner, and where fcl::collide can be asked") {
   const auto wide = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.3, 0.3, 0.3});
-  const fcl::Transform3d pose_b = poseAt(0.9, 0, 0);
+  const fcl::Transform3d pose_b = at(0.9, 0, 0);
   const ProbabilityRequest request = poseRequest(Method::estimate, 0.02);
   CHECK(isCounted(answer(boxes(), kIdentity, pose_b, wide, request)));
   // Far out in the tail no counting gets there.
   const auto narrow = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {1e-3, 1e-3, 1e-3});
   ProbabilityRequest relative = request;
   relative.absolute_tolerance = 0.0;
-  const auto far = answer(boxes(), kIdentity, poseAt(1.3, 0, 0), narrow, relative);
+  const auto far = answer(boxes(), kIdentity, at(1.3, 0, 0), narrow, relative);
   CHECK_FALSE(isCounted(far));
   CHECK(*far.estimate < 1e-6);
   // What fcl::collide takes for touching is no longer small beside such displacements.
@@ -340,13 +314,13 @@ TEST_CASE("estimates count where that is sooner, and where fcl::collide can be a
   const auto triangle = std::make_shared<fcl::TrianglePd>(
       Eigen::Vector3d(0, -1, -1), Eigen::Vector3d(0, 1, -1), Eigen::Vector3d(0, 0, 1));
   const PreparedPoseQuery of_triangle(triangle, std::make_shared<fcl::Boxd>(0.5, 0.8, 0.6));
-  CHECK_FALSE(isCounted(answer(of_triangle, kIdentity, poseAt(0.3, 0, 0), wide, request)));
+  CHECK_FALSE(isCounted(answer(of_triangle, kIdentity, at(0.3, 0, 0), wide, request)));
 }
 
 TEST_CASE("a query over poses stops at a threshold, a limit or when told to") {
   const PreparedPoseQuery query = boxes();
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.1, 0.2, 0.1});
-  const fcl::Transform3d pose_b = poseAt(0.9, 0, 0);
+  const fcl::Transform3d pose_b = at(0.9, 0, 0);
   ProbabilityRequest request = poseRequest(Method::estimate, 1e-4);
   const double p =
       answer(query, kIdentity, pose_b, error, poseRequest(Method::estimate)).probability();
@@ -391,11 +365,11 @@ TEST_CASE("the gradient over poses is that of the mean position") {
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.1, 0.2, 0.1});
   ProbabilityRequest request = poseRequest(Method::estimate, 0.01);
   request.gradient = true;
-  const auto at = [&](double x) {
-    return answer(query, poseAt(x, 0, 0), poseAt(0.9, 0, 0), error, request);
+  const auto answerAt = [&](double x) {
+    return answer(query, at(x, 0, 0), at(0.9, 0, 0), error, request);
   };
   const double step = 0.05;
-  const auto here = at(0.0), before = at(-step), behind = at(step);
+  const auto here = answerAt(0.0), before = answerAt(-step), behind = answerAt(step);
   const double slope = (*behind.estimate - *before.estimate) / (2.0 * step);
   const double doubt =
       std::hypot(*behind.standard_error, *before.standard_error) / (2.0 * step) + 0.05 * slope;
@@ -409,9 +383,9 @@ TEST_CASE("rare events over poses agree with the estimate, and with a closed for
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.1, 0.2, 0.1});
   for (const double x : {1.0, 1.2}) {
     const auto estimate =
-        answer(query, kIdentity, poseAt(x, 0, 0), error, poseRequest(Method::estimate, 0.01));
+        answer(query, kIdentity, at(x, 0, 0), error, poseRequest(Method::estimate, 0.01));
     const auto rare =
-        answer(query, kIdentity, poseAt(x, 0, 0), error, poseRequest(Method::rare_event, 0.02));
+        answer(query, kIdentity, at(x, 0, 0), error, poseRequest(Method::rare_event, 0.02));
     CAPTURE(x, *estimate.estimate, *rare.estimate, *rare.standard_error);
     CHECK(rare.method == Method::rare_event);
     CHECK(std::fabs(*rare.estimate - *estimate.estimate) <=
@@ -424,11 +398,11 @@ TEST_CASE("rare events over poses agree with the estimate, and with a closed for
   const auto translation = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
   const auto turning = PoseError::fromIndependent(translation, 0.04 * Eigen::Matrix3d::Identity());
   ProbabilityResult exact;
-  collisionProbability(std::make_shared<fcl::Sphered>(0.3).get(), poseAt(1.5, 0, 0),
+  collisionProbability(std::make_shared<fcl::Sphered>(0.3).get(), at(1.5, 0, 0),
                        std::make_shared<fcl::Boxd>(1, 1, 1).get(), kIdentity, translation,
                        poseRequest(Method::interval, 1e-3), exact);
   const auto far =
-      answer(ball, poseAt(1.5, 0, 0), kIdentity, turning, poseRequest(Method::rare_event, 0.02));
+      answer(ball, at(1.5, 0, 0), kIdentity, turning, poseRequest(Method::rare_event, 0.02));
   CAPTURE(*far.estimate, *far.standard_error, *exact.lower, *exact.upper);
   CHECK(*exact.upper < 1e-9);
   CHECK(*far.estimate - 5.0 * *far.standard_error <= *exact.upper);
@@ -443,7 +417,7 @@ TEST_CASE("what cannot be answered over poses is refused, and the result untouch
   for (const auto method :
        {Method::exact, Method::convex_pcd, Method::general_pcd, Method::general_pcd_min}) {
     CHECK_THROWS_AS(
-        query.collisionProbability(kIdentity, poseAt(1, 0, 0), error, poseRequest(method), result),
+        query.collisionProbability(kIdentity, at(1, 0, 0), error, poseRequest(method), result),
         UnsupportedGeometry);
   }
   ProbabilityRequest bad = poseRequest(Method::estimate);

@@ -22,41 +22,16 @@ namespace {
 
 using Method = ProbabilityMethod;
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-double normalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
-
-template <typename Function>
-double gaussianMean(double sigma, const Function& f) {
-  const auto integrand = [&](double z) {
-    return f(sigma * z) * std::exp(-0.5 * z * z) * 0.39894228040143268;
-  };
-  return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(integrand, -9.0, 9.0, 12,
-                                                                       1e-12);
-}
-
 ProbabilityRequest intervalRequest(double relative_tolerance, std::size_t cells = 300'000) {
   ProbabilityRequest request = poseRequest(Method::interval, relative_tolerance);
   request.max_cells = cells;
   return request;
 }
 
-ProbabilityResult answer(const PreparedPoseQuery& query, const fcl::Transform3d& pose_a,
-                         const fcl::Transform3d& pose_b, const PoseError& error,
-                         const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  query.collisionProbability(pose_a, pose_b, error, request, result);
-  return result;
-}
-
 void checkContains(const ProbabilityResult& result, double expected) {
   CAPTURE(*result.lower, *result.upper, expected);
   CHECK(*result.lower <= expected);
   CHECK(*result.upper >= expected);
-}
-
-PreparedPoseQuery boxes() {
-  return {std::make_shared<fcl::Boxd>(1.0, 0.4, 0.2), std::make_shared<fcl::Boxd>(0.5, 0.8, 0.6)};
 }
 
 /// Pairs of everything that is bounded, and of closed meshes.
@@ -148,7 +123,7 @@ TEST_CASE("a sphere that turns about its centre has the interval of one that doe
   const auto box = std::make_shared<fcl::Boxd>(1, 1, 1);
   const PreparedPoseQuery query(sphere, box);
   const auto translation = GaussianDisplacement::fromStandardDeviations({0.1, 0.05, 0.08});
-  const fcl::Transform3d pose_a = poseAt(0.9, 0.1, 0.0);
+  const fcl::Transform3d pose_a = at(0.9, 0.1, 0.0);
   ProbabilityResult exact;
   collisionProbability(sphere.get(), pose_a, box.get(), kIdentity, translation,
                        intervalRequest(1e-5), exact);
@@ -173,8 +148,8 @@ TEST_CASE("a sphere on a lever before a wall: the interval contains the closed f
       const double shrunk = std::fabs(theta) < 1e-6 ? 1.0 : std::sin(0.5 * theta) / (0.5 * theta);
       return normalCdf((lever * std::sin(theta) - gap) / (sigma * shrunk));
     });
-    const auto result = answer(query, poseAt(lever, 0, 0), poseAt(lever, gap + radius + 1.0, 0),
-                               error, intervalRequest(0.02, 60'000));
+    const auto result = answer(query, at(lever, 0, 0), at(lever, gap + radius + 1.0, 0), error,
+                               intervalRequest(0.02, 60'000));
     CAPTURE(angle);
     // Each rotation asks for the interval of a curved pair: their cells come first.
     const bool converged = result.status == ProbabilityStatus::converged;
@@ -193,7 +168,7 @@ TEST_CASE("one axis and no translation: rotations are all there is") {
   const double touching = direction - std::acos(0.53 / corner);
   const double other = direction + std::acos(0.53 / corner);
   const double expected = 2.0 * (normalCdf(other / 0.2) - normalCdf(touching / 0.2));
-  const auto result = answer(query, kIdentity, poseAt(1.53, 0, 0), error, intervalRequest(0.01));
+  const auto result = answer(query, kIdentity, at(1.53, 0, 0), error, intervalRequest(0.01));
   CHECK(result.status == ProbabilityStatus::converged);
   checkContains(result, expected);
 }
@@ -203,11 +178,11 @@ TEST_CASE("boxes that turn by a degree: a narrow interval is reached") {
   const auto error =
       PoseError::fromStandardDeviations({0.05, 0.05, 0.05}, {0.0175, 0.0175, 0.0175});
   const auto result =
-      answer(query, kIdentity, poseAt(0.82, 0.1, 0.1), error, intervalRequest(0.25, 2'000'000));
+      answer(query, kIdentity, at(0.82, 0.1, 0.1), error, intervalRequest(0.25, 2'000'000));
   CHECK(result.status == ProbabilityStatus::converged);
   ProbabilityRequest counting = poseRequest(Method::monte_carlo, 1e-12);
   counting.samples = 5'000;
-  const auto counted = answer(query, kIdentity, poseAt(0.82, 0.1, 0.1), error, counting);
+  const auto counted = answer(query, kIdentity, at(0.82, 0.1, 0.1), error, counting);
   CHECK(*result.lower <= *counted.estimate + 5.0 * *counted.standard_error);
   CHECK(*result.upper >= *counted.estimate - 5.0 * *counted.standard_error);
 }
@@ -215,7 +190,7 @@ TEST_CASE("boxes that turn by a degree: a narrow interval is reached") {
 TEST_CASE("an interval over poses is valid wherever it stops, whatever the number of threads") {
   const PreparedPoseQuery query = boxes();
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.05, 0.05, 0.05});
-  const fcl::Transform3d pose_b = poseAt(0.9, 0, 0);
+  const fcl::Transform3d pose_b = at(0.9, 0, 0);
   const double p =
       answer(query, kIdentity, pose_b, error, poseRequest(Method::estimate)).probability();
   const auto one = answer(query, kIdentity, pose_b, error, intervalRequest(1e-3, 3'000));

@@ -20,7 +20,6 @@ namespace {
 
 using Method = ProbabilityMethod;
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
 constexpr double kLink = 0.3;
 
 /// An arm of capsules along x; joints turn about z and y by turns.
@@ -77,7 +76,7 @@ RandomJoints sevenJoints(double sigma) {
   return {mean,
           covariance,
           arm,
-          {poseAt(1.4, 0.35, 0.0), poseAt(0.9, -0.35, 0.1)},
+          {at(1.4, 0.35, 0.0), at(0.9, -0.35, 0.1)},
           GaussianDisplacement::fromStandardDeviations({0.03, 0.03, 0.03})};
 }
 
@@ -116,13 +115,13 @@ TEST_CASE("an arm on a base that is localised badly, beside obstacles with error
   const ConfigurationQuery query(links(3), {std::make_shared<fcl::Boxd>(0.3, 0.2, 0.3)});
   const auto joints = std::make_shared<RandomJoints>(
       Eigen::Vector3d(0.2, 0.1, 0.3), Eigen::Matrix3d(0.001 * Eigen::Matrix3d::Identity()), arm,
-      std::vector<fcl::Transform3d>{poseAt(0.8, 0.5, 0.0)},
+      std::vector<fcl::Transform3d>{at(0.8, 0.5, 0.0)},
       GaussianDisplacement::fromStandardDeviations({0.02, 0.03, 0.0}, random.quaternion(),
                                                    {0.01, 0.0, 0.02}));
   for (const auto convention :
        {PoseConvention::body_rotation_vector, PoseConvention::world_exponential}) {
     const RandomBase configuration(
-        joints, poseAt(0.1, -0.2, 0.0),
+        joints, at(0.1, -0.2, 0.0),
         PoseError(randomPoseCovariance(random, 6, 0.05, 0.05), convention));
     CHECK(configuration.dimension() == 6);
     const auto result = answer(query, configuration, poseRequest(Method::estimate, 0.03));
@@ -134,7 +133,7 @@ TEST_CASE("two bodies with pose errors are one with the sum, for small errors") 
   RandomBodies random(4);
   const auto a = std::make_shared<fcl::Boxd>(0.5, 0.3, 0.2);
   const auto b = std::make_shared<fcl::Boxd>(0.4, 0.4, 0.3);
-  const fcl::Transform3d pose_a(random.pose(0.1)), pose_b = poseAt(0.5, 0.05, 0.1);
+  const fcl::Transform3d pose_a(random.pose(0.1)), pose_b = at(0.5, 0.05, 0.1);
   const PoseError of_a(randomPoseCovariance(random, 6, 0.05, 0.01));
   const PoseError of_b(randomPoseCovariance(random, 6, 0.05, 0.01),
                        PoseConvention::body_rotation_vector);
