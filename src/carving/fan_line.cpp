@@ -16,8 +16,6 @@ namespace {
 // Faces that are nearly along the lines tell little of places on them.
 constexpr double kLeastSlope = 1e-3;
 
-constexpr double kLikeness = 0.99;
-
 // Planes that the search for a contact begins with, if they tell most.
 constexpr std::size_t kRememberedFaces = 6;
 
@@ -67,7 +65,7 @@ struct Vertex {
 }  // namespace
 
 FanLine::FanLine(const WhitenedFan& fan)
-    : fan_(fan), rounding_(1e-13 * fan.reach()), touched_(Eigen::Vector3d::Zero()) {
+    : fan_(fan), nodes_(fan), touched_(Eigen::Vector3d::Zero()) {
   const auto count = static_cast<std::size_t>(fan.faceCount());
   int lowest = 0, highest = 0;
   faces_.reserve(count);
@@ -91,74 +89,11 @@ FanLine::FanLine(const WhitenedFan& fan)
     neighbours_[next[f]++] = g;
     neighbours_[next[g]++] = f;
   }
-  chooseClippingFaces();
-  looked_at_.assign(fan.mesh().boxes.size(), -1);
-}
-
-// Those of directions as different as possible.
-void FanLine::chooseClippingFaces() {
-  std::vector<double> closeness(faces_.size(), -2.0);
-  int next = starts_[0].faces[0];
-  for (std::size_t k = 0; k < kClippingFaces && closeness[next] < kLikeness; ++k) {
-    const Eigen::Vector3d n = fan_.faceNormal(next);
-    if (std::fabs(n.x()) > kLeastSlope) clipping_.push_back(next);
-    for (int f = 0; f < fan_.faceCount(); ++f) {
-      closeness[f] = std::max(closeness[f], n.dot(fan_.faceNormal(f)));
-      if (closeness[f] < closeness[next]) next = f;
-    }
-  }
-  const auto x = [this](int face) { return fan_.faceNormal(face).x(); };
-  std::sort(clipping_.begin(), clipping_.end(), [x](int f, int g) { return x(f) < x(g); });
-  clipping_below_ = static_cast<std::size_t>(
-      std::count_if(clipping_.begin(), clipping_.end(), [x](int f) { return x(f) < 0.0; }));
-}
-
-// In P ⊕ box: n·y <= offset + n·middle + |n|·half, which is where a line ends that goes along the
-// first axis, divided by n_0; what is rounded moves it outwards.
-const FanLine::NodeEnds& FanLine::endsOf(int node) {
-  if (looked_at_[node] >= 0) return ends_[looked_at_[node]];
-  looked_at_[node] = static_cast<int>(ends_.size());
-  NodeEnds& known = ends_.emplace_back();
-  const NodeBox box = fan_.cornerBox(node);
-  const Eigen::Map<const Eigen::Vector3d> lo(box.lo), hi(box.hi);
-  const Eigen::Vector3d middle = 0.5 * (lo + hi);
-  const Eigen::Vector3d half = 0.5 * (hi - lo) + fan_.pad();
-  known.box = fan_.obstacleBox(node);
-  for (std::size_t k = 0; k < clipping_.size(); ++k) {
-    const Eigen::Vector3d& n = fan_.faceNormal(clipping_[k]);
-    const double level = fan_.faceOffset(clipping_[k]) + n.dot(middle) + n.cwiseAbs().dot(half);
-    known.ends[k] = (level + rounding_) / n.x();
-  }
-  return known;
 }
 
 void FanLine::lookAt(const Column& column) {
   column_ = column;
-  const Eigen::Vector2d middle = 0.5 * (column.lo + column.hi);
-  const Eigen::Vector2d half = 0.5 * (column.hi - column.lo);
-  for (std::size_t k = 0; k < clipping_.size(); ++k) {
-    const Eigen::Vector3d& n = fan_.faceNormal(clipping_[k]);
-    const double least = n.tail<2>().dot(middle) - n.tail<2>().cwiseAbs().dot(half);
-    shifts_[k] = (least - rounding_) / n.x();
-  }
-}
-
-std::optional<LineSpan> FanLine::around(int node) {
-  const NodeEnds& known = endsOf(node);
-  const NodeBox& box = known.box;
-  if (column_.lo[0] > box.hi[1] || column_.hi[0] < box.lo[1] || column_.lo[1] > box.hi[2] ||
-      column_.hi[1] < box.lo[2]) {
-    return std::nullopt;
-  }
-  LineSpan span{box.lo[0], box.hi[0]};
-  for (std::size_t k = 0; k < clipping_below_; ++k) {
-    span.lo = std::max(span.lo, known.ends[k] - shifts_[k]);
-  }
-  for (std::size_t k = clipping_below_; k < clipping_.size(); ++k) {
-    span.hi = std::min(span.hi, known.ends[k] - shifts_[k]);
-  }
-  if (!(span.lo <= span.hi)) return std::nullopt;
-  return span;
+  nodes_.lookAt(column);
 }
 
 // P put to a point has the y with n·(y - point) <= offset; what is below all faces by their margins
@@ -188,20 +123,21 @@ std::optional<LineSpan> FanLine::within(const Eigen::Vector3d& point) const {
 
 // The d are the corners of the polar polytope, and neighbours share an edge of that: from any of
 // them one climbs to the one that is farthest in a direction.
-int FanLine::highestFace(const Eigen::Vector3d& point) {
-  double height = faces_[highest_].dot(point);
+int FanLine::highestFace(const Eigen::Vector3d& point, double sign) {
+  int& highest = highest_[sign > 0 ? 0 : 1];
+  double height = faces_[highest].dot(point);
   for (bool climbs = true; climbs;) {
     climbs = false;
-    const int from = highest_;
+    const int from = highest;
     for (int k = neighbours_begin_[from]; k < neighbours_begin_[from + 1]; ++k) {
       const double other = faces_[neighbours_[k]].dot(point);
       if (!(other > height)) continue;
       height = other;
-      highest_ = neighbours_[k];
+      highest = neighbours_[k];
       climbs = true;
     }
   }
-  return highest_;
+  return highest;
 }
 
 // The one that alone tells most: the largest of its least sign·s over T.
@@ -269,7 +205,7 @@ std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen
                         : Eigen::RowVector3d(0, 1, 1));
     } else {
       const Eigen::Vector3d y = base - z[1] * p - z[2] * q + Eigen::Vector3d(sign * z[0], 0, 0);
-      const int face = highestFace(y);
+      const int face = highestFace(y, sign);
       const Eigen::Vector3d& d = faces_[face];
       if (!(d.dot(y) > 1.0 + kOutside)) return z[0];
       remember(face, sign);
@@ -281,12 +217,18 @@ std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen
   return vertex.place()[0];
 }
 
-double FanLine::endBehindFirst() const {
-  double end = kInfinity;
-  for (const Eigen::Vector3d& d : faces_) {
-    if (d.x() > 0.0) end = std::min(end, (1.0 - d.dot(touched_)) / d.x());
+// From plane to plane, each of which the line leaves before the last one.
+double FanLine::endBehindFirst() {
+  int face = starts_[1].faces[0];
+  for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
+    const Eigen::Vector3d& d = faces_[face];
+    const double end = (1.0 - d.dot(touched_)) / d.x();
+    const Eigen::Vector3d y = touched_ + Eigen::Vector3d(end, 0, 0);
+    const int outside = highestFace(y, -1.0);
+    if (!(faces_[outside].x() > 0.0) || !(faces_[outside].dot(y) > 1.0 + kOutside)) return end;
+    face = outside;
   }
-  return end;
+  return -kInfinity;
 }
 
 }  // namespace fcl_prob::detail

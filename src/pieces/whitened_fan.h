@@ -58,6 +58,7 @@ class WhitenedFan {
   /// The other mesh: T has these corners.
   const WhitenedTree& mesh() const { return mesh_; }
   Eigen::Matrix3d corners(int triangle) const;
+  Eigen::Vector3d corner(int vertex) const { return sign_ * (mesh_.vertices[vertex] - centre_); }
 
   /// Box of the corners of a node of the tree of the mesh.
   NodeBox cornerBox(int node) const;
@@ -90,7 +91,6 @@ class WhitenedFan {
   double largestMargin() const { return most_margin_; }
 
  private:
-  Eigen::Vector3d corner(int vertex) const { return sign_ * (mesh_.vertices[vertex] - centre_); }
   void moveFan(const WhitenedTree& body, const PieceTree::Part& part, const ConvexFan& fan,
                const Eigen::Matrix3d& linear);
 
