@@ -49,9 +49,13 @@ Eigen::Vector3d evenPoint(const Eigen::Vector3d& shift, int index) {
   return point;
 }
 
-// How much farther out than four deviations Student's t with so many degrees of freedom has the
-// tail of the normal distribution there (expansion of Fisher and Cornish 1960, with z = 4).
-double tailFactor(double freedom) { return 1.0 + (4.25 + 16.0 / freedom) / freedom; }
+// How much farther out than z deviations Student's t with so many degrees of freedom has the tail
+// of the normal distribution there (expansion of Fisher and Cornish 1960).
+double tailFactor(double freedom, double z) {
+  const double square = z * z;
+  const double second = (5.0 * square * square + 16.0 * square + 3.0) / 96.0;
+  return 1.0 + ((square + 1.0) / 4.0 + second / freedom) / freedom;
+}
 
 // The differences between sets tell the variance without bias, but nothing where all samples agree,
 // and little where few do not. After k hits the mean of a Poisson variable is above k + 4 sqrt(k +
@@ -84,12 +88,12 @@ void addSets(double sum_squares, int sets, double freedom, double jump, SampledV
   total.jumps += likely * jump;
 }
 
-double SampledVariance::standardError() const {
+double SampledVariance::standardError(double deviations) const {
   if (!(weight > 0.0)) return 0.0;
   const double jump = jumps / weight;
   // Degrees of freedom by Welch (1947) and Satterthwaite.
   const double inverse_freedom = variance > 0.0 ? uncertainty / variance / variance : 0.0;
-  const double factor = tailFactor(1.0 / std::max(inverse_freedom, 1e-300));
+  const double factor = tailFactor(1.0 / std::max(inverse_freedom, 1e-300), deviations);
   return unit * std::sqrt(factor * factor * variance + kMissingJumps * jump * jump);
 }
 

@@ -24,9 +24,9 @@ struct SampledVariance {
   double weight = 0.0;       ///< Σ u over the cells: what their variances may well be
   double jumps = 0.0;        ///< Σ u d, with what one sample of another kind would have changed, d
 
-  /// Such that a few of it are as rarely exceeded as of a normal distribution, however few samples
-  /// and cells there are.
-  double standardError() const;
+  /// Such that so many of it are as rarely exceeded as of a normal distribution, however few
+  /// samples and cells there are.
+  double standardError(double deviations = 4.0) const;
 };
 
 /// Adds a mean of so many sets, the squares of whose differences from it have this sum.

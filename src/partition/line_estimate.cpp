@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/random_words.h"
 #include "carving/line_columns.h"
@@ -18,15 +19,19 @@ namespace {
 
 // Columns before the first lines, by how many times more there are at the next look, and how many
 // there may be.
-constexpr std::size_t kFirstColumns = 32;
-constexpr double kLeastGrowth = 1.6;
+constexpr std::size_t kFirstColumns = 24;
+constexpr double kLeastGrowth = 1.3;
 constexpr double kMostGrowth = 8.0;
-constexpr double kReserve = 1.15;
+constexpr double kReserve = 1.1;
 
-// The first look knows least of its own error: it ends the query only with this share of what was
-// asked for.
-constexpr double kTrustInFirst = 0.7;
 constexpr std::size_t kMostColumns = 1 << 16;
+
+// Looks are independent: where two are farther apart than so many standard errors, the later one,
+// too, may not have seen all. The first one, with which none agrees yet, does not end the query.
+constexpr double kFarApart = 3.0;
+
+// Deviations up to which few degrees of freedom count as the normal distribution.
+constexpr double kDeviations = 3.0;
 
 // Pairs of lines of a column: each of two that are mirrored at its middle, so that what is linear
 // across the column counts for nothing. Their difference tells the variance.
@@ -36,14 +41,23 @@ constexpr int kLines = 2 * kPairs;
 // Of its variance, what a column leaves to each of its halves.
 constexpr double kVarianceOfHalf = 1.0 / 6.0;
 
-// A column whose pairs agree is taken to vary by this share of its bound.
-constexpr double kLeastDeviation = 0.07;
+// What a column is divided by, besides the difference of its pairs, which says little of one
+// column: a share of how far its lines differ, and of the most they have.
+constexpr double kDeviationOfRange = 0.1;
+constexpr double kDeviationOfMost = 0.15;
 
-// Where a line of a column has less than this share of its bound, an edge of the C-obstacle may
-// pass between its lines, however wide that is: what may be unseen is then this share of a line at
-// least.
+// A line may have more than those nearby by this factor; in columns so far along the order, ...
+constexpr double kHigherThanSeen = 1.5;
+constexpr int kNearby = 2;
+
+// ... and where a line of a column has less than this share of its bound, an edge of the
+// C-obstacle may pass between its lines, however wide that is. Chosen such that standard errors
+// are of the size of the errors: what may be unseen of a line at an edge, of one that a segment of
+// something reaches into, and of one that something smaller may be beside.
 constexpr double kNearlyMissed = 0.02;
-constexpr double kUnseenEdge = 0.5;
+constexpr double kUnseenEdge = 0.18;
+constexpr double kUnseenSegment = 0.35;
+constexpr double kUnseenPiece = 0.7;
 
 // Of the standard error asked for, what may be left out of lines; and of the bound on P.
 constexpr double kLeftOutOfError = 0.05;
@@ -53,7 +67,10 @@ constexpr double kLeftOutOfBound = 1e-6;
 struct PairsOfColumn {
   double mean = 0.0;    ///< of their masses
   double spread = 0.0;  ///< squares of what the means of pairs are off that
-  double unseen = 0.0;  ///< in lines: what a piece that none of them met would have changed
+  double lowest = 1.0;
+  double highest = 0.0;
+  double segment = 0.0;  ///< share of a line that reaches between two of them, at most
+  double hidden = 0.0;   ///< chance that something as small as can be is between them
 };
 
 class ColumnSampler {
@@ -64,48 +81,44 @@ class ColumnSampler {
   PairsOfColumn draw(const LineColumns::Node& node, int index) {
     const std::array<std::uint64_t, 4> words =
         randomWords({request_.seed, 0x636f6c75}, static_cast<std::uint64_t>(index), looks_);
+    PairsOfColumn drawn;
     double means[kPairs];
-    double apart = 0.0, least = node.most;
     for (int pair = 0; pair < kPairs; ++pair) {
       const Eigen::Vector2d x(unitUniform(words[2 * pair]), unitUniform(words[2 * pair + 1]));
-      const Eigen::Vector2d u = placeOf(node, x);
-      const Eigen::Vector2d mirrored = placeOf(node, Eigen::Vector2d::Ones() - x);
-      const double mass = massOn(node, u), of_mirrored = massOn(node, mirrored);
-      means[pair] = 0.5 * (mass + of_mirrored);
-      least = std::min({least, mass, of_mirrored});
-      apart += 0.5 * (distanceAt(node, u) + distanceAt(node, mirrored)) / kPairs;
+      means[pair] = 0.5 * (massAt(node, x, drawn) +  //
+                           massAt(node, Eigen::Vector2d::Ones() - x, drawn));
     }
     const double off = means[0] - means[1];
-    return {
-        0.5 * (means[0] + means[1]), 0.5 * off * off,
-        least < kNearlyMissed * node.most ? std::max(kUnseenEdge, unseen(apart)) : unseen(apart)};
+    drawn.mean = 0.5 * (means[0] + means[1]);
+    drawn.spread = 0.5 * off * off;
+    return drawn;
   }
 
   /// The lines of draw() are others from now on.
   void nextLook() { ++looks_; }
 
  private:
-  static Eigen::Vector2d placeOf(const LineColumns::Node& node, const Eigen::Vector2d& x) {
+  double massAt(const LineColumns::Node& node, const Eigen::Vector2d& x, PairsOfColumn& drawn) {
     const auto& [lo, hi] = node.column;
-    return {truncatedNormal(lo[0], hi[0], x[0]), truncatedNormal(lo[1], hi[1], x[1])};
-  }
-
-  double massOn(const LineColumns::Node& node, const Eigen::Vector2d& u) {
-    return lines_.massOn(
+    const Eigen::Vector2d u(truncatedNormal(lo[0], hi[0], x[0]),
+                            truncatedNormal(lo[1], hi[1], x[1]));
+    const double mass = lines_.massOn(
         u, {kLeftOutOfError * request_.relative_tolerance, kLeftOutOfBound * node.most});
-  }
-
-  // Of lines around u; of two that are mirrored one counts.
-  static double distanceAt(const LineColumns::Node& node, const Eigen::Vector2d& u) {
-    return std::sqrt(node.measure / (kPairs * normalDensity(u[0]) * normalDensity(u[1])));
+    drawn.lowest = std::min(drawn.lowest, mass);
+    drawn.highest = std::max(drawn.highest, mass);
+    countUnseen(node, u, drawn);
+    return mass;
   }
 
   // What sticks out is no smaller than the smallest member, a disc of radius r at least: of that, a
   // segment of the area d³/12r reaches into the gap between two lines at the distance d, a share
   // d/12r of a line's own. All of it may be between lines with the chance that none of them, of the
-  // density 1/d², meets its area.
-  double unseen(double d) const {
-    return std::min(1.0, d / (12.0 * least_.radius) + std::exp(-least_.area / (d * d)));
+  // density 1/d² (of two that are mirrored one counts), meets its area.
+  void countUnseen(const LineColumns::Node& node, const Eigen::Vector2d& u,
+                   PairsOfColumn& drawn) const {
+    const double square = node.measure / (kPairs * normalDensity(u[0]) * normalDensity(u[1]));
+    drawn.segment += std::min(1.0, std::sqrt(square) / (12.0 * least_.radius)) / kLines;
+    drawn.hidden += std::exp(-least_.area / square) / kLines;
   }
 
   WholeBodyLines& lines_;
@@ -121,7 +134,12 @@ struct Look {
   double doubt = 0.0;  ///< what was left out of lines, and what no lines were drawn of
   std::optional<ProbabilityStatus> interrupted;
 
-  double standardError() const { return std::hypot(spread.standardError(), doubt); }
+  double standardError() const { return std::hypot(spread.standardError(kDeviations), doubt); }
+
+  bool isFarFrom(const Look& other) const {
+    return std::fabs(mass - other.mass) >
+           kFarApart * std::hypot(standardError(), other.standardError());
+  }
 };
 
 class LineEstimation {
@@ -138,7 +156,8 @@ class LineEstimation {
 
   std::optional<LineEstimate> run() {
     LineEstimate result;
-    for (bool is_first = true;; is_first = false) {
+    std::optional<Look> before;
+    for (;;) {
       if (!(columns_.most() > std::numeric_limits<double>::min())) return std::nullopt;
       result.upper = std::min(result.upper, columns_.most());
       const Look look = lookAt(result.upper);
@@ -148,9 +167,10 @@ class LineEstimation {
       result.standard_error = look.standardError();
       result.status = look.interrupted.value_or(ProbabilityStatus::converged);
       const double target = request_.toleranceAt(result.value);
-      const double trusted = is_first ? kTrustInFirst * target : target;
-      if (look.interrupted || result.standard_error <= trusted) return result;
+      const bool is_confirmed = before && !look.isFarFrom(*before);
+      if (look.interrupted || (is_confirmed && result.standard_error <= target)) return result;
       if (!divide(look.spread, target)) return std::nullopt;
+      before = look;
     }
   }
 
@@ -158,15 +178,20 @@ class LineEstimation {
   Look lookAt(double upper) {
     Look look;
     look.spread.unit = columns_.most();
+    std::vector<PairsOfColumn> drawn;
     for (const int column : columns_.inOrder()) {
-      LineColumns::Node& node = columns_[column];
+      const LineColumns::Node& node = columns_[column];
       if (!look.interrupted) look.interrupted = interruption_({0.0, upper});
       if (look.interrupted) {
         look.mass += 0.5 * node.mass();
         look.doubt += 0.5 * node.mass();
       } else {
-        add(sampler_.draw(node, column), node, look);
+        drawn.push_back(sampler_.draw(node, column));
       }
+    }
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      LineColumns::Node& node = columns_[columns_.inOrder()[i]];
+      add(drawn[i], unseenOf(drawn[i], node, highestNear(drawn, i)), node, look);
     }
     look.doubt += kLeftOutOfError * request_.relative_tolerance * look.mass +
                   kLeftOutOfBound * columns_.most();
@@ -174,18 +199,41 @@ class LineEstimation {
     return look;
   }
 
+  static double highestNear(const std::vector<PairsOfColumn>& drawn, std::size_t i) {
+    const auto last = static_cast<int>(drawn.size()) - 1;
+    const auto at = static_cast<int>(i);
+    double highest = 0.0;
+    for (int k = std::max(0, at - kNearby); k <= std::min(last, at + kNearby); ++k) {
+      highest = std::max(highest, drawn[k].highest);
+    }
+    return highest;
+  }
+
+  // What one line more of the column may change. Bounds on columns are much larger than what is
+  // there, so they count only for what nothing nearby tells of.
+  static double unseenOf(const PairsOfColumn& pairs, const LineColumns::Node& node,
+                         double highest) {
+    const double of_nearby = std::min(node.most, kHigherThanSeen * highest);
+    const bool has_edge = pairs.lowest < kNearlyMissed * node.most;
+    const double of_known = std::max(kUnseenSegment * pairs.segment, has_edge ? kUnseenEdge : 0.0);
+    return of_known * of_nearby + kUnseenPiece * pairs.hidden * node.most;
+  }
+
   // The weight by which a column is divided is about what it adds to the variance.
-  static void add(const PairsOfColumn& pairs, LineColumns::Node& node, Look& look) {
+  static void add(const PairsOfColumn& pairs, double unseen, LineColumns::Node& node, Look& look) {
     const double unit = look.spread.unit;
     const double share = node.measure / unit;
-    const double jump = share * node.most * pairs.unseen / kLines;
+    const double jump = share * unseen / kLines;
     const double sum_squares = share * share * pairs.spread;
     // A variance that is known with ν degrees of freedom has the mean square (1 + 2/ν) of its own.
     constexpr double kFreedom = kPairs - 1 + 2;
     addSets(sum_squares, kPairs, kFreedom, jump, look.spread);
     look.mass += node.measure * pairs.mean;
-    const double least = kLeastDeviation * node.mass();
-    node.weight = unit * unit * (0.5 * sum_squares + 4.0 * jump * jump) + least * least;
+    const double of_range = kDeviationOfRange * share * (pairs.highest - pairs.lowest);
+    const double of_most =
+        kDeviationOfMost * share * std::min(node.most, 2.0 * pairs.highest + 0.1 * node.most);
+    node.weight =
+        unit * unit * (0.5 * sum_squares + jump * jump + of_range * of_range + of_most * of_most);
   }
 
   // What is seen of the error falls about with the 1.3rd power of the number of columns, what may
@@ -193,8 +241,8 @@ class LineEstimation {
   bool divide(const SampledVariance& spread, double target) {
     SampledVariance seen = spread;
     seen.jumps = 0.0;
-    const double of_seen = seen.standardError();
-    const double of_all = spread.standardError();
+    const double of_seen = seen.standardError(kDeviations);
+    const double of_all = spread.standardError(kDeviations);
     const double unseen = std::sqrt(std::max(0.0, of_all * of_all - of_seen * of_seen));
     const double growth =
         kReserve * std::max(std::pow(of_seen / target, 0.75), std::sqrt(unseen / target));
