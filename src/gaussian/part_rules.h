@@ -140,17 +140,22 @@ ParameterRule fewestPoints(const Cell& cell, const ParameterBox& box, std::size_
   EllipseChoice best = choiceWith(cell, box, k, at, log_target);
   const auto improve = [&](std::size_t ellipse) {
     const EllipseChoice choice = choiceWith(cell, box, k, ellipse, log_target);
-    if (!(choice.points < best.points)) return false;
+    const double fewer = best.points - choice.points;
+    if (!(fewer > 0.0)) return false;
     best = choice;
     at = ellipse;
-    return true;
+    // One point less is about what it costs to look on.
+    return fewer > 1.0;
   };
-  while (at > 0 && !(best.points < kInfinity)) {
-    if (!improve(at - 1)) --at;
+  if (at > 0 && !(best.points < kInfinity)) {
+    // What is unbounded on the least ellipse is so on all.
+    improve(0);
+    if (!(best.points < kInfinity)) return {};
   }
-  bool up = false;
-  while (at + 1 < kEllipses.size() && improve(at + 1)) up = true;
-  while (!up && at > 0 && improve(at - 1)) {
+  const std::size_t start = at;
+  while (at + 1 < kEllipses.size() && improve(at + 1)) {
+  }
+  while (at <= start && at > 0 && improve(at - 1)) {
   }
   guess = at;
   return {best.points, best.error * target, best.error * target * best.reach};

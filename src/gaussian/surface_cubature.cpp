@@ -11,12 +11,12 @@
 namespace fcl_prob::detail {
 namespace {
 
-constexpr int kMostSurfaceDepth = 60;
+constexpr int kMostSurfaceDepth = 150;
 constexpr std::size_t kMostSurfaceBoxes = 20000;
 
 /// Of the error of all rules, next to the mass.
-constexpr double kSurfaceTarget = 4e-8;
-constexpr double kSurfaceEnough = 4e-7;
+constexpr double kSurfaceTarget = 8e-8;
+constexpr double kSurfaceEnough = 4.5e-7;
 constexpr int kSurfaceAttempts = 6;
 
 constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
@@ -29,6 +29,9 @@ constexpr double kFluxRounding = 512.0 * kEpsilon;
 
 /// A box is divided across both parameters if normals change along them by about the same.
 constexpr double kEvenChange = 0.4;
+
+/// Where squares of normals change by more than this share of themselves, no ellipse is tried.
+constexpr double kTooBent = 0.9;
 
 /// Below the smallest normal double, for every term of a rule.
 constexpr double kFluxUnderflow = 1e-306;
@@ -47,7 +50,7 @@ Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
   Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
   double least = kInfinity;
   for (const double step : {0.0, -1.0, 1.0}) {
-    const PatchPoints points = pointsOf(patch, box.centre[0] + step * box.half[0], t);
+    const PatchPoints points = PatchLine(patch, box.centre[0] + step * box.half[0]).at(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d up(points.value[0][k], points.value[1][k],
                                std::max(points.value[2][k], 0.0));
@@ -105,6 +108,7 @@ PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target
     const ParameterRule rule = fewestPoints(cell, box, k, target, guess[k]);
     plan.points[k] = rule.points;
     plan.error += rule.error;
+    if (!(rule.points < kInfinity)) break;
   }
   return plan;
 }
@@ -125,33 +129,36 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
   if (isDue(interruption_)) sum_.error = kInfinity;
   if (!(sum_.error < kInfinity)) return;
   const double target = limits_.tolerance / kInverseTwoPi;
+  const bool is_last = depth >= kMostSurfaceDepth || cells_ >= limits_.most_cells;
+  const NormalChanges changes = normalChanges(patch, box);
+  if (changes.of_square >= 1.0 && !is_last) {
+    divideWhereBent(patch, box, changes, depth);
+    return;
+  }
   const PatchCell cell(patch, box, farNormal(patch, box));
   const double all = volumeOf(box) * supremumOf(cell.bound(ComplexBox(box))) * kBoundSlack;
-  const bool is_last = depth >= kMostSurfaceDepth || cells_ >= limits_.most_cells;
   if (all <= target || is_last) {
     sum_.error += kInverseTwoPi * all + kFluxUnderflow;
     if (!(all < kInfinity)) sum_.error = kInfinity;
     return;
   }
-  const PartPlan plan = planPatch(cell, box, target, guess_);
-  if (!plan.exists()) {
-    divide(patch, box, plan, depth);
-    return;
+  PartPlan plan;
+  if (changes.of_square < kTooBent) plan = planPatch(cell, box, target, guess_);
+  if (!(plan.points[plan.worst()] < kInfinity) || plan.points[0] == 0.0) {
+    divideWhereBent(patch, box, changes, depth);
+  } else if (!plan.exists()) {
+    for (const ParameterBox& half : halves(box, plan)) addBox(patch, half, depth + 1);
+  } else {
+    sum_.error += kInverseTwoPi * plan.error * kBoundSlack;
+    evaluate(patch, cell, box, plan.points);
   }
-  sum_.error += kInverseTwoPi * plan.error * kBoundSlack;
-  evaluate(patch, cell, box, plan.points);
 }
 
 // Where nothing is known, the normals tell why: near a pole they may turn along one parameter only.
-void SurfaceCubature::divide(const SurfacePatch& patch, const ParameterBox& box,
-                             const PartPlan& plan, int depth) {
-  if (plan.points[plan.worst()] < kInfinity) {
-    for (const ParameterBox& half : halves(box, plan)) addBox(patch, half, depth + 1);
-    return;
-  }
-  const std::array<double, 2> changes = normalChanges(patch, box);
-  const std::size_t worse = changes[1] > changes[0] ? 1 : 0;
-  const bool both = changes[1 - worse] > kEvenChange * changes[worse];
+void SurfaceCubature::divideWhereBent(const SurfacePatch& patch, const ParameterBox& box,
+                                      const NormalChanges& changes, int depth) {
+  const std::size_t worse = changes.along[1] > changes.along[0] ? 1 : 0;
+  const bool both = changes.along[1 - worse] > kEvenChange * changes.along[worse];
   for (const ParameterBox& half : halvesAcross(box, worse)) {
     if (!both) {
       addBox(patch, half, depth + 1);
@@ -169,9 +176,9 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
   const LaneRule second(partRule(points[1]), box);
   FluxSums sums;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
-    const double s = box.centre[0] + box.half[0] * first.nodes[i];
+    const PatchLine line(patch, box.centre[0] + box.half[0] * first.nodes[i]);
     for (std::size_t j = 0; j < second.count; ++j) {
-      sums.add(pointsOf(patch, s, second.nodes[j]), first.weights[i], second.weights[j]);
+      sums.add(line.at(second.nodes[j]), first.weights[i], second.weights[j]);
     }
   }
   const double scale = kInverseTwoPi * box.half[0] * box.half[1];

@@ -42,7 +42,8 @@ class SurfaceCubature {
 
  private:
   void addBox(const SurfacePatch& patch, const ParameterBox& box, int depth);
-  void divide(const SurfacePatch& patch, const ParameterBox& box, const PartPlan& plan, int depth);
+  void divideWhereBent(const SurfacePatch& patch, const ParameterBox& box,
+                       const NormalChanges& changes, int depth);
   void evaluate(const SurfacePatch& patch, const PatchCell& cell, const ParameterBox& box,
                 const std::array<double, 3>& points);
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "gaussian/surface_patch.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -44,14 +45,15 @@ Jet<Number> bilinear(const BilinearVector& corner, const Number& s, const Number
   return jet;
 }
 
-/// |w(s)| and its derivative.
+/// By how much |w(s)| exceeds what is linear between its ends, and the derivative of that.
 template <class Number>
-struct BaseLength {
+struct BaseExcess {
   Number value, slope;
 };
 
+// Differences of models count roundings next to the lengths, which is more than roots have.
 template <class Number>
-BaseLength<Number> baseLength(const SurfacePatch& patch, const Number& s) {
+BaseExcess<Number> baseExcess(const SurfacePatch& patch, const Number& s) {
   Triple<Number> w;
   Triple<Number> along;
   for (int k = 0; k < 3; ++k) {
@@ -61,19 +63,33 @@ BaseLength<Number> baseLength(const SurfacePatch& patch, const Number& s) {
     w[i] = patch.base[0][k] + step * s;
   }
   const Number square = dot(w, w);
-  return {squareRoot(square), dot(w, along) * inverseSquareRoot(square)};
+  const double from = patch.base[0].norm(), growth = patch.base[1].norm() - from;
+  return {squareRoot(square) - (from + growth * s),
+          dot(w, along) * inverseSquareRoot(square) - growth};
+}
+
+/// The same with the value right next to itself: with ℓ what is linear between the ends,
+/// |w|² - ℓ² = -2 s (1 - s) (|w₀||w₁| - w₀·w₁).
+BaseExcess<double> baseExcess(const SurfacePatch& patch, double s) {
+  const Eigen::Vector3d &w = patch.base[0], &end = patch.base[1];
+  const Eigen::Vector3d step = end - w, at = w + s * step;
+  const double from = w.norm(), to = end.norm(), product = from * to;
+  const double apart = w.cross(end).squaredNorm() / (product + w.dot(end));
+  const double growth = to - from, length = at.norm();
+  return {-2.0 * s * (1.0 - s) * apart / (length + from + growth * s),
+          at.dot(step) / length - growth};
 }
 
 template <class Number>
-void addLift(const CurvedTerm& term, const BaseLength<Number>& length, const Number& t,
+void addLift(const CurvedTerm& term, const BaseExcess<Number>& excess, const Number& t,
              Jet<Number>& jet) {
   for (int k = 0; k < 3; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const double step = term.lift[1][k] - term.lift[0][k];
     const Number lift = term.lift[0][k] + step * t;
-    jet.value[i] = jet.value[i] + length.value * lift;
-    jet.first[i] = jet.first[i] + length.slope * lift;
-    jet.second[i] = jet.second[i] + step * length.value;
+    jet.value[i] = jet.value[i] + excess.value * lift;
+    jet.first[i] = jet.first[i] + excess.slope * lift;
+    jet.second[i] = jet.second[i] + step * excess.value;
   }
 }
 
@@ -100,31 +116,44 @@ Triple<Number> imageOf(const Eigen::Matrix3d& map, const Triple<Number>& u) {
   return image;
 }
 
+template <class Size, class Number>
+void addScaled(const Size& size, const Jet<Number>& jet, Jet<Number>& sum) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum.value[k] = sum.value[k] + size * jet.value[k];
+    sum.first[k] = sum.first[k] + size * jet.first[k];
+    sum.second[k] = sum.second[k] + size * jet.second[k];
+  }
+}
+
 template <class Number>
-void addTerm(const CurvedTerm& term, const BaseLength<Number>* length, const Number& s,
+void addTerm(const CurvedTerm& term, const BaseExcess<Number>* excess, const Number& s,
              const Number& t, Jet<Number>& sum) {
   Jet<Number> g = bilinear(term.direction, s, t);
-  if (length) addLift(term, *length, t, g);
+  if (excess) addLift(term, *excess, t, g);
   const Jet<Number> unit = unitJet(g);
-  const double growth = term.size[1] - term.size[0];
-  const Number size = term.size[0] + growth * t;
-  const Triple<Number> value = imageOf(term.image, unit.value);
-  const Triple<Number> first = imageOf(term.image, unit.first);
-  const Triple<Number> second = imageOf(term.image, unit.second);
+  const Jet<Number> image{imageOf(term.image, unit.value), imageOf(term.image, unit.first),
+                          imageOf(term.image, unit.second)};
+  const double growth = term.size[1] - term.size[0], taper = term.taper[1] - term.taper[0];
+  if (growth == 0.0 && taper == 0.0) {
+    addScaled(term.size[0] * term.taper[0], image, sum);
+    return;
+  }
+  const Number size = taper == 0.0 ? term.taper[0] * (term.size[0] + growth * t)
+                                   : term.size[0] * (term.taper[0] + taper * s);
+  addScaled(size, image, sum);
   for (std::size_t k = 0; k < 3; ++k) {
-    sum.value[k] = sum.value[k] + size * value[k];
-    sum.first[k] = sum.first[k] + size * first[k];
-    sum.second[k] = sum.second[k] + size * second[k] + growth * value[k];
+    sum.first[k] = sum.first[k] + term.size[0] * taper * image.value[k];
+    sum.second[k] = sum.second[k] + term.taper[0] * growth * image.value[k];
   }
 }
 
 template <class Number>
 Jet<Number> evaluate(const SurfacePatch& patch, const Number& s, const Number& t) {
   Jet<Number> sum = bilinear(patch.position, s, t);
-  BaseLength<Number> length{};
-  if (patch.lifted) length = baseLength(patch, s);
+  BaseExcess<Number> excess{};
+  if (patch.lifted) excess = baseExcess(patch, s);
   for (int k = 0; k < patch.count; ++k) {
-    addTerm(patch.terms[static_cast<std::size_t>(k)], patch.lifted ? &length : nullptr, s, t, sum);
+    addTerm(patch.terms[static_cast<std::size_t>(k)], patch.lifted ? &excess : nullptr, s, t, sum);
   }
   return sum;
 }
@@ -154,39 +183,126 @@ Triple<TaylorModel> parameters(const ParameterBox& box) {
           TaylorModel(box.centre[1], 0.0, box.half[1] * kPatchSlack, 0.0), TaylorModel()};
 }
 
-double mostNorm(const BilinearVector& corners) {
-  double most = 0.0;
-  for (const Eigen::Vector3d& v : corners) most = std::max(most, v.norm());
-  return most;
+/// What a bilinear vector is a sum of in a box: rounding is next to these lengths.
+double mostTerms(const BilinearVector& corners, const ParameterBox& box) {
+  const double s = box.centre[0] + box.half[0], t = box.centre[1] + box.half[1];
+  const double first = corners[0].norm() + s * (corners[0].norm() + corners[1].norm());
+  const double second = corners[2].norm() + s * (corners[2].norm() + corners[3].norm());
+  return first + t * (first + second);
 }
 
-double longestSide(const BilinearVector& corners) {
-  return std::max({(corners[1] - corners[0]).norm(), (corners[3] - corners[2]).norm(),
-                   (corners[2] - corners[0]).norm(), (corners[3] - corners[1]).norm()});
+/// Of a square, along each parameter.
+std::array<double, 2> longestSides(const BilinearVector& corners) {
+  return {std::max((corners[1] - corners[0]).norm(), (corners[3] - corners[2]).norm()),
+          std::max((corners[2] - corners[0]).norm(), (corners[3] - corners[1]).norm())};
 }
 
 }  // namespace
 
-PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t) {
-  const Jet<Lanes> jet = evaluate(patch, Lanes(s), t);
-  return {jet.value, jet.first, jet.second};
+PatchLine::Linear PatchLine::lineOf(const BilinearVector& corners, double s) {
+  const Eigen::Vector3d from = corners[0] + s * (corners[1] - corners[0]);
+  const Eigen::Vector3d along = corners[2] - corners[0];
+  return {from, along + s * ((corners[3] - corners[1]) - along)};
 }
 
-std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBox& box) {
+PatchLine::Linear PatchLine::slopeOf(const BilinearVector& corners) {
+  const Eigen::Vector3d along = corners[1] - corners[0];
+  return {along, (corners[3] - corners[2]) - along};
+}
+
+PatchLine::PatchLine(const SurfacePatch& patch, double s)
+    : position_(lineOf(patch.position, s)),
+      position_along_first_(slopeOf(patch.position)),
+      count_(patch.count) {
+  BaseExcess<double> excess{};
+  if (patch.lifted) excess = baseExcess(patch, s);
+  for (int k = 0; k < count_; ++k) {
+    const CurvedTerm& term = patch.terms[static_cast<std::size_t>(k)];
+    Term& line = terms_[static_cast<std::size_t>(k)];
+    line.direction = lineOf(term.direction, s);
+    line.along_first = slopeOf(term.direction);
+    if (patch.lifted) {
+      const Eigen::Vector3d step = term.lift[1] - term.lift[0];
+      line.direction.from += excess.value * term.lift[0];
+      line.direction.step += excess.value * step;
+      line.along_first.from += excess.slope * term.lift[0];
+      line.along_first.step += excess.slope * step;
+    }
+    line.image = {term.image * line.direction.from, term.image * line.direction.step};
+    line.image_along_first = {term.image * line.along_first.from,
+                              term.image * line.along_first.step};
+    const double taper = term.taper[1] - term.taper[0], share = term.taper[0] + taper * s;
+    line.size = term.size[0] * share;
+    line.growth = (term.size[1] - term.size[0]) * share;
+    line.taper = term.size[0] * taper;
+  }
+}
+
+void PatchLine::addTerm(const Term& term, const Lanes& t, PatchPoints& sum) {
+  Triple<Lanes> g, along;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    g[i] = term.direction.from[k] + term.direction.step[k] * t;
+    along[i] = term.along_first.from[k] + term.along_first.step[k] * t;
+  }
+  const Lanes inverse = inverseSquareRoot(dot(g, g)), square = inverse * inverse;
+  const Lanes fall_first = dot(g, along) * square;
+  const Eigen::Vector3d& step = term.direction.step;
+  const Lanes fall_second = (step[0] * g[0] + step[1] * g[1] + step[2] * g[2]) * square;
+  const Lanes size = (term.size + term.growth * t) * inverse;
+  const Lanes grown = term.growth * inverse, tapered = term.taper * inverse;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Lanes image = term.image.from[k] + term.image.step[k] * t;
+    const Lanes slope = term.image_along_first.from[k] + term.image_along_first.step[k] * t;
+    sum.value[i] = sum.value[i] + size * image;
+    sum.first[i] = sum.first[i] + size * (slope - fall_first * image) + tapered * image;
+    sum.second[i] =
+        sum.second[i] + size * (term.image.step[k] - fall_second * image) + grown * image;
+  }
+}
+
+PatchPoints PatchLine::at(const Lanes& t) const {
+  PatchPoints sum;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    sum.value[i] = position_.from[k] + position_.step[k] * t;
+    sum.first[i] = position_along_first_.from[k] + position_along_first_.step[k] * t;
+    sum.second[i] = Lanes(position_.step[k]);
+  }
+  for (int k = 0; k < count_; ++k) addTerm(terms_[static_cast<std::size_t>(k)], t, sum);
+  return sum;
+}
+
+NormalChanges normalChanges(const SurfacePatch& patch, const ParameterBox& box) {
   const double s = box.centre[0], t = box.centre[1];
-  std::array<double, 2> changes{0.0, 0.0};
-  BaseLength<double> length{};
+  NormalChanges changes;
+  BaseExcess<double> excess{};
   if (patch.lifted) {
-    length = baseLength(patch, s);
-    changes[0] = box.half[0] * (patch.base[1] - patch.base[0]).norm() / length.value;
+    excess = baseExcess(patch, s);
+    const Eigen::Vector3d step = box.half[0] * (patch.base[1] - patch.base[0]);
+    const Eigen::Vector3d middle = patch.base[0] + s * (patch.base[1] - patch.base[0]);
+    const double square = middle.squaredNorm();
+    changes.along[0] = std::sqrt(step.squaredNorm() / square);
+    changes.of_square = (2.0 * std::abs(middle.dot(step)) + step.squaredNorm()) / square;
   }
   for (int k = 0; k < patch.count; ++k) {
     const CurvedTerm& term = patch.terms[static_cast<std::size_t>(k)];
     Jet<double> g = bilinear(term.direction, s, t);
-    if (patch.lifted) addLift(term, length, t, g);
+    if (patch.lifted) addLift(term, excess, t, g);
     const double square = dot(g.value, g.value);
-    changes[0] = std::max(changes[0], box.half[0] * std::sqrt(dot(g.first, g.first) / square));
-    changes[1] = std::max(changes[1], box.half[1] * std::sqrt(dot(g.second, g.second) / square));
+    double most = 2.0 * (box.half[0] * std::abs(dot(g.value, g.first)) +
+                         box.half[1] * std::abs(dot(g.value, g.second)));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double step = box.half[0] * std::abs(g.first[i]) + box.half[1] * std::abs(g.second[i]);
+      most += step * step;
+    }
+    changes.of_square = std::max(changes.of_square, most / square);
+    const auto share = [&](const Triple<double>& slope, double half) {
+      return half * std::sqrt(dot(slope, slope) / square);
+    };
+    changes.along[0] = std::max(changes.along[0], share(g.first, box.half[0]));
+    changes.along[1] = std::max(changes.along[1], share(g.second, box.half[1]));
   }
   return changes;
 }
@@ -238,25 +354,36 @@ PartBound PatchCell::boundOf(const PatchModel& jet, const ComplexBox& box) const
 // derivatives of that are (I - ĝĝᵀ) g'/|g|.
 void PatchCell::findRounding(const ParameterBox& box) {
   const auto [s, t, none] = parameters(box);
-  rounding_.position = 16.0 * kEpsilon * mostNorm(patch_.position);
+  rounding_.position = 8.0 * kEpsilon * mostTerms(patch_.position, box);
   // Corners are exact, and their differences right to an ε of themselves.
-  rounding_.first = rounding_.second = 16.0 * kEpsilon * longestSide(patch_.position);
-  BaseLength<TaylorModel> length{};
-  if (patch_.lifted) length = baseLength(patch_, s);
+  rounding_.first = 16.0 * kEpsilon * longestSides(patch_.position)[0];
+  rounding_.second = 16.0 * kEpsilon * longestSides(patch_.position)[1];
+  BaseExcess<TaylorModel> excess{};
+  double base = 0.0;
+  if (patch_.lifted) {
+    excess = baseExcess(patch_, s);
+    base = 2.0 * (patch_.base[0].norm() + patch_.base[1].norm());
+  }
   for (int k = 0; k < patch_.count; ++k) {
     const CurvedTerm& term = patch_.terms[static_cast<std::size_t>(k)];
     Jet<TaylorModel> g = bilinear(term.direction, s, t);
-    if (patch_.lifted) addLift(term, length, t, g);
+    if (patch_.lifted) addLift(term, excess, t, g);
     const double inverse = inverseSquareRoot(dot(g.value, g.value)).most();
-    const double lift =
-        patch_.lifted ? std::max(term.lift[0].norm(), term.lift[1].norm()) * 2.0 : 0.0;
-    const double terms = 4.0 * (mostNorm(term.direction) + lift) * inverse;
-    const double size = std::max(term.size[0], term.size[1]) * term.image.norm();
+    const double lift = std::max(term.lift[0].norm(), term.lift[1].norm());
+    const double terms =
+        (mostTerms(term.direction, box) + 2.0 * lift * excess.value.most()) * inverse;
+    // Differences of corners are right next to themselves, slopes of |w| next to w.
+    const std::array<double, 2> sides = longestSides(term.direction);
+    const double bend = (term.lift[1] - term.lift[0]).norm() * excess.value.most();
+    const double along_first = (sides[0] + lift * base) * inverse;
+    const double along_second = (sides[1] + bend) * inverse;
+    const double size = std::max(term.size[0], term.size[1]) *
+                        std::max(term.taper[0], term.taper[1]) * term.image.norm();
     const double first = 1.0 + mostLength(g.first) * inverse;
     const double second = 1.0 + mostLength(g.second) * inverse;
     rounding_.position += 32.0 * kEpsilon * size * (1.0 + terms);
-    rounding_.first += 64.0 * kEpsilon * size * (1.0 + terms) * first;
-    rounding_.second += 64.0 * kEpsilon * size * (1.0 + terms) * second;
+    rounding_.first += 64.0 * kEpsilon * size * ((1.0 + terms) * first + along_first);
+    rounding_.second += 64.0 * kEpsilon * size * ((1.0 + terms) * second + along_second);
   }
 }
 

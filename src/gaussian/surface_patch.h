@@ -17,13 +17,16 @@ namespace fcl_prob::detail {
 using BilinearVector = std::array<Eigen::Vector3d, 4>;
 
 /// A point of the ellipsoid { H u : |u| = 1 }, flat if a column of H is 0: size H g/|g|, the
-/// support point of the normal that g = Hᵀn stands for. Linear in t is `size`; g is bilinear, with
-/// |w(s)| lift(t) added, w being the patch's: normals of a cone's side.
+/// support point of the normal that g = Hᵀn stands for. The size is linear in t or, if that is
+/// constant, its taper is in s. g is bilinear and, where it stands for normals of a cone's side,
+/// has
+/// (|w(s)| - (1 - s) |w(0)| - s |w(1)|) lift(t) added, w being the patch's: nothing at corners.
 struct CurvedTerm {
   Eigen::Matrix3d image;
   BilinearVector direction;
   std::array<Eigen::Vector3d, 2> lift{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  std::array<double, 2> size{1.0, 1.0};
+  std::array<double, 2> size{1.0, 1.0};   ///< at t = 0 and 1
+  std::array<double, 2> taper{1.0, 1.0};  ///< at s = 0 and 1
 };
 
 /// x(s, t) for s and t from 0 to 1: a bilinear vector and up to two curved terms. ∂x/∂s × ∂x/∂t is
@@ -50,11 +53,45 @@ struct PatchJet {
 using PatchPoints = PatchJet<Lanes>;
 using PatchModel = PatchJet<TaylorModel>;
 
-PatchPoints pointsOf(const SurfacePatch& patch, double s, const Lanes& t);
+/// Points of a patch for one s. There g, ∂g/∂s and what H makes of both are linear in t, so that
+/// x = H g/|g| has the derivatives (H g' - (g·g') x/|g|) / |g|.
+class PatchLine {
+ public:
+  PatchLine(const SurfacePatch& patch, double s);
 
-/// By what share of itself the normal of a box's middle changes at the most along each parameter,
-/// about: where nothing is known, the box is too long along the one where that is more.
-std::array<double, 2> normalChanges(const SurfacePatch& patch, const ParameterBox& box);
+  PatchPoints at(const Lanes& t) const;
+
+ private:
+  /// from + t step
+  struct Linear {
+    Eigen::Vector3d from, step;
+  };
+  struct Term {
+    Linear direction, along_first;  ///< g and ∂g/∂s
+    Linear image, image_along_first;
+    double size, growth;  ///< the size is size + t growth
+    double taper;         ///< ∂size/∂s
+  };
+
+  static Linear lineOf(const BilinearVector& corners, double s);
+  static Linear slopeOf(const BilinearVector& corners);
+  static void addTerm(const Term& term, const Lanes& t, PatchPoints& sum);
+
+  Linear position_, position_along_first_;
+  std::array<Term, SurfacePatch::kMostTerms> terms_;
+  int count_;
+};
+
+/// How far normals turn in a box.
+struct NormalChanges {
+  /// By what share of itself the normal of the middle changes at the most along each parameter.
+  std::array<double, 2> along{0.0, 0.0};
+  /// By what share of itself its square may change: from about 1 on models know nothing.
+  double of_square = 0.0;
+};
+
+/// About: which boxes are too long, and along which parameter. Nothing certain follows.
+NormalChanges normalChanges(const SurfacePatch& patch, const ParameterBox& box);
 
 /// Bounds on how much rounding can change of what pointsOf() finds in a box, and on the derivatives
 /// there, for real parameters.

@@ -56,30 +56,41 @@ inline TaylorModel operator*(const TaylorModel& a, const TaylorModel& b) {
           a.middle * b.second + a.second * b.middle, radius};
 }
 
-/// f(z) about the middle m of z: value f(m), slope f'(m) and what is left, half of a bound on |f''|
-/// times |z - m|²; Re z is positive.
-inline TaylorModel composed(const TaylorModel& z, double value, double slope, double half_bend) {
-  const double spread = z.spread();
-  const double rounding = 16.0 * kEpsilon * (std::abs(value) + std::abs(slope) * spread);
+/// f(z) about the middle m of z: value f(m), slope f'(m), and a bound on what is left.
+inline TaylorModel composed(const TaylorModel& z, double value, double slope, double rest) {
+  const double rounding = 16.0 * kEpsilon * (std::abs(value) + std::abs(slope) * z.spread());
   return {value, slope * z.first, slope * z.second,
-          std::abs(slope) * z.radius + half_bend * spread * spread * (1.0 + 1e-12) + rounding};
+          std::abs(slope) * z.radius + rest * (1.0 + 1e-12) + rounding};
 }
 
-/// |f''| = |z|^(-3/2) / 4.
+/// √(1 - x) for the largest share x of its middle that z is off it; 0 if that may be all.
+inline double leastRoot(const TaylorModel& z) {
+  const double share = z.spread() * (1.0 + 1e-12) / z.middle;
+  return share >= 0.0 && share < 1.0 ? std::sqrt(1.0 - share) : 0.0;
+}
+
+/// (1 - r)² for r = √(1 - x), without cancellation.
+inline double squareOfFall(const TaylorModel& z, double root) {
+  const double fall = z.spread() * (1.0 + 1e-12) / z.middle / (1.0 + root);
+  return fall * fall;
+}
+
+/// The terms of √(1 + u) behind the first two are no more than those of 1 - x/2 - √(1 - x), which
+/// is (1 - r)²/2, for |u| <= x.
 inline TaylorModel squareRoot(const TaylorModel& z) {
-  const double least = z.middle - z.spread() * (1.0 + 1e-12);
+  const double least = leastRoot(z);
   if (!(least > 0.0)) return {0.0, 0.0, 0.0, kInfinity};
   const double root = std::sqrt(z.middle);
-  return composed(z, root, 0.5 / root, 0.125 / (least * std::sqrt(least)));
+  return composed(z, root, 0.5 / root, 0.5 * root * squareOfFall(z, least));
 }
 
-/// |f''| = 3 |z|^(-5/2) / 4.
+/// Those of 1/√(1 + u) are no more than 1/√(1 - x) - 1 - x/2 = (1 - r)² (2 + r) / (2 r).
 inline TaylorModel inverseSquareRoot(const TaylorModel& z) {
-  const double least = z.middle - z.spread() * (1.0 + 1e-12);
+  const double least = leastRoot(z);
   if (!(least > 0.0)) return {0.0, 0.0, 0.0, kInfinity};
   const double inverse = 1.0 / std::sqrt(z.middle);
-  return composed(z, inverse, -0.5 * inverse / z.middle,
-                  0.375 / (least * least * std::sqrt(least)));
+  const double rest = inverse * squareOfFall(z, least) * (2.0 + least) / (2.0 * least);
+  return composed(z, inverse, -0.5 * inverse / z.middle, rest);
 }
 
 inline double squareRoot(double x) { return std::sqrt(x); }

@@ -13,279 +13,280 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// A cylinder or a segment.
+/// Which end of either axis.
+using Ends = std::array<bool, 2>;
+
+/// A frustum with an axis of its own.
 struct AxisPart {
-  Vector axis;            ///< unit
-  Eigen::Matrix3d rim;    ///< of normals, to where the rim is
-  Eigen::Matrix3d image;  ///< mapped
-  LongVector3 half;       ///< from the middle to an end, mapped
-  double radius;
-};
+  NormalCircle circle;
+  Vector lift;                   ///< along the axis, so that w + |w| lift is on the circle
+  Eigen::Matrix3d rim;           ///< of normals, to where the rim is
+  Eigen::Matrix3d image;         ///< mapped
+  LongVector3 half;              ///< from the middle to the top, mapped
+  std::array<double, 2> radius;  ///< at the bottom and at the top
 
-/// A normal in the plane of both axes, at an angle from the first axis towards the second.
-struct Meridian {
-  double angle;
-  Vector normal;
-  std::array<bool, 2> pole{false, false};    ///< along the axis
-  std::array<bool, 2> across{false, false};  ///< across it
-
-  bool isPole() const { return pole[0] || pole[1]; }
+  double radiusAt(bool top) const { return radius[top ? 1 : 0]; }
 };
 
 AxisPart partOf(const Frustum& frustum, const LongMatrix3& frame, const LongMatrix3& map) {
   AxisPart part;
-  part.axis = frame.col(2).cast<double>().normalized();
+  const double rise = 2.0 * frustum.half_height, narrowing = frustum.bottom - frustum.top;
+  const double slant = std::hypot(rise, narrowing);
+  part.circle = {frame.col(2).cast<double>().normalized(), rise / slant, narrowing / slant};
+  part.lift = narrowing / rise * part.circle.axis;
   LongMatrix3 across = frame;
   across.col(2).setZero();
   part.rim = across.transpose().cast<double>();
   part.image = (map * across).cast<double>();
   part.half = map * frame.col(2) * static_cast<long double>(frustum.half_height);
-  part.radius = frustum.top;
+  part.radius = {frustum.bottom, frustum.top};
   return part;
 }
+
+/// Normals from those at t = 0, along an arc of a circle or a great one, to what is at t = 1.
+struct NormalFan {
+  Vector from, to;
+  std::array<Vector, 2> end;
+  int circle = -1;
+};
 
 class AxesSurface {
  public:
   explicit AxesSurface(const AxesSum& axes) : centre_(axes.sum.centre) {
-    LongMatrix3 second = axes.second_frame;
-    if (axes.sum.frame.col(2).dot(second.col(2)) < 0.0L) second.col(2) *= -1.0L;
+    LongMatrix3 frame = axes.second_frame;
+    Frustum second = axes.second;
+    if (axes.sum.frame.col(2).dot(frame.col(2)) < 0.0L) {
+      frame.col(2) *= -1.0L;
+      std::swap(second.bottom, second.top);
+    }
     parts_ = {partOf(axes.sum.frustum, axes.sum.frame, axes.sum.map),
-              partOf(axes.second, second, axes.sum.map)};
+              partOf(second, frame, axes.sum.map)};
     for (const LongMatrix3& ellipsoid : axes.sum.ellipsoids) {
       images_.push_back((axes.sum.map * ellipsoid).cast<double>());
       normals_.push_back(ellipsoid.transpose().cast<double>());
     }
-    const LongVector3 a = axes.sum.frame.col(2).normalized(), b = second.col(2).normalized();
-    LongVector3 both = a.cross(b);
-    both = (both - a * a.dot(both)).normalized();
-    north_ = both.cast<double>();
-    aside_ = both.cross(a).cast<double>();
-    angle_ = static_cast<double>(std::atan2(b.dot(both.cross(a)), b.dot(a)));
-    findMeridians();
   }
 
-  std::vector<SurfacePatch> patches() {
-    for (std::size_t k = 0; k < meridians_.size(); ++k) {
-      const Meridian &from = meridians_[k], &to = meridians_[(k + 1) % meridians_.size()];
-      const double end = k + 1 < meridians_.size() ? to.angle : to.angle + 2.0 * M_PI;
-      const Eigen::Vector2d ends = endsAt(0.5 * (from.angle + end));
-      for (const double side : {1.0, -1.0}) addGore(from, to, ends, side);
+  std::optional<std::vector<SurfacePatch>> patches() {
+    auto overlay = normalOverlay({parts_[0].circle, parts_[1].circle});
+    if (!overlay) return std::nullopt;
+    overlay_ = std::move(*overlay);
+    for (const std::size_t half : {0u, 1u}) {
+      for (const NormalTriangle& triangle : overlay_.triangles) addTriangle(triangle, half);
+      for (const NormalArc& arc : overlay_.arcs) addArc(arc, half);
+      if (overlay_.crossing) addParallelogram(half);
     }
-    for (const Meridian& meridian : meridians_) {
-      for (const std::size_t which : {0u, 1u}) {
-        if (!meridian.across[which]) continue;
-        for (const double side : {1.0, -1.0}) {
-          addSide(meridian, which, side);
-          if (meridian.isPole()) addStrip(meridian, which, side);
-        }
-      }
-    }
-    addParallelogram(1.0);
-    addParallelogram(-1.0);
     return std::move(patches_);
   }
 
  private:
-  void findMeridians() {
-    constexpr double kRight = M_PI_2;
-    const bool square = kRight - angle_ < kAxesTie;
-    const auto add = [&](double angle, std::array<bool, 2> pole, std::array<bool, 2> across) {
-      for (const double turn : {0.0, M_PI}) {
-        const Vector first = parts_[0].axis,
-                     at = std::cos(angle) * first + std::sin(angle) * aside_;
-        meridians_.push_back({angle + turn, turn > 0.0 ? Vector(-at) : at, pole, across});
-      }
-    };
-    add(0.0, {true, false}, {false, square});
-    add(square ? kRight : angle_, {false, true}, {square, false});
-    if (!square) {
-      add(kRight, {false, false}, {true, false});
-      add(kRight + angle_, {false, false}, {false, true});
-    }
-    std::sort(meridians_.begin(), meridians_.end(),
-              [](const Meridian& a, const Meridian& b) { return a.angle < b.angle; });
-    std::vector<Meridian> all;
-    for (std::size_t k = 0; k < meridians_.size(); ++k) {
-      const Meridian &from = meridians_[k], &to = meridians_[(k + 1) % meridians_.size()];
-      all.push_back(from);
-      if (!from.isPole() || !to.isPole()) continue;
-      const double end = k + 1 < meridians_.size() ? to.angle : to.angle + 2.0 * M_PI;
-      all.push_back({0.5 * (from.angle + end), (from.normal + to.normal).normalized()});
-    }
-    meridians_ = std::move(all);
-  }
+  const AxisPart& part(int k) const { return parts_[static_cast<std::size_t>(k)]; }
 
-  /// Which end of each axis is farthest along normals at an angle.
-  Eigen::Vector2d endsAt(double angle) const {
-    return {std::cos(angle) > 0.0 ? 1.0 : -1.0, std::cos(angle - angle_) > 0.0 ? 1.0 : -1.0};
-  }
-
-  Vector position(const Eigen::Vector2d& ends) const {
-    return (centre_ + static_cast<long double>(ends[0]) * parts_[0].half +
-            static_cast<long double>(ends[1]) * parts_[1].half)
+  Vector position(const Ends& tops) const {
+    return (centre_ + (tops[0] ? 1.0L : -1.0L) * parts_[0].half +
+            (tops[1] ? 1.0L : -1.0L) * parts_[1].half)
         .cast<double>();
   }
 
-  static BilinearVector mapped(const Eigen::Matrix3d& map, const BilinearVector& normals) {
-    BilinearVector image;
-    for (std::size_t k = 0; k < 4; ++k) image[k] = map * normals[k];
-    return image;
+  /// Of a circle that is not a great one.
+  bool isLifted(int circle) const { return circle >= 0 && part(circle).circle.lift != 0.0; }
+
+  void setBase(const NormalFan& fan, SurfacePatch& patch) const {
+    patch.lifted = isLifted(fan.circle);
+    if (!patch.lifted) return;
+    const Vector& axis = part(fan.circle).circle.axis;
+    patch.base = {fan.from - fan.from.dot(axis) * axis, fan.to - fan.to.dot(axis) * axis};
   }
 
-  void addEllipsoids(const BilinearVector& normals, SurfacePatch& patch) const {
-    for (std::size_t k = 0; k < images_.size(); ++k) {
-      patch.add({images_[k], mapped(normals_[k], normals)});
+  /// Of a fan's normals; if `held`, of those at t = 0 for all t.
+  CurvedTerm termOf(const Eigen::Matrix3d& image, const Eigen::Matrix3d& map, const NormalFan& fan,
+                    bool held) const {
+    const Vector from = map * fan.from, to = map * fan.to;
+    CurvedTerm term{image, {from, to, from, to}};
+    if (!held) term.direction = {from, to, map * fan.end[0], map * fan.end[1]};
+    if (isLifted(fan.circle)) {
+      term.lift[0] = map * part(fan.circle).lift;
+      if (held) term.lift[1] = term.lift[0];
     }
+    return term;
   }
 
-  /// \param size  shares of the radius at t = 0 and 1
-  void addRim(std::size_t which, const BilinearVector& normals, const std::array<double, 2>& size,
+  CurvedTerm termAt(const Eigen::Matrix3d& image, const Eigen::Matrix3d& map,
+                    const Vector& normal) const {
+    return termOf(image, map, {normal, normal, {normal, normal}}, true);
+  }
+
+  /// \param radius  at t = 0 and 1
+  void addRim(int k, CurvedTerm term, const std::array<double, 2>& radius, int circle,
               SurfacePatch& patch) const {
-    const AxisPart& part = parts_[which];
-    if (!(part.radius > 0.0)) return;
-    CurvedTerm rim{part.image, mapped(part.rim, normals)};
-    rim.size = {size[0] * part.radius, size[1] * part.radius};
-    patch.add(rim);
+    if (!(radius[0] > 0.0 || radius[1] > 0.0)) return;
+    term.size = radius;
+    // Across its own axis a circle is even, to the last bit.
+    if (circle == k) term.lift.fill(Vector::Zero());
+    patch.add(term);
   }
 
-  /// The normals between two meridians on one side of the plane of the axes, as a fan around that
-  /// which is a pole.
-  void addGore(const Meridian& from, const Meridian& to, const Eigen::Vector2d& ends, double side) {
-    const Vector top = side * north_;
-    const bool first = !to.isPole();
-    const Meridian& apex = first ? from : to;
-    // Anticlockwise, seen from outside: from, to, top, and on the other side from, top, to.
-    Vector begin = first ? to.normal : top, end = first ? top : from.normal;
-    if (side < 0.0) std::swap(begin, end);
-    for (const std::size_t which : {0u, 1u}) {
-      if (apex.pole[which]) balance(parts_[which].rim, begin, end);
+  void addRimAt(int k, const Vector& normal, const std::array<double, 2>& radius,
+                SurfacePatch& patch) const {
+    addRim(k, termAt(part(k).image, part(k).rim, normal), radius, -1, patch);
+  }
+
+  void addEllipsoids(const NormalFan& fan, bool held, SurfacePatch& patch) const {
+    for (std::size_t k = 0; k < images_.size(); ++k) {
+      patch.add(termOf(images_[k], normals_[k], fan, held));
     }
-    const BilinearVector base{begin, end, begin, end}, fan{begin, end, apex.normal, apex.normal};
-    if (!images_.empty() || (parts_[0].radius > 0.0 && parts_[1].radius > 0.0)) {
-      SurfacePatch patch;
-      patch.position.fill(position(ends));
-      for (const std::size_t which : {0u, 1u}) {
-        addRim(which, apex.pole[which] ? base : fan, {1.0, 1.0}, patch);
+  }
+  void addEllipsoidsAt(const Vector& normal, SurfacePatch& patch) const {
+    addEllipsoids({normal, normal, {normal, normal}}, true, patch);
+  }
+
+  /// Shortens one of two normals, by a power of two, until a rim turns about evenly between them.
+  void balance(int k, Vector& first, Vector& second) const {
+    const double a = (part(k).rim * first).norm(), b = (part(k).rim * second).norm();
+    if (!(a > 0.0 && b > 0.0)) return;
+    const int excess = std::ilogb(a / b * M_SQRT2);
+    (excess > 0 ? first : second) *= std::ldexp(1.0, -std::abs(excess));
+  }
+
+  void addTriangle(const NormalTriangle& triangle, std::size_t half) {
+    const Vector& apex = overlay_.normal(triangle.apex, half);
+    const int pole = overlay_.poleAt(triangle.apex);
+    NormalFan fan{overlay_.normal(triangle.from, half),
+                  overlay_.normal(triangle.to, half),
+                  {apex, apex},
+                  triangle.circle};
+    if (half == 1) std::swap(fan.from, fan.to);
+    if (pole >= 0 && fan.circle < 0) balance(pole, fan.from, fan.to);
+    const std::array<double, 2> radius{parts_[0].radiusAt(triangle.above[0]),
+                                       parts_[1].radiusAt(triangle.above[1])};
+    SurfacePatch patch;
+    patch.position.fill(position(triangle.above));
+    setBase(fan, patch);
+    SurfacePatch sector = patch;
+    if (!images_.empty() || (radius[0] > 0.0 && radius[1] > 0.0)) {
+      for (const int k : {0, 1}) {
+        const double r = radius[static_cast<std::size_t>(k)];
+        addRim(k, termOf(part(k).image, part(k).rim, fan, pole == k), {r, r}, fan.circle, patch);
       }
-      addEllipsoids(fan, patch);
+      addEllipsoids(fan, false, patch);
       patches_.push_back(patch);
     }
-    for (const std::size_t which : {0u, 1u}) {
-      if (apex.pole[which] && parts_[which].radius > 0.0) addSector(which, apex, base, ends);
+    if (pole < 0 || !(radius[static_cast<std::size_t>(pole)] > 0.0)) return;
+    // Of the disc, from its rim to its middle.
+    const double other = radius[static_cast<std::size_t>(1 - pole)];
+    addRim(pole, termOf(part(pole).image, part(pole).rim, fan, true),
+           {radius[static_cast<std::size_t>(pole)], 0.0}, fan.circle, sector);
+    addRimAt(1 - pole, apex, {other, other}, sector);
+    addEllipsoidsAt(apex, sector);
+    patches_.push_back(sector);
+  }
+
+  /// Of a side, from the bottom to the top.
+  void addArc(const NormalArc& arc, std::size_t half) {
+    const int k = arc.circle, other = 1 - k;
+    int from = arc.from, to = arc.to;
+    if (half == 1) std::swap(from, to);
+    const NormalFan fan{overlay_.normal(from, half), overlay_.normal(to, half), {}, k};
+    SurfacePatch patch;
+    const Ends bottoms = endsOf(arc, false), tops = endsOf(arc, true);
+    const Vector bottom = position(bottoms), top = position(tops);
+    patch.position = {bottom, bottom, top, top};
+    setBase(fan, patch);
+    addRim(k, termOf(part(k).image, part(k).rim, fan, true), part(k).radius, k, patch);
+    const double radius = part(other).radiusAt(arc.above_other);
+    const bool from_pole = overlay_.poleAt(from) == other, to_pole = overlay_.poleAt(to) == other;
+    if (from_pole || to_pole) {
+      // Towards a pole its rim stays where it is.
+      addRimAt(other, from_pole ? fan.to : fan.from, {radius, radius}, patch);
+    } else {
+      addRim(other, termOf(part(other).image, part(other).rim, fan, true), {radius, radius}, k,
+             patch);
+    }
+    addEllipsoids(fan, true, patch);
+    patches_.push_back(patch);
+    if (from_pole || to_pole) {
+      addStrip(arc, from_pole ? fan.from : fan.to, from_pole ? fan.to : fan.from);
     }
   }
 
-  /// Shortens one of two normals until the rim turns evenly between them.
-  static void balance(const Eigen::Matrix3d& rim, Vector& first, Vector& second) {
-    const double a = (rim * first).norm(), b = (rim * second).norm();
-    (a > b ? first : second) *= std::min(a, b) / std::max(a, b);
-  }
-
-  /// Of a disc, from the rim to its middle.
-  void addSector(std::size_t which, const Meridian& pole, const BilinearVector& base,
-                 const Eigen::Vector2d& ends) {
-    BilinearVector normals;
-    normals.fill(pole.normal);
-    SurfacePatch patch;
-    patch.position.fill(position(ends));
-    addRim(which, base, {1.0, 0.0}, patch);
-    addRim(1 - which, normals, {1.0, 1.0}, patch);
-    addEllipsoids(normals, patch);
-    patches_.push_back(patch);
-  }
-
-  /// The ends of the other axis at a meridian across one.
-  Eigen::Vector2d endsAcross(const Meridian& meridian, std::size_t which, double end) const {
-    Eigen::Vector2d ends = endsAt(meridian.angle);
-    ends[static_cast<Eigen::Index>(which)] = end;
+  static Ends endsOf(const NormalArc& arc, bool top) {
+    Ends ends;
+    ends[static_cast<std::size_t>(arc.circle)] = top;
+    ends[static_cast<std::size_t>(1 - arc.circle)] = arc.above_other;
     return ends;
   }
 
-  /// Of a cylinder, where the normals are from the meridian's to ±A × B.
-  void addSide(const Meridian& meridian, std::size_t which, double side) {
-    const Vector top = side * north_;
-    // Along the axis after along the normals is outwards.
-    const bool rises = (north_.cross(parts_[which].axis)).dot(meridian.normal) > 0.0;
-    Vector begin = meridian.normal, end = top;
-    if ((side > 0.0) != rises) std::swap(begin, end);
-    const BilinearVector normals{begin, end, begin, end};
-    BilinearVector tops;
-    tops.fill(top);
-    SurfacePatch patch;
-    const Vector bottom = position(endsAcross(meridian, which, -1.0)),
-                 above = position(endsAcross(meridian, which, 1.0));
-    patch.position = {bottom, bottom, above, above};
-    // Towards a pole a rim stays where it is.
-    for (const std::size_t k : {0u, 1u}) {
-      addRim(k, meridian.pole[k] ? tops : normals, {1.0, 1.0}, patch);
-    }
-    addEllipsoids(normals, patch);
-    patches_.push_back(patch);
-  }
-
   /// Where a side meets the disc of the other axis: half a strip between the halves of that disc.
-  void addStrip(const Meridian& meridian, std::size_t which, double side) {
-    const std::size_t other = 1 - which;
-    if (!(parts_[other].radius > 0.0)) return;
-    BilinearVector normals, tops;
-    normals.fill(meridian.normal);
-    tops.fill(side * north_);
-    const bool along = parts_[which].axis.cross(side * north_).dot(meridian.normal) > 0.0;
+  void addStrip(const NormalArc& arc, const Vector& pole, const Vector& aside) {
+    const int k = arc.circle, other = 1 - k;
+    const double radius = part(other).radiusAt(arc.above_other);
+    if (!(radius > 0.0)) return;
+    const bool along = part(k).circle.axis.cross(aside).dot(pole) > 0.0;
     SurfacePatch patch;
-    const Vector from = position(endsAcross(meridian, which, along ? -1.0 : 1.0)),
-                 to = position(endsAcross(meridian, which, along ? 1.0 : -1.0));
+    const Vector from = position(endsOf(arc, !along)), to = position(endsOf(arc, along));
     patch.position = {from, to, from, to};
-    addRim(other, tops, {0.0, 1.0}, patch);
-    addRim(which, normals, {1.0, 1.0}, patch);
-    addEllipsoids(normals, patch);
+    addRimAt(other, aside, {0.0, radius}, patch);
+    addRimAt(k, pole, {part(k).radius[0], part(k).radius[0]}, patch);
+    addEllipsoidsAt(pole, patch);
     patches_.push_back(patch);
   }
 
-  void addParallelogram(double side) {
-    BilinearVector normals;
-    normals.fill(side * north_);
+  /// Along s one side and along t the other one, whose normals follow anticlockwise.
+  void addParallelogram(std::size_t half) {
+    const Vector& normal = overlay_.normal(*overlay_.crossing, half);
+    const int first = half == 0 ? 0 : 1, second = 1 - first;
     SurfacePatch patch;
-    const Vector one = position({1.0, -1.0}), other = position({-1.0, 1.0});
-    patch.position = {position({-1.0, -1.0}), side > 0.0 ? one : other, side > 0.0 ? other : one,
-                      position({1.0, 1.0})};
-    for (const std::size_t which : {0u, 1u}) addRim(which, normals, {1.0, 1.0}, patch);
-    addEllipsoids(normals, patch);
+    const auto corner = [&](bool top_first, bool top_second) {
+      return half == 0 ? position({top_first, top_second}) : position({top_second, top_first});
+    };
+    patch.position = {corner(false, false), corner(true, false), corner(false, true),
+                      corner(true, true)};
+    addRimAt(second, normal, part(second).radius, patch);
+    if (part(first).radius[0] > 0.0 || part(first).radius[1] > 0.0) {
+      CurvedTerm rim = termAt(part(first).image, part(first).rim, normal);
+      rim.taper = part(first).radius;
+      patch.add(rim);
+    }
+    addEllipsoidsAt(normal, patch);
     patches_.push_back(patch);
   }
 
   LongVector3 centre_;
   std::array<AxisPart, 2> parts_;
   std::vector<Eigen::Matrix3d> images_, normals_;
-  Vector north_, aside_;  ///< unit: along A × B, and across that and A
-  double angle_;          ///< from A to B, up to a right one
-  std::vector<Meridian> meridians_;
+  NormalOverlay overlay_;
   std::vector<SurfacePatch> patches_;
 };
 
-/// What a rim that is not quite across its axis makes of normals along the axis.
-double slantOf(const Frustum& frustum, const LongMatrix3& frame) {
-  const LongVector3 axis = frame.col(2).normalized();
-  return frustum.top *
-         static_cast<double>(std::abs(axis.dot(frame.col(0))) + std::abs(axis.dot(frame.col(1))));
+/// How far a frame is from a rotation: by as much a side's normals are off the circle, and what a
+/// rim that is not across its axis makes of normals along the axis.
+double skewOf(const LongMatrix3& frame) {
+  const LongMatrix3 skew = frame.transpose() * frame - LongMatrix3::Identity();
+  return static_cast<double>(skew.cwiseAbs().maxCoeff());
+}
+
+double sizeOf(const Frustum& frustum) {
+  return std::max(frustum.bottom, frustum.top) + frustum.half_height;
 }
 
 }  // namespace
 
 double AxesSum::rounding() const {
   const double stretch = static_cast<double>(sum.map.norm());
-  const double size =
-      second.top + second.half_height * static_cast<double>(second_frame.col(2).norm()) +
-      sum.frustum.top + sum.frustum.half_height * static_cast<double>(sum.frame.col(2).norm());
+  const double size = 1.001 * (sizeOf(sum.frustum) + sizeOf(second));
   double ellipsoids = 0.0;
   for (const LongMatrix3& ellipsoid : sum.ellipsoids) {
     ellipsoids += static_cast<double>(ellipsoid.norm());
   }
-  const double slant = slantOf(sum.frustum, sum.frame) + slantOf(second, second_frame);
+  const double skew = 8.0 * (skewOf(sum.frame) + skewOf(second_frame)) * size;
   const LongVector3 a = sum.frame.col(2).normalized(), b = second_frame.col(2).normalized();
   const double tie = std::abs(a.dot(b)) < 2.0L * kAxesTie ? 2.0 * kAxesTie * size : 0.0;
-  return sum.rounding() + stretch * (4.0 * slant + tie + 32.0 * kEpsilon * (size + ellipsoids));
+  return sum.rounding() + stretch * (skew + tie + 32.0 * kEpsilon * (size + ellipsoids));
 }
 
-std::vector<SurfacePatch> axesSurface(const AxesSum& axes) { return AxesSurface(axes).patches(); }
+std::optional<std::vector<SurfacePatch>> axesSurface(const AxesSum& axes) {
+  if (!(axes.sum.frustum.half_height > 0.0 && axes.second.half_height > 0.0)) return std::nullopt;
+  return AxesSurface(axes).patches();
+}
 
 }  // namespace fcl_prob::detail

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The boundary of the sum of two cylinders, or segments, and ellipsoids, as patches.
+// The boundary of the sum of two cylinders, cones or segments, and ellipsoids, as patches.
 #pragma once
 
+#include <optional>
+
 #include "narrowphase/curved_surface.h"
+#include "narrowphase/normal_overlay.h"
 
 namespace fcl_prob::detail {
 
-/// A sum with a second axis. Both frustums are cylinders or segments.
+/// A sum with a second axis.
 struct AxesSum {
   CurvedSum sum;
   Frustum second;
@@ -17,16 +20,13 @@ struct AxesSum {
   double rounding() const;
 };
 
-/// Axes that are less apart than this (radians) are taken for parallel, and ones that are as near
-/// to a right angle for perpendicular.
-inline constexpr double kAxesTie = 1e-11;
-
-/// Patches that close around the sum, by its normals: both axes and what is across them are in the
-/// plane across A × B, and half circles through such points, from A × B to B × A, cut the sphere of
-/// normals into gores. Within one no side changes, and if it has a pole (a normal along an axis)
-/// that is a corner, from which fans of normals go out: along each of them that axis's rim stays
-/// where it is. Along the half circles across an axis the sides are, at ±A × B parallelograms, at
-/// the poles discs.
-std::vector<SurfacePatch> axesSurface(const AxesSum& axes);
+/// Patches that close around the sum, by its normals (normalOverlay()): within a region ends of
+/// both axes stay, so that both rims and the ellipsoids are swept over its triangles. In a triangle
+/// with a pole fans of normals go out from it, along each of which that axis's rim stays where it
+/// is; the pole itself is a sector of the axis's disc. Along the circles the sides are, where they
+/// cross parallelograms, and where a circle leads to a pole strips between the halves of a disc.
+///
+/// \return nothing where normalOverlay() has none
+std::optional<std::vector<SurfacePatch>> axesSurface(const AxesSum& axes);
 
 }  // namespace fcl_prob::detail

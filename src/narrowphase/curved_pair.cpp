@@ -116,7 +116,9 @@ std::optional<PlacedSurface> placedSurface(const CurvedParts& parts) {
   const double far = farRounding(parts.sum) + parts.error * stretch;
   if (parts.second) {
     const AxesSum axes{parts.sum, *parts.second, parts.second_frame};
-    return PlacedSurface{axesSurface(axes), axes.rounding() + far};
+    auto patches = axesSurface(axes);
+    if (!patches) return std::nullopt;
+    return PlacedSurface{std::move(*patches), axes.rounding() + far};
   }
   const double rounding = parts.sum.rounding() + far;
   if (!parts.polytope) return PlacedSurface{surfaceOf(parts.sum), rounding};

@@ -15,32 +15,46 @@ namespace {
 
 /// −A is A turned upside down, since frustums are symmetric about their axis and ellipsoids about
 /// their centres.
-void addFrustum(const CurvedBody& body, bool reflected, CurvedParts& parts) {
+Frustum frustumOf(const CurvedBody& body, bool reflected) {
   Frustum frustum = *body.frustum;
   if (reflected) std::swap(frustum.bottom, frustum.top);
-  parts.sum.frustum = frustum;
-  parts.sum.frame = body.frame;
-  parts.inradius += frustum.inradius();
+  return frustum;
 }
 
-/// A cylinder or a segment with an axis of its own or, if axes are parallel, as a part of the first
-/// one.
-void addSecond(const CurvedBody& body, CurvedParts& parts) {
-  const LongVector3 first = parts.sum.frame.col(2).normalized(),
-                    second = body.frame.col(2).normalized();
-  parts.inradius += body.frustum->inradius();
+void addFrustum(const CurvedBody& body, bool reflected, CurvedParts& parts) {
+  parts.sum.frustum = frustumOf(body, reflected);
+  parts.sum.frame = body.frame;
+  parts.inradius += parts.sum.frustum.inradius();
+}
+
+double sizeOf(const Frustum& frustum) {
+  return frustum.half_height + std::max(frustum.bottom, frustum.top);
+}
+
+/// Reflected, with an axis of its own or, if axes are parallel, about that of the first one. Turned
+/// a little to decide ties, which counts as error.
+void addSecond(const CurvedBody& body, int attempt, CurvedParts& parts) {
+  Frustum added = frustumOf(body, true);
+  const Eigen::Vector3d turn = perturbation(1, attempt);
+  LongMatrix3 frame = body.frame;
+  for (int k = 0; k < 3; ++k) {
+    frame.col(k) += turn.cast<long double>().cross(LongVector3(body.frame.col(k)));
+  }
+  const LongVector3 first = parts.sum.frame.col(2).normalized(), second = frame.col(2).normalized();
+  parts.inradius += added.inradius();
+  parts.error = 1.01 * turn.norm() * sizeOf(added);
   if (first.cross(second).norm() > kAxesTie) {
-    parts.second = *body.frustum;
-    parts.second_frame = body.frame;
+    parts.second = added;
+    parts.second_frame = frame;
     return;
   }
-  Frustum& sum = parts.sum.frustum;
-  const Frustum& added = *body.frustum;
-  sum = {sum.half_height + added.half_height, sum.bottom + added.bottom, sum.top + added.top};
-  parts.error = 2.0 * kAxesTie * (added.half_height + added.top) + 4.0 * kEpsilon * sum.half_height;
+  if (first.dot(second) < 0.0L) std::swap(added.bottom, added.top);
+  parts.error +=
+      2.0 * kAxesTie * sizeOf(added) + 8.0 * kEpsilon * (sizeOf(parts.sum.frustum) + sizeOf(added));
+  parts.sum.coaxial = added;
 }
 
-CurvedParts partsOf(const CurvedBody& a, const CurvedBody& b) {
+CurvedParts partsOf(const CurvedBody& a, const CurvedBody& b, int attempt) {
   CurvedParts parts;
   for (const CurvedBody* body : {&a, &b}) {
     if (!body->ellipsoid) continue;
@@ -49,7 +63,7 @@ CurvedParts partsOf(const CurvedBody& a, const CurvedBody& b) {
   }
   if (b.frustum) {
     addFrustum(b, false, parts);
-    if (a.frustum) addSecond(a, parts);
+    if (a.frustum) addSecond(a, attempt, parts);
   } else if (a.frustum) {
     addFrustum(a, true, parts);
   } else {
@@ -89,12 +103,6 @@ bool isPolytope(const ConvexBody& body) {
   return body.set().isPolytope();
 }
 
-/// Of two axes both have to be straight.
-bool areAddable(const CurvedBody& a, const CurvedBody& b) {
-  if (!a.frustum || !b.frustum) return true;
-  return a.frustum->isStraight() && b.frustum->isStraight();
-}
-
 /// A cylinder or a cone.
 bool isFrustum(const std::optional<CurvedBody>& body) {
   return body && body->frustum && !body->ellipsoid;
@@ -105,7 +113,7 @@ bool isFrustum(const std::optional<CurvedBody>& body) {
 bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b) {
   const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   const auto body_a = curvedBody(a, turn), body_b = curvedBody(b, turn);
-  if (body_a && body_b) return areAddable(*body_a, *body_b);
+  if (body_a && body_b) return true;
   return (isFrustum(body_a) && isPolytope(b)) || (isFrustum(body_b) && isPolytope(a));
 }
 
@@ -113,10 +121,7 @@ std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3
                                        const ConvexBody& b, const Eigen::Matrix3d& rotation_b,
                                        int attempt) {
   const auto body_a = curvedBody(a, rotation_a), body_b = curvedBody(b, rotation_b);
-  if (body_a && body_b) {
-    if (!areAddable(*body_a, *body_b)) return std::nullopt;
-    return partsOf(*body_a, *body_b);
-  }
+  if (body_a && body_b) return partsOf(*body_a, *body_b, attempt);
   CurvedParts parts;
   if (isFrustum(body_b) && isPolytope(a)) {
     addFrustum(*body_b, false, parts);

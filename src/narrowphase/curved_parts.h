@@ -12,7 +12,7 @@ namespace fcl_prob::detail {
 /// B ⊕ (−A), not yet mapped, and a ball within it.
 struct CurvedParts {
   CurvedSum sum;                  ///< its map and centre are not set
-  std::optional<Frustum> second;  ///< with another axis, both straight
+  std::optional<Frustum> second;  ///< with another axis
   LongMatrix3 second_frame;
   std::optional<ConvexMesh> polytope;                ///< a part of the sum, in the frustum's frame
   double inradius = 0.0;                             ///< metres
@@ -23,10 +23,10 @@ struct CurvedParts {
 /// Whether curvedParts() knows the pair.
 bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b);
 
-/// Of ellipsoids, spheres, capsules, cylinders and cones, not more than one of which has an axis,
-/// or of a cylinder or a cone and a polytope; nothing for other pairs. Parts are those of the
-/// bodies turned by their rotations. \param attempt  a polytope is turned by the perturbation() of
-/// this number, which counts as error
+/// Of ellipsoids, spheres, capsules, cylinders and cones, or of a cylinder or a cone and a
+/// polytope; nothing for other pairs. Parts are those of the bodies turned by their rotations.
+/// \param attempt  a polytope, or the second of two axes, is turned by the perturbation() of this
+///                 number, which counts as error
 std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3d& rotation_a,
                                        const ConvexBody& b, const Eigen::Matrix3d& rotation_b,
                                        int attempt);

@@ -12,7 +12,7 @@ namespace {
 
 const Eigen::Vector3d kAxis = Eigen::Vector3d::UnitZ();
 
-/// Normals around the axis at one latitude: cosine w + |w| lift e_z + pole e_z.
+/// Normals around the axis at one latitude: cosine w + |w| lift e_z + pole e_z, |w| = 1 at corners.
 struct Latitude {
   double cosine, lift, pole;
 };
@@ -29,23 +29,60 @@ std::array<Quarter, 4> quartersAround() {
   return {Quarter{x, y}, Quarter{y, -x}, Quarter{-x, -y}, Quarter{-y, x}};
 }
 
-/// A ring of patches: from the normals, end of the axis and radius at t = 0 to those at t = 1.
+/// A circle around the axis.
+struct Rim {
+  Eigen::Vector3d centre;
+  double radius;
+};
+
+/// A ring of patches: from the normals and rim at t = 0 to those at t = 1.
 struct Ring {
   Latitude from, to;
-  double from_height, to_height;
-  double from_radius, to_radius;
+  Rim first, last;
 };
+
+/// The normals of a side, seen from its frame.
+Latitude latitudeOf(const Frustum& frustum) {
+  const double rise = 2.0 * frustum.half_height, narrowing = frustum.bottom - frustum.top;
+  if (narrowing == 0.0) return kEquator;
+  const double slant = std::hypot(rise, narrowing);
+  return {rise / slant, narrowing / slant, 0.0};
+}
+
+/// From the south: the one whose normals are lower comes first.
+std::vector<Frustum> sidesOf(const CurvedSum& sum) {
+  std::vector<Frustum> sides;
+  const auto add = [&](const Frustum& frustum) {
+    if (frustum.half_height > 0.0 || frustum.bottom > 0.0 || frustum.top > 0.0)
+      sides.push_back(frustum);
+  };
+  add(sum.frustum);
+  if (sum.coaxial) add(*sum.coaxial);
+  if (sides.size() == 2 && latitudeOf(sides[1]).lift < latitudeOf(sides[0]).lift) {
+    std::swap(sides[0], sides[1]);
+  }
+  return sides;
+}
 
 class CurvedSurface {
  public:
-  explicit CurvedSurface(const CurvedSum& sum)
-      : frustum_(sum.frustum), centre_(sum.centre.cast<double>()) {
-    const LongMatrix3 frame = sum.map * sum.frame;
-    const LongVector3 half = frame.col(2) * static_cast<long double>(frustum_.half_height);
-    top_ = (sum.centre + half).cast<double>();
-    bottom_ = (sum.centre - half).cast<double>();
+  explicit CurvedSurface(const CurvedSum& sum) : sides_(sidesOf(sum)), frame_(sum.map * sum.frame) {
+    LongVector3 end = sum.centre;
+    double radius = 0.0;
+    for (const Frustum& side : sides_) {
+      end -= frame_.col(2) * static_cast<long double>(side.half_height);
+      radius += side.bottom;
+    }
+    rims_.push_back({end.cast<double>(), radius});
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      end += frame_.col(2) * static_cast<long double>(2.0 * sides_[k].half_height);
+      // What is left of the last one is that of the tops.
+      radius = sides_[k].top + (k + 1 < sides_.size() ? sides_[k + 1].bottom : 0.0);
+      if (k > 0) radius += sides_[k - 1].top;
+      rims_.push_back({end.cast<double>(), radius});
+    }
     rim_.setZero();
-    rim_.leftCols<2>() = frame.leftCols<2>().cast<double>();
+    rim_.leftCols<2>() = frame_.leftCols<2>().cast<double>();
     const LongMatrix3 inverse = sum.frame.inverse();
     for (const LongMatrix3& ellipsoid : sum.ellipsoids) {
       images_.push_back((sum.map * ellipsoid).cast<double>());
@@ -54,53 +91,50 @@ class CurvedSurface {
   }
 
   std::vector<SurfacePatch> patches() {
-    const double rise = 2.0 * frustum_.half_height, narrowing = frustum_.bottom - frustum_.top;
-    const double slant = std::hypot(rise, narrowing);
-    const bool has_side = slant > 0.0;
-    const Latitude side =
-        has_side && narrowing != 0.0 ? Latitude{rise / slant, narrowing / slant, 0.0} : kEquator;
-    addDisc(frustum_.bottom, kSouthPole, 0.0);
-    if (side.lift > 0.0) {
-      addEnd(kSouthPole, kEquator, 0.0, frustum_.bottom);
-      addEnd(kEquator, side, 0.0, frustum_.bottom);
-    } else {
-      addEnd(kSouthPole, side, 0.0, frustum_.bottom);
+    addDisc(rims_.front(), kSouthPole);
+    Latitude at = kSouthPole;
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      const Latitude side = latitudeOf(sides_[k]);
+      addEnd(at, side, rims_[k]);
+      addRing({side, side, rims_[k], rims_[k + 1]});
+      at = side;
     }
-    if (has_side) addRing({side, side, 0.0, 1.0, frustum_.bottom, frustum_.top});
-    if (side.lift < 0.0) {
-      addEnd(side, kEquator, 1.0, frustum_.top);
-      addEnd(kEquator, kNorthPole, 1.0, frustum_.top);
-    } else {
-      addEnd(side, kNorthPole, 1.0, frustum_.top);
-    }
-    addDisc(frustum_.top, kNorthPole, 1.0);
+    addEnd(at, kNorthPole, rims_.back());
+    addDisc(rims_.back(), kNorthPole);
     return std::move(patches_);
   }
 
  private:
   /// A rim or an end of the axis, swept by the ellipsoids.
-  void addEnd(const Latitude& from, const Latitude& to, double height, double radius) {
-    if (!images_.empty()) addRing({from, to, height, height, radius, radius});
+  void addEnd(const Latitude& from, const Latitude& to, const Rim& rim) {
+    if (images_.empty()) return;
+    const double south = from.lift + from.pole, north = to.lift + to.pole;
+    if (south == north) return;
+    if (south < 0.0 && north > 0.0) {
+      addRing({from, kEquator, rim, rim});
+      addRing({kEquator, to, rim, rim});
+    } else {
+      addRing({from, to, rim, rim});
+    }
   }
 
-  void addDisc(double radius, const Latitude& pole, double height) {
-    if (!(radius > 0.0)) return;
+  void addDisc(const Rim& rim, const Latitude& pole) {
+    if (!(rim.radius > 0.0)) return;
+    const Rim middle{rim.centre, 0.0};
     const bool outwards = pole.pole < 0.0;
-    addRing({pole, pole, height, height, outwards ? 0.0 : radius, outwards ? radius : 0.0});
+    addRing({pole, pole, outwards ? middle : rim, outwards ? rim : middle});
   }
-
-  const Eigen::Vector3d& endAt(double height) const { return height > 0.0 ? top_ : bottom_; }
 
   void addRing(const Ring& ring) {
     for (const Quarter& quarter : quartersAround()) {
       SurfacePatch patch;
-      const Eigen::Vector3d &from = endAt(ring.from_height), &to = endAt(ring.to_height);
+      const Eigen::Vector3d &from = ring.first.centre, &to = ring.last.centre;
       patch.position = {from, from, to, to};
       patch.base = {quarter.from, quarter.to};
       patch.lifted = ring.from.lift != 0.0 || ring.to.lift != 0.0;
-      if (ring.from_radius > 0.0 || ring.to_radius > 0.0) {
+      if (ring.first.radius > 0.0 || ring.last.radius > 0.0) {
         CurvedTerm rim{rim_, {quarter.from, quarter.to, quarter.from, quarter.to}};
-        rim.size = {ring.from_radius, ring.to_radius};
+        rim.size = {ring.first.radius, ring.last.radius};
         patch.add(rim);
       }
       for (std::size_t k = 0; k < images_.size(); ++k) patch.add(ellipsoidTerm(k, ring, quarter));
@@ -111,7 +145,7 @@ class CurvedSurface {
   CurvedTerm ellipsoidTerm(std::size_t k, const Ring& ring, const Quarter& quarter) const {
     const Eigen::Matrix3d& map = normals_[k];
     const auto corner = [&](const Latitude& at, const Eigen::Vector3d& w) -> Eigen::Vector3d {
-      return map * (at.cosine * w + at.pole * kAxis);
+      return map * (at.cosine * w + (at.lift + at.pole) * kAxis);
     };
     CurvedTerm term{images_[k],
                     {corner(ring.from, quarter.from), corner(ring.from, quarter.to),
@@ -120,8 +154,9 @@ class CurvedSurface {
     return term;
   }
 
-  const Frustum& frustum_;
-  Eigen::Vector3d centre_, top_, bottom_;
+  std::vector<Frustum> sides_;
+  LongMatrix3 frame_;
+  std::vector<Rim> rims_;  ///< from the bottom to the top
   Eigen::Matrix3d rim_;
   std::vector<Eigen::Matrix3d> images_, normals_;
   std::vector<SurfacePatch> patches_;
@@ -131,7 +166,8 @@ class CurvedSurface {
 
 double CurvedSum::rounding() const {
   const LongMatrix3 mapped = map * frame;
-  const double rims = std::max(frustum.bottom, frustum.top) + frustum.half_height;
+  double rims = std::max(frustum.bottom, frustum.top) + frustum.half_height;
+  if (coaxial) rims += std::max(coaxial->bottom, coaxial->top) + coaxial->half_height;
   double size = rims * static_cast<double>(mapped.norm());
   for (const LongMatrix3& ellipsoid : ellipsoids) {
     size += static_cast<double>((map * ellipsoid).norm());

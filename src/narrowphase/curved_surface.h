@@ -3,6 +3,7 @@
 // The boundaries of sums of ellipsoids and a frustum, as patches.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gaussian/surface_patch.h"
@@ -10,11 +11,13 @@
 
 namespace fcl_prob::detail {
 
-/// A sum of ellipsoids and a frustum under a linear map of a positive determinant.
+/// A sum of ellipsoids and a frustum, or two about the same axis, under a linear map of a positive
+/// determinant.
 struct CurvedSum {
   LongMatrix3 map;
   LongVector3 centre;  ///< mapped
   Frustum frustum;
+  std::optional<Frustum> coaxial;
   LongMatrix3 frame;                    ///< of the frustum, right-handed, not yet mapped
   std::vector<LongMatrix3> ellipsoids;  ///< images of the unit ball, not yet mapped
 
