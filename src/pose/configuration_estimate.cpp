@@ -25,7 +25,7 @@ class Estimator {
             const GeometryList& a, const GeometryList& b, const ProbabilityRequest& request)
       : request_(request),
         watch_(request),
-        pairs_(configuration, answer, leastQueryCost(a, b), request, watch_) {
+        pairs_(configuration, answer, queryCost(a, b), request, watch_) {
     if (CountingSource::isFor(configuration, a, b, request)) {
       counting_.emplace(configuration, a, b, request, watch_);
     }

@@ -211,7 +211,10 @@ void CountingSource::draw(double standard_error) {
   }
   watch_.addCells((end - first) * kShifts / kSamplesACell);
   if (points_ >= kFirstPoints) takeMean();
-  if (is_close_ && mean_ && !deviationPays()) countAll();
+  if (is_close_ && mean_ && !deviationPays()) {
+    countAll();
+    draw(standard_error);
+  }
 }
 
 // Rare samples of large weight may make up for all that the others save.

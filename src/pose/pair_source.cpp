@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kFirstPairs = 4;
 constexpr std::size_t kLeastPairs = 32;
 
+// So many are expected to be needed before any are drawn.
+constexpr double kExpectedPairs = 64.0;
+
 // A single answer is as accurate as if so many pairs made up the estimate.
 constexpr double kPairsOfAccuracy = 32.0;
 
@@ -26,6 +29,10 @@ constexpr double kInnerShare = 0.5;
 constexpr double kInnerDeviation = 0.7;
 
 constexpr double kCoarsest = 0.3;
+
+// The fit of squares and products is expected to divide the variance over configurations by so
+// much.
+constexpr double kExpectedOfFit = 16.0;
 
 // Drawn beyond what the last look says is needed.
 constexpr double kReserve = 1.1;
@@ -40,9 +47,9 @@ double innerFactor() { return std::sqrt(kInnerShare * 2.0 * kPairsOfAccuracy); }
 }  // namespace
 
 PairSource::PairSource(const RandomConfiguration& configuration, const ConditionalAnswer& answer,
-                       double least_cost, const ProbabilityRequest& request, RunWatch& watch)
+                       const QueryCost& cost, const ProbabilityRequest& request, RunWatch& watch)
     : configuration_(configuration),
-      least_cost_(least_cost),
+      cost_(cost),
       request_(request),
       samples_(configuration, answer, request, watch) {}
 
@@ -88,23 +95,29 @@ double PairSource::pairsTo(double standard_error) const {
   return count() * ratio * ratio;
 }
 
+// What few pairs show of the spread will be less by what is fitted later.
+double PairSource::pairsAtFirst(double standard_error) const {
+  if (!mean_) return kExpectedPairs;
+  return std::max(static_cast<double>(kLeastPairs), pairsTo(standard_error) / kExpectedOfFit);
+}
+
 double PairSource::costOfAnswer() const {
-  if (!mean_) return least_cost_;
+  if (!mean_) return cost_.least + cost_.rough;
   const ProbabilityStatistics& sum = samples_.statistics();
   const double counted = kCostOfPairTest * static_cast<double>(sum.pairs_tested) +
                          kCostOfSample * static_cast<double>(sum.samples);
-  return least_cost_ + counted / (2.0 * count());
+  return cost_.least + counted / (2.0 * count());
 }
 
 double PairSource::costOfFirst() const {
-  return 2.0 * static_cast<double>(kFirstPairs) * least_cost_;
+  return 2.0 * static_cast<double>(kFirstPairs) * costOfAnswer();
 }
 
 double PairSource::costTo(double standard_error, double /*probability*/) const {
   // No number of configurations makes up for what their answers leave open.
   if (isAnswer() && samples_.doubt() > standard_error) return kInfinity;
-  if (!isAnswer()) return 2.0 * (static_cast<double>(kLeastPairs) - count()) * costOfAnswer();
-  return 2.0 * std::max(0.0, pairsTo(standard_error) - count()) * costOfAnswer();
+  const double wanted = isAnswer() ? pairsTo(standard_error) : pairsAtFirst(standard_error);
+  return 2.0 * std::max(0.0, wanted - count()) * costOfAnswer();
 }
 
 void PairSource::describe(ProbabilityResult& result) const {

@@ -5,14 +5,15 @@
 
 #include "pose/conditional_samples.h"
 #include "pose/estimate_source.h"
+#include "pose/query_costs.h"
 
 namespace fcl_prob::detail {
 
 class PairSource : public EstimateSource {
  public:
-  /// Keeps references to all arguments. \param least_cost  of an answer, see query_costs.h
+  /// Keeps references to all arguments. \param cost  of an answer
   PairSource(const RandomConfiguration& configuration, const ConditionalAnswer& answer,
-             double least_cost, const ProbabilityRequest& request, RunWatch& watch);
+             const QueryCost& cost, const ProbabilityRequest& request, RunWatch& watch);
 
   void draw(double standard_error) override;
   std::optional<EstimatedMean> mean() const override { return mean_; }
@@ -27,10 +28,11 @@ class PairSource : public EstimateSource {
   InnerTolerance firstTolerance() const;
   InnerTolerance nextTolerance(double standard_error) const;
   double pairsTo(double standard_error) const;
+  double pairsAtFirst(double standard_error) const;
   double costOfAnswer() const;
 
   const RandomConfiguration& configuration_;
-  double least_cost_;
+  QueryCost cost_;
   const ProbabilityRequest& request_;
   ConditionalSamples samples_;
   std::optional<EstimatedMean> mean_;

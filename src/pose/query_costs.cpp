@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "pose/query_costs.h"
 
+#include <algorithm>
+
 #include "geometry/convex_vertices.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
@@ -14,6 +16,10 @@ constexpr double kMeshAndShape = 8.0;
 constexpr double kTwoShapes = 1.5;
 
 constexpr double kQuery = 40.0;
+
+// Pairs of pieces and samples of an answer beside a mesh: some 500 samples and 3,000 pairs.
+constexpr double kRoughAnswer = 1500.0;
+
 constexpr double kMeshVertex = 0.1;
 constexpr double kPolytopeVertex = 0.5;
 
@@ -21,10 +27,19 @@ bool isConvex(const fcl::CollisionGeometryd& geometry) {
   return kindOf(geometry) == GeometryKind::convex;
 }
 
+bool isMesh(const fcl::CollisionGeometryd& geometry) {
+  return kindOf(geometry) == GeometryKind::mesh;
+}
+
+bool holdsMesh(const GeometryList& members) {
+  return std::any_of(members.begin(), members.end(),
+                     [](const auto& member) { return isMesh(*member); });
+}
+
 double sizeCost(const GeometryList& members) {
   double sum = 0.0;
   for (const auto& member : members) {
-    if (kindOf(*member) == GeometryKind::mesh) {
+    if (isMesh(*member)) {
       sum += kMeshVertex * static_cast<double>(meshView(*member).vertex_count);
     } else if (const auto vertices = polytopeVertices(*member)) {
       sum += kPolytopeVertex * static_cast<double>(vertices->size());
@@ -47,8 +62,9 @@ double collideCost(const GeometryList& a, const GeometryList& b) {
   return sum;
 }
 
-double leastQueryCost(const GeometryList& a, const GeometryList& b) {
-  return kQuery + sizeCost(a) + sizeCost(b);
+QueryCost queryCost(const GeometryList& a, const GeometryList& b) {
+  const double rough = holdsMesh(a) || holdsMesh(b) ? kRoughAnswer : 0.0;
+  return {kQuery + sizeCost(a) + sizeCost(b), rough};
 }
 
 }  // namespace fcl_prob::detail

@@ -11,7 +11,12 @@ namespace fcl_prob::detail {
 /// One call of fcl::collide for all members of both groups.
 double collideCost(const GeometryList& a, const GeometryList& b);
 
-/// A query with little to do, for all members of both groups.
-double leastQueryCost(const GeometryList& a, const GeometryList& b);
+/// An answer to a query, for all members of both groups.
+struct QueryCost {
+  double least = 0.0;  ///< with little to do
+  double rough = 0.0;  ///< more than that, of one to some percent
+};
+
+QueryCost queryCost(const GeometryList& a, const GeometryList& b);
 
 }  // namespace fcl_prob::detail
