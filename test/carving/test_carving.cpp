@@ -229,12 +229,8 @@ void checkScenes(int scenes, int samples, unsigned seed) {
     const bool swapped = i % 4 == 1;
     PartitionQuery query(swapped ? other : body, swapped ? body : other);
     if (solid) query.makeSolid();
-    query.pose_a.linear() = random.rotation();
-    query.pose_b.linear() = random.rotation();
-    query.pose_b.translation() = random.uniform(0.0, 0.9) * random.direction();
-    const auto displacement = fcl_prob::GaussianDisplacement::fromStandardDeviations(
-        {random.uniform(0.03, 0.2), random.uniform(0.03, 0.2), random.uniform(0.03, 0.2)},
-        random.quaternion());
+    query.placeAtRandom(0.0, 0.9, random);
+    const auto displacement = fcl_prob_test::obliqueDisplacement(0.03, 0.2, random);
     fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
     const ProbabilityResult result = query.run(displacement, request);
     carved += isCarved(result);
@@ -265,12 +261,8 @@ TEST_CASE("carved cells of solids are hardly more than those of surfaces", "[car
   for (int i = 0; i < 12; ++i) {
     const TriangleMesh link = hullMesh(random.onSphere(60, 0.12));
     PartitionQuery query(link, bumpyMesh(0.5, 24, 32, static_cast<std::uint64_t>(i)));
-    query.pose_a.linear() = random.rotation();
-    query.pose_b.linear() = random.rotation();
-    query.pose_b.translation() = random.uniform(0.6, 0.8) * random.direction();
-    const auto displacement = fcl_prob::GaussianDisplacement::fromStandardDeviations(
-        {random.uniform(0.05, 0.2), random.uniform(0.05, 0.2), random.uniform(0.05, 0.2)},
-        random.quaternion());
+    query.placeAtRandom(0.6, 0.8, random);
+    const auto displacement = fcl_prob_test::obliqueDisplacement(0.05, 0.2, random);
     const fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
     const ProbabilityResult surfaces = query.run(displacement, request);
     query.makeSolid();

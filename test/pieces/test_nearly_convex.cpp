@@ -169,12 +169,8 @@ void checkDentedScenes(int scenes, int samples, unsigned seed) {
     const TriangleMesh& b = swapped ? body : other;
     PartitionQuery query(a, b);
     if (solid) query.makeSolid();
-    query.pose_a.linear() = random.rotation();
-    query.pose_b.linear() = random.rotation();
-    query.pose_b.translation() = random.uniform(0.2, 0.9) * random.direction();
-    const auto displacement = fcl_prob::GaussianDisplacement::fromStandardDeviations(
-        {random.uniform(0.03, 0.2), random.uniform(0.03, 0.2), random.uniform(0.03, 0.2)},
-        random.quaternion());
+    query.placeAtRandom(0.2, 0.9, random);
+    const auto displacement = fcl_prob_test::obliqueDisplacement(0.03, 0.2, random);
     const ProbabilityResult result =
         query.run(displacement, fcl_prob_test::intervalRequest(i % 2 ? 0.1 : 0.03));
     between_two += isBetweenTwo(result);

@@ -10,6 +10,7 @@
 #include "geometry/closed_mesh.h"
 #include "mesh_shapes.h"
 #include "partition/partition.h"
+#include "random_bodies.h"
 
 namespace fcl_prob_test {
 
@@ -27,6 +28,13 @@ class PartitionQuery {
     using fcl_prob::detail::ClosedMesh;
     solid_a_ = std::make_unique<ClosedMesh>(fcl_prob::detail::meshView(*model_a), "A");
     solid_b_ = std::make_unique<ClosedMesh>(fcl_prob::detail::meshView(*model_b), "B");
+  }
+
+  /// Both turned at random, B so far away (metres).
+  void placeAtRandom(double nearest, double farthest, RandomBodies& random) {
+    pose_a.linear() = random.rotation();
+    pose_b.linear() = random.rotation();
+    pose_b.translation() = random.uniform(nearest, farthest) * random.direction();
   }
 
   fcl_prob::ProbabilityResult run(const fcl_prob::GaussianDisplacement& displacement,
@@ -47,6 +55,14 @@ class PartitionQuery {
   std::unique_ptr<fcl_prob::detail::ClosedMesh> solid_a_;
   std::unique_ptr<fcl_prob::detail::ClosedMesh> solid_b_;
 };
+
+/// Standard deviations within a range (metres) along random axes.
+inline fcl_prob::GaussianDisplacement obliqueDisplacement(double least, double most,
+                                                          RandomBodies& random) {
+  return fcl_prob::GaussianDisplacement::fromStandardDeviations(
+      {random.uniform(least, most), random.uniform(least, most), random.uniform(least, most)},
+      random.quaternion());
+}
 
 inline bool planMentions(const fcl_prob::ProbabilityResult& result, const std::string& words) {
   return std::any_of(result.plan.begin(), result.plan.end(), [&words](const std::string& note) {
