@@ -22,6 +22,21 @@ bool addPlane(const CellPolytope& body, const ObstaclePlane& plane, ObstacleList
   return true;
 }
 
+// The first face from `from` on whose value is not at most limits[f] + `by`, or `count`. Sixteen
+// are looked at at once, since few are above: a branch for each took a fifth of an interval's time.
+// (The sign of a difference is exact.)
+int firstAbove(const double* values, const double* limits, double by, int from, int count) {
+  constexpr int kAtOnce = 16;
+  using Values = Eigen::Map<const Eigen::Array<double, kAtOnce, 1>>;
+  int face = from;
+  for (; face + kAtOnce <= count; face += kAtOnce) {
+    const auto above = Values(values + face) - (Values(limits + face) + by);
+    if (!(above.maxCoeff<Eigen::PropagateNaN>() <= 0.0)) break;
+  }
+  while (face < count && values[face] <= limits[face] + by) ++face;
+  return face;
+}
+
 }  // namespace
 
 void CellCarver::divideBox(CarvedCell&& cell) {
@@ -84,6 +99,7 @@ CellCarver::Relation CellCarver::listBox(const CarvedCell& cell,
   face_lo_.resize(obstacles_.faceCount());
   face_hi_.resize(obstacles_.faceCount());
   ranged_.assign(obstacles_.count(), false);
+  apart_.assign(obstacles_.count(), 0);
   std::vector<std::tuple<double, int, int>> order;
   for (const auto& [member, t] : obstacles) {
     order.emplace_back((obstacles_.of(member).middle(t) - middle).squaredNorm(), member, t);
@@ -121,8 +137,12 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   const std::vector<double>& offsets = body.faceOffsets(obstacle.triangle);
   const double padding = body.padding(Eigen::Vector3d::Ones());
   const int faces = body.faceCount();
-  for (int f = 0; f < faces; ++f) {
-    if (face_lo[f] > offsets[f] + padding) return Relation::free;
+  int& apart = apart_[obstacle.member];
+  const auto isApart = [&](int f) { return face_lo[f] > offsets[f] + padding; };
+  if (isApart(apart)) return Relation::free;
+  if (const int f = firstAbove(face_lo, offsets.data(), padding, 0, faces); f < faces) {
+    apart = f;
+    if (isApart(f)) return Relation::free;
   }
   const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.triangle);
   const double margin = body.mostMargin(obstacle.triangle);
@@ -139,8 +159,10 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
     }
     if (at + radius > plane.inner()) into.planes.push_back(plane);
   }
-  for (int f = 0; f < faces; ++f) {
-    if (face_hi[f] <= offsets[f] - margin) continue;
+  const auto firstCut = [&](int from) {
+    return firstAbove(face_hi, offsets.data(), -margin, from, faces);
+  };
+  for (int f = firstCut(0); f < faces; f = firstCut(f + 1)) {
     const ObstaclePlane plane = body.facePlane(obstacle.triangle, f);
     if (face_hi[f] > plane.inner()) into.planes.push_back(plane);
   }

@@ -168,6 +168,7 @@ class CellCarver {
   std::vector<double> face_lo_;  // of a box, along the normals of each P
   std::vector<double> face_hi_;
   std::vector<bool> ranged_;  // by member: those of its faces are known
+  std::vector<int> apart_;  // by member: a face that the box was beyond; of the next obstacle, too?
 };
 
 }  // namespace fcl_prob::detail
