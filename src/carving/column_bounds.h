@@ -10,13 +10,14 @@ namespace fcl_prob::detail {
 
 struct ColumnBounds {
   Bounds bounds;
+  double likely;  ///< P, about
   std::size_t columns;
 };
 
 /// Certified, from columns across the nearest contact: no line of a column meets anything before
 /// the boxes of the mesh's tree, and all of them meet the convex mesh put to one point of the other
-/// one. Ends when it is certain on which side of the threshold P lies, or when that would take many
-/// more columns than pay.
+/// one. Ends when it is certain on which side of the threshold P lies, or when that would likely
+/// take more columns than pay.
 ColumnBounds columnBounds(WholeBodyLines& lines, double threshold);
 
 }  // namespace fcl_prob::detail

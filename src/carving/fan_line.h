@@ -27,8 +27,9 @@ class FanLine {
   /// they miss it.
   std::optional<LineSpan> around(int node) { return nodes_.around(node); }
 
-  /// What all lines of the column have of P put to a point of T: certain.
-  std::optional<LineSpan> within(const Eigen::Vector3d& point) const;
+  /// No more than what the lines of the column have of P put to a point of T, under N(0, 1), in the
+  /// mean: certain but for the rounding of the sum.
+  double massWithin(const Eigen::Vector3d& point) const;
 
   /// The least sign·s for which (s, u_0, u_1) is in P ⊕ T; nothing if there is none below a limit.
   /// \param corners  of T, columns
@@ -50,6 +51,11 @@ class FanLine {
     std::size_t oldest = 1;
   };
 
+  double leftOf(int face, const Eigen::Vector3d& from) const;
+  double widthOf(int face, const Eigen::Vector2d& half) const;
+  std::vector<int> endsWithin(const Eigen::Vector3d& point) const;
+  LineSpan within(const std::vector<int>& faces, const Eigen::Vector3d& from,
+                  const Eigen::Vector2d& half) const;
   int startFor(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign) const;
   void remember(int face, double sign);
   int highestFace(const Eigen::Vector3d& point, double sign);

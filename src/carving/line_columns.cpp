@@ -16,18 +16,26 @@ namespace {
 // Columns that reach to the end of the space are divided so far from their inner side.
 constexpr double kStep = 1.5;
 
+// Beyond there is less of the normal distribution, the more so, the farther out.
+constexpr double kMiddleOfEnd = 0.5;
+
 constexpr double kRoundedColumns = 1e-12;
 
 double widthOf(double lo, double hi) { return lo <= -kReach || hi >= kReach ? 2 * kStep : hi - lo; }
 
-double divisionOf(double lo, double hi) {
+double within(double lo, double hi, double step) {
   if (lo <= -kReach && hi >= kReach) return 0.0;
-  if (hi >= kReach) return lo + kStep;
-  if (lo <= -kReach) return hi - kStep;
+  if (hi >= kReach) return lo + step;
+  if (lo <= -kReach) return hi - step;
   return 0.5 * (lo + hi);
 }
 
 }  // namespace
+
+Eigen::Vector2d middleOf(const Column& column) {
+  return {within(column.lo[0], column.hi[0], kMiddleOfEnd),
+          within(column.lo[1], column.hi[1], kMiddleOfEnd)};
+}
 
 LineColumns::LineColumns(WholeBodyLines& lines) : lines_(lines) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kReach);
@@ -76,12 +84,12 @@ void LineColumns::divideOne(int node, double rest) {
   const auto width = [&whole](int k) { return widthOf(whole.lo[k], whole.hi[k]); };
   const int axis = width(0) >= width(1) ? 0 : 1;
   Column low = whole, high = whole;
-  low.hi[axis] = high.lo[axis] = divisionOf(whole.lo[axis], whole.hi[axis]);
+  low.hi[axis] = high.lo[axis] = within(whole.lo[axis], whole.hi[axis], kStep);
   nodes_[node].left = static_cast<int>(nodes_.size());
   for (const Column& half : {low, high}) {
     nodes_.push_back(nodeOf(half, most));
     Node& child = nodes_.back();
-    child.least = nodes_[node].least;
+    child.of_least = nodes_[node].of_least;
     child.weight = by_mass_ ? child.mass() : child.most > 0.0 ? weight : 0.0;
   }
 }

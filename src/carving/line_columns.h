@@ -9,14 +9,18 @@
 
 namespace fcl_prob::detail {
 
+/// Where most of what is normally distributed in a column is, about.
+Eigen::Vector2d middleOf(const Column& column);
+
 /// Disjoint columns that together are all of the space.
 class LineColumns {
  public:
   struct Node {
     Column column;
-    double most;          ///< of any line
-    double measure;       ///< of the normal distribution across the lines
-    double least = 0.0;   ///< of all of them, as far as somebody asked
+    double most;         ///< of any line
+    double measure;      ///< of the normal distribution across the lines
+    double least = 0.0;  ///< of them in the mean, as far as somebody asked
+    WholeBodyLines::Touch of_least{-1, Eigen::Vector3d::Zero()};
     double weight = 0.0;  ///< how much it should be divided
     int left = -1;        ///< child; the right one is behind it
 

@@ -50,7 +50,7 @@ std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const WhitenedPair& pair,
     WhitenedFan fan(pair, part, *part.fan, whole->body_is_a,
                     matrix * whole->body.parts[i].pose.linear());
     if (!fan.usable() || mayHoldPart(*whole, i, fan)) return nullptr;
-    lines->members_.emplace_back(std::move(fan));
+    lines->members_.emplace_back(std::move(fan), static_cast<int>(i));
   }
   return lines;
 }
@@ -98,25 +98,31 @@ double WholeBodyLines::extremeOf(const Column& column, double sign) {
   return least;
 }
 
+// Where one solid is in the other, too, their surfaces touch before and behind: far out on the line
+// the objects are apart.
 double WholeBodyLines::mostOn(const Column& column) {
   const double from = extremeOf(column, 1.0);
-  double most = normalTailMass(from);
-  if (from < 0.0) most = std::min(most, normalTailMass(extremeOf(column, -1.0)));
-  return std::min(1.0, most * (1.0 + kRoundedLines));
+  if (!(from < kInfinity)) return 0.0;
+  const double to = -extremeOf(column, -1.0);
+  return std::min(1.0, normalIntervalMass(from, to) * (1.0 + kRoundedLines));
 }
 
 // What the line in the middle meets first tells where to put the member.
-double WholeBodyLines::leastOn(const Column& column) {
-  if ((column.hi - column.lo).maxCoeff() > kReach) return 0.0;
-  massOn(0.5 * (column.lo + column.hi), kRoughly);
-  double least = 0.0;
-  for (const Stretch& stretch : stretches_) {
-    FanLine& line = stretch.first.member->line;
+WholeBodyLines::ColumnMass WholeBodyLines::leastOn(const Column& column,
+                                                   const Eigen::Vector2d& middle,
+                                                   const Touch& known) {
+  ColumnMass mass{0.0, known, massOn(middle, kRoughly)};
+  const auto tryPoint = [&](const Touch& touch) {
+    FanLine& line = members_[static_cast<std::size_t>(touch.member)].line;
     line.lookAt(column);
-    const auto span = line.within(stretch.point);
-    if (span) least = std::max(least, normalIntervalMass(span->lo, span->hi));
-  }
-  return least * (1.0 - kRoundedLines);
+    const double of_point = line.massWithin(touch.point) * (1.0 - kRoundedLines);
+    if (!(of_point > mass.least)) return;
+    mass.least = of_point;
+    mass.of_least = touch;
+  };
+  if (known.member >= 0) tryPoint(known);
+  for (const Stretch& stretch : stretches_) tryPoint({stretch.first.member->index, stretch.point});
+  return mass;
 }
 
 void WholeBodyLines::beginLine(const LeftOut& negligible) {

@@ -39,8 +39,21 @@ class WholeBodyLines {
   /// No less than what any line { (s, u) } of a column has of collisions, under N(0, 1): certain.
   double mostOn(const Column& column);
 
-  /// No more than what every line of a column has of collisions, under N(0, 1): certain.
-  double leastOn(const Column& column);
+  /// One member where it touches a point of the other mesh.
+  struct Touch {
+    int member;  ///< -1: none
+    Eigen::Vector3d point;
+  };
+
+  struct ColumnMass {
+    double least;  ///< no more than what its lines have of collisions in the mean: certain
+    Touch of_least;
+    double middle;  ///< what one line has of them, about
+  };
+
+  /// \param middle  that line
+  /// \param known   may tell of the column, too
+  ColumnMass leastOn(const Column& column, const Eigen::Vector2d& middle, const Touch& known);
 
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
   double massOn(const Eigen::Vector2d& u, const LeftOut& negligible);
@@ -51,12 +64,14 @@ class WholeBodyLines {
 
  private:
   struct Member {
-    explicit Member(WhitenedFan whitened) : fan(std::move(whitened)), line(fan) {}
+    Member(WhitenedFan whitened, int its_index)
+        : fan(std::move(whitened)), line(fan), index(its_index) {}
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
 
     WhitenedFan fan;
     FanLine line;
+    int index;
   };
 
   struct Place {

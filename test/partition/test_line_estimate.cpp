@@ -55,6 +55,22 @@ double massByPoints(WholeBodyTester& tester, const Eigen::Vector2d& u, int steps
   return mass;
 }
 
+/// Over lines of a column, in the middle of steps.
+double meanOnLines(WholeBodyLines& lines, const Column& column) {
+  constexpr int kSteps = 12;
+  const Eigen::Vector2d step = (column.hi - column.lo) / kSteps;
+  double sum = 0.0, measure = 0.0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const Eigen::Vector2d lo =
+        column.lo + step.cwiseProduct(Eigen::Vector2d(i / kSteps, i % kSteps));
+    const double of_step =
+        normalIntervalMass(lo[0], lo[0] + step[0]) * normalIntervalMass(lo[1], lo[1] + step[1]);
+    sum += of_step * lines.massOn(lo + 0.5 * step, {0.0, 1e-12});
+    measure += of_step;
+  }
+  return sum / measure;
+}
+
 ProbabilityRequest estimateRequest(double relative_tolerance, int seed) {
   ProbabilityRequest request;
   request.method = ProbabilityMethod::estimate;
@@ -125,9 +141,11 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       CHECK(std::fabs(mass - massByPoints(*tester, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
       const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
       CHECK(lines->mostOn({u - width, u + width}) >= mass);
-      const double least = lines->leastOn({u - 0.2 * width, u + 0.2 * width});
-      CHECK(least <= mass);
-      covered += least > 0.0;
+      const Column around{u - 0.2 * width, u + 0.2 * width};
+      const auto least = lines->leastOn(around, u, {-1, Eigen::Vector3d::Zero()});
+      CHECK(least.least <= meanOnLines(*lines, around) + 1e-3);
+      CHECK(std::fabs(least.middle - mass) <= 0.1 * mass + 2e-6);
+      covered += least.least > 0.0;
       CHECK(std::fabs(lines->massOn(u, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
       met += mass > 0.0;
     }
