@@ -59,6 +59,15 @@ constexpr double kUnseenEdge = 0.18;
 constexpr double kUnseenSegment = 0.35;
 constexpr double kUnseenPiece = 0.7;
 
+// What is seen of the error falls about with this power of the number of columns. What a look tells
+// of that of the next one counts half, if it is more: either may happen to see little.
+constexpr double kConvergence = 4.0 / 3.0;
+constexpr double kWeightOfLast = 0.5;
+
+// No standard error is known to be less than this share of the one asked for: an easy scene would
+// state that of a few columns that happen to agree.
+constexpr double kLeastError = 0.1;
+
 // Of the standard error asked for, what may be left out of lines; and of the bound on P.
 constexpr double kLeftOutOfError = 0.05;
 constexpr double kLeftOutOfBound = 1e-6;
@@ -130,11 +139,20 @@ class ColumnSampler {
 /// What lines through all columns told.
 struct Look {
   double mass = 0.0;
+  std::size_t columns = 0;
   SampledVariance spread;
   double doubt = 0.0;  ///< what was left out of lines, and what no lines were drawn of
   std::optional<ProbabilityStatus> interrupted;
 
   double standardError() const { return std::hypot(spread.standardError(kDeviations), doubt); }
+
+  double standardErrorAfter(const Look& last) const {
+    const double more = static_cast<double>(columns) / static_cast<double>(last.columns);
+    const double own = standardError();
+    const double by_last = last.standardError() / std::pow(more, kConvergence);
+    const double square = (1.0 - kWeightOfLast) * own * own + kWeightOfLast * by_last * by_last;
+    return std::max(own, std::sqrt(square));
+  }
 
   bool isFarFrom(const Look& other) const {
     return std::fabs(mass - other.mass) >
@@ -161,12 +179,13 @@ class LineEstimation {
       if (!(columns_.most() > std::numeric_limits<double>::min())) return std::nullopt;
       result.upper = std::min(result.upper, columns_.most());
       const Look look = lookAt(result.upper);
-      result.columns = columns_.inOrder().size();
-      result.lines += kLines * result.columns;
+      result.columns = look.columns;
+      result.lines += kLines * look.columns;
       result.value = std::min(look.mass, result.upper);
-      result.standard_error = look.standardError();
+      const double error = before ? look.standardErrorAfter(*before) : look.standardError();
       result.status = look.interrupted.value_or(ProbabilityStatus::converged);
       const double target = request_.toleranceAt(result.value);
+      result.standard_error = std::hypot(error, kLeastError * target);
       const bool is_confirmed = before && !look.isFarFrom(*before);
       if (look.interrupted || (is_confirmed && result.standard_error <= target)) return result;
       if (!divide(look.spread, target)) return std::nullopt;
@@ -177,6 +196,7 @@ class LineEstimation {
  private:
   Look lookAt(double upper) {
     Look look;
+    look.columns = columns_.inOrder().size();
     look.spread.unit = columns_.most();
     std::vector<PairsOfColumn> drawn;
     for (const int column : columns_.inOrder()) {
@@ -236,16 +256,16 @@ class LineEstimation {
         unit * unit * (0.5 * sum_squares + jump * jump + of_range * of_range + of_most * of_most);
   }
 
-  // What is seen of the error falls about with the 1.3rd power of the number of columns, what may
-  // be unseen with its square. False where that would be too many.
+  // What may be unseen of the error falls with the square of the number of columns. False where
+  // that would be too many.
   bool divide(const SampledVariance& spread, double target) {
     SampledVariance seen = spread;
     seen.jumps = 0.0;
     const double of_seen = seen.standardError(kDeviations);
     const double of_all = spread.standardError(kDeviations);
     const double unseen = std::sqrt(std::max(0.0, of_all * of_all - of_seen * of_seen));
-    const double growth =
-        kReserve * std::max(std::pow(of_seen / target, 0.75), std::sqrt(unseen / target));
+    const double growth = kReserve * std::max(std::pow(of_seen / target, 1.0 / kConvergence),
+                                              std::sqrt(unseen / target));
     const auto now = static_cast<double>(columns_.inOrder().size());
     const auto most = static_cast<double>(most_columns_);
     if (!(growth * now <= most) || kLeastGrowth * now > most) return false;

@@ -177,8 +177,8 @@ TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][sl
       const double deviation = deviationOf(query, displacement, by_lines);
       all += kSeeds;
       CAPTURE(i, solid);
-      // What may be unseen makes the standard error larger than the deviation: 0.45 where most.
-      CHECK(deviation > 0.35);
+      // What may be unseen makes the standard error larger than the deviation.
+      CHECK(deviation > 0.5);
       CHECK(deviation < 1.3);
     }
   }
