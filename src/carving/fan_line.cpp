@@ -94,6 +94,13 @@ Strips stripsOf(double lo, double hi) {
   return strips;
 }
 
+// Around all of them.
+Strip unitedStrip(const Strips& strips) {
+  const double lo = strips.front().middle - strips.front().half;
+  const double hi = strips.back().middle + strips.back().half;
+  return {0.5 * (lo + hi), 0.5 * (hi - lo) + kRoundedEnds, 0.0};
+}
+
 }  // namespace
 
 FanLine::FanLine(const WhitenedFan& fan)
@@ -107,6 +114,8 @@ FanLine::FanLine(const WhitenedFan& fan)
     if (x < fan.faceNormal(lowest).x()) lowest = f;
     if (x > fan.faceNormal(highest).x()) highest = f;
   }
+  all_faces_.resize(count);
+  std::iota(all_faces_.begin(), all_faces_.end(), 0);
   starts_[0].faces = {lowest};
   starts_[1].faces = {highest};
   neighbours_begin_.assign(count + 1, 0);
@@ -141,30 +150,27 @@ double FanLine::widthOf(int face, const Eigen::Vector2d& half) const {
   return fan_.faceNormal(face).tail<2>().cwiseAbs().dot(half);
 }
 
-// Faces at which some line of the column may enter or leave P: not those that all lines pass before
+// Those at which some line of a column may enter or leave P: not those that all lines pass before
 // they enter, or after they leave.
-std::vector<int> FanLine::endsWithin(const Eigen::Vector3d& point) const {
-  const Eigen::Vector2d middle = 0.5 * (column_.lo + column_.hi);
-  const Eigen::Vector2d half = 0.5 * (column_.hi - column_.lo);
-  const Eigen::Vector3d from = Eigen::Vector3d(0.0, middle[0], middle[1]) - point;
+std::vector<int> FanLine::endsWithin(const std::vector<int>& faces, const Eigen::Vector3d& from,
+                                     const Eigen::Vector2d& half) const {
   LineSpan inner{-kInfinity, kInfinity};
-  std::vector<LineSpan> passed(faces_.size());
-  for (int f = 0; f < fan_.faceCount(); ++f) {
+  std::vector<LineSpan> passed;
+  passed.reserve(faces.size());
+  for (const int f : faces) {
     const double x = fan_.faceNormal(f).x(), left = leftOf(f, from), width = widthOf(f, half);
-    passed[f] = {std::min((left - width) / x, (left + width) / x),
-                 std::max((left - width) / x, (left + width) / x)};
-    if (x < 0.0) inner.lo = std::max(inner.lo, passed[f].lo);
-    if (x > 0.0) inner.hi = std::min(inner.hi, passed[f].hi);
+    passed.push_back({(left - std::copysign(width, x)) / x, (left + std::copysign(width, x)) / x});
+    if (x < 0.0) inner.lo = std::max(inner.lo, passed.back().lo);
+    if (x > 0.0) inner.hi = std::min(inner.hi, passed.back().hi);
   }
-  std::vector<int> faces;
-  for (int f = 0; f < fan_.faceCount(); ++f) {
-    const double x = fan_.faceNormal(f).x();
-    const bool is_passed_inside = x < 0.0   ? passed[f].hi >= inner.lo
-                                  : x > 0.0 ? passed[f].lo <= inner.hi
-                                            : true;
-    if (is_passed_inside) faces.push_back(f);
+  std::vector<int> ends;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double x = fan_.faceNormal(faces[i]).x();
+    const bool is_passed_outside =
+        (x < 0.0 && passed[i].hi < inner.lo) || (x > 0.0 && passed[i].lo > inner.hi);
+    if (!is_passed_outside) ends.push_back(faces[i]);
   }
-  return faces;
+  return ends;
 }
 
 LineSpan FanLine::within(const std::vector<int>& faces, const Eigen::Vector3d& from,
@@ -188,14 +194,20 @@ LineSpan FanLine::within(const std::vector<int>& faces, const Eigen::Vector3d& f
 
 // In small columns what all lines of one have in common is nearly what each of them has.
 double FanLine::massWithin(const Eigen::Vector3d& point) const {
-  const std::vector<int> faces = endsWithin(point);
   const Strips first = stripsOf(column_.lo[0], column_.hi[0]);
   const Strips second = stripsOf(column_.lo[1], column_.hi[1]);
+  const Strip all_first = unitedStrip(first), all_second = unitedStrip(second);
+  const auto from = [&point](const Strip& i, const Strip& j) {
+    return Eigen::Vector3d(Eigen::Vector3d(0.0, i.middle, j.middle) - point);
+  };
+  const std::vector<int> faces =
+      endsWithin(all_faces_, from(all_first, all_second), {all_first.half, all_second.half});
   double sum = 0.0;
   for (const Strip& i : first) {
+    const std::vector<int> of_row =
+        endsWithin(faces, from(i, all_second), {i.half, all_second.half});
     for (const Strip& j : second) {
-      const Eigen::Vector3d from = Eigen::Vector3d(0.0, i.middle, j.middle) - point;
-      const LineSpan span = within(faces, from, {i.half, j.half});
+      const LineSpan span = within(of_row, from(i, j), {i.half, j.half});
       sum += i.measure * j.measure * normalIntervalMass(span.lo, span.hi);
     }
   }

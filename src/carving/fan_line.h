@@ -53,7 +53,8 @@ class FanLine {
 
   double leftOf(int face, const Eigen::Vector3d& from) const;
   double widthOf(int face, const Eigen::Vector2d& half) const;
-  std::vector<int> endsWithin(const Eigen::Vector3d& point) const;
+  std::vector<int> endsWithin(const std::vector<int>& faces, const Eigen::Vector3d& from,
+                              const Eigen::Vector2d& half) const;
   LineSpan within(const std::vector<int>& faces, const Eigen::Vector3d& from,
                   const Eigen::Vector2d& half) const;
   int startFor(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign) const;
@@ -62,6 +63,7 @@ class FanLine {
 
   const WhitenedFan& fan_;
   std::vector<Eigen::Vector3d> faces_;  ///< d: P is where d·y <= 1 for all of them
+  std::vector<int> all_faces_;          ///< their indices
   std::vector<int> neighbours_;         ///< of all faces
   std::vector<int> neighbours_begin_;   ///< of each of them, and the end
   std::array<Starts, 2> starts_;        ///< for lines from above and from below

@@ -89,7 +89,7 @@ void LineColumns::divideOne(int node, double rest) {
   for (const Column& half : {low, high}) {
     nodes_.push_back(nodeOf(half, most));
     Node& child = nodes_.back();
-    child.of_least = nodes_[node].of_least;
+    child.parent = node;
     child.weight = by_mass_ ? child.mass() : child.most > 0.0 ? weight : 0.0;
   }
 }

@@ -17,12 +17,11 @@ class LineColumns {
  public:
   struct Node {
     Column column;
-    double most;         ///< of any line
-    double measure;      ///< of the normal distribution across the lines
-    double least = 0.0;  ///< of them in the mean, as far as somebody asked
-    WholeBodyLines::Touch of_least{-1, Eigen::Vector3d::Zero()};
+    double most;          ///< of any line
+    double measure;       ///< of the normal distribution across the lines
     double weight = 0.0;  ///< how much it should be divided
-    int left = -1;        ///< child; the right one is behind it
+    int parent = -1;
+    int left = -1;  ///< child; the right one is behind it
 
     double mass() const { return most * measure; }
   };

@@ -107,22 +107,18 @@ double WholeBodyLines::mostOn(const Column& column) {
   return std::min(1.0, normalIntervalMass(from, to) * (1.0 + kRoundedLines));
 }
 
-// What the line in the middle meets first tells where to put the member.
-WholeBodyLines::ColumnMass WholeBodyLines::leastOn(const Column& column,
-                                                   const Eigen::Vector2d& middle,
-                                                   const Touch& known) {
-  ColumnMass mass{0.0, known, massOn(middle, kRoughly)};
-  const auto tryPoint = [&](const Touch& touch) {
-    FanLine& line = members_[static_cast<std::size_t>(touch.member)].line;
-    line.lookAt(column);
-    const double of_point = line.massWithin(touch.point) * (1.0 - kRoundedLines);
-    if (!(of_point > mass.least)) return;
-    mass.least = of_point;
-    mass.of_least = touch;
-  };
-  if (known.member >= 0) tryPoint(known);
-  for (const Stretch& stretch : stretches_) tryPoint({stretch.first.member->index, stretch.point});
-  return mass;
+double WholeBodyLines::leastOn(const Column& column, const Touch& touch) {
+  FanLine& line = members_[static_cast<std::size_t>(touch.member)].line;
+  line.lookAt(column);
+  return line.massWithin(touch.point) * (1.0 - kRoundedLines);
+}
+
+WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u) {
+  LineContacts contacts{massOn(u, kRoughly), {}};
+  for (const Stretch& stretch : stretches_) {
+    contacts.touches.push_back({stretch.first.member->index, stretch.point});
+  }
+  return contacts;
 }
 
 void WholeBodyLines::beginLine(const LeftOut& negligible) {

@@ -41,19 +41,20 @@ class WholeBodyLines {
 
   /// One member where it touches a point of the other mesh.
   struct Touch {
-    int member;  ///< -1: none
+    int member;
     Eigen::Vector3d point;
   };
 
-  struct ColumnMass {
-    double least;  ///< no more than what its lines have of collisions in the mean: certain
-    Touch of_least;
-    double middle;  ///< what one line has of them, about
+  struct LineContacts {
+    double mass;  ///< about what the line has of collisions, under N(0, 1)
+    std::vector<Touch> touches;
   };
 
-  /// \param middle  that line
-  /// \param known   may tell of the column, too
-  ColumnMass leastOn(const Column& column, const Eigen::Vector2d& middle, const Touch& known);
+  LineContacts contactsOn(const Eigen::Vector2d& u);
+
+  /// No more than what the lines of a column have of collisions in the mean, under N(0, 1):
+  /// certain. Those with one member there are counted.
+  double leastOn(const Column& column, const Touch& touch);
 
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
   double massOn(const Eigen::Vector2d& u, const LeftOut& negligible);

@@ -142,10 +142,14 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
       CHECK(lines->mostOn({u - width, u + width}) >= mass);
       const Column around{u - 0.2 * width, u + 0.2 * width};
-      const auto least = lines->leastOn(around, u, {-1, Eigen::Vector3d::Zero()});
-      CHECK(least.least <= meanOnLines(*lines, around) + 1e-3);
-      CHECK(std::fabs(least.middle - mass) <= 0.1 * mass + 2e-6);
-      covered += least.least > 0.0;
+      const auto middle = lines->contactsOn(u);
+      CHECK(std::fabs(middle.mass - mass) <= 0.1 * mass + 2e-6);
+      const double mean = meanOnLines(*lines, around);
+      for (const auto& touch : middle.touches) {
+        const double least = lines->leastOn(around, touch);
+        CHECK(least <= mean + 1e-3);
+        covered += least > 0.0;
+      }
       CHECK(std::fabs(lines->massOn(u, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
       met += mass > 0.0;
     }
