@@ -204,26 +204,34 @@ bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
   return true;
 }
 
-// Whether columns decide, where an object can be taken whole. The interval is that of all so far.
-bool decideByColumns(const PartitionObject& a, const PartitionObject& b,
-                     const GaussianDisplacement& displacement, const QueryFrame& frame,
-                     const SolidContact* solids, const ProbabilityRequest& request, Bounds& known,
-                     ProbabilityResult& result) {
+// What columns tell, where an object can be taken whole. The interval is that of all so far.
+std::optional<ColumnBounds> lookAtColumns(const PartitionObject& a, const PartitionObject& b,
+                                          const GaussianDisplacement& displacement,
+                                          const QueryFrame& frame, const SolidContact* solids,
+                                          const ProbabilityRequest& request, Bounds& known,
+                                          ProbabilityResult& result) {
   const auto lines =
       WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
-  if (!lines) return false;
+  if (!lines) return std::nullopt;
   const ColumnBounds columns = columnBounds(*lines, *request.threshold);
   known = columns.bounds;
   result.lower = known.lower;
   result.upper = known.upper;
   result.decision = decisionOf(known, request);
-  if (result.decision == Decision::undecided) return false;
+  if (result.decision == Decision::undecided) return columns;
   result.method = ProbabilityMethod::interval;
   result.status = ProbabilityStatus::decided;
   result.statistics.cells = columns.columns;
   result.plan.push_back("decided by bounds on " + std::to_string(columns.columns) +
                         " columns, against convex meshes taken whole; cells left out");
-  return true;
+  return columns;
+}
+
+// Boxes seldom decide where P is as near to the threshold as this share of it.
+constexpr double kNearThreshold = 0.5;
+
+bool isNearThreshold(const ColumnBounds& columns, double threshold) {
+  return std::fabs(columns.likely - threshold) < kNearThreshold * threshold;
 }
 
 // A decision is left to polytope cells when it needs more boxes than these. Measured on links
@@ -270,10 +278,16 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
     clock.finish("lines");
     return result;
   }
-  if (may_be_carved &&
-      decideByColumns(a, b, displacement, frame, solids.get(), request, known, result)) {
+  if (may_be_carved) {
+    const auto columns =
+        lookAtColumns(a, b, displacement, frame, solids.get(), request, known, result);
     clock.finish("columns");
-    return result;
+    if (result.status == ProbabilityStatus::decided) return result;
+    if (columns && isNearThreshold(*columns, *request.threshold)) {
+      if (carved()) return result;
+      if (claim_observer) claim_observer->frame(frame.whitening, displacement);
+      may_be_carved = false;
+    }
   }
   if (may_be_carved) request.max_cells = std::min(request.max_cells, kBoxesBeforeCarving);
   PartitionEngine engine({frame.pair, frame.whitening.rank(), solids.get(), ball, request.gradient},
