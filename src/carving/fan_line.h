@@ -21,15 +21,11 @@ class FanLine {
   explicit FanLine(const WhitenedFan& fan);
 
   /// What around() is asked of from now on.
-  void lookAt(const Column& column);
+  void lookAt(const Column& column) { nodes_.lookAt(column); }
 
   /// Around what the lines of the column have of P ⊕ the triangles of a node: certain. Nothing if
   /// they miss it.
   std::optional<LineSpan> around(int node) { return nodes_.around(node); }
-
-  /// No more than what the lines of the column have of P put to a point of T, under N(0, 1), in the
-  /// mean: certain but for the rounding of the sum.
-  double massWithin(const Eigen::Vector3d& point) const;
 
   /// The least sign·s for which (s, u_0, u_1) is in P ⊕ T; nothing if there is none below a limit.
   /// \param corners  of T, columns
@@ -51,24 +47,16 @@ class FanLine {
     std::size_t oldest = 1;
   };
 
-  double leftOf(int face, const Eigen::Vector3d& from) const;
-  double widthOf(int face, const Eigen::Vector2d& half) const;
-  std::vector<int> endsWithin(const std::vector<int>& faces, const Eigen::Vector3d& from,
-                              const Eigen::Vector2d& half) const;
-  LineSpan within(const std::vector<int>& faces, const Eigen::Vector3d& from,
-                  const Eigen::Vector2d& half) const;
   int startFor(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign) const;
   void remember(int face, double sign);
   int highestFace(const Eigen::Vector3d& point, double sign);
 
   const WhitenedFan& fan_;
   std::vector<Eigen::Vector3d> faces_;  ///< d: P is where d·y <= 1 for all of them
-  std::vector<int> all_faces_;          ///< their indices
   std::vector<int> neighbours_;         ///< of all faces
   std::vector<int> neighbours_begin_;   ///< of each of them, and the end
   std::array<Starts, 2> starts_;        ///< for lines from above and from below
   NodeSpans nodes_;
-  Column column_;
   std::array<int, 2> highest_{};  ///< faces that were found last, from above and from below
   Eigen::Vector3d touched_;       ///< (0, u_0, u_1) less the point of T
 };

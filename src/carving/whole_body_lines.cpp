@@ -107,10 +107,9 @@ double WholeBodyLines::mostOn(const Column& column) {
   return std::min(1.0, normalIntervalMass(from, to) * (1.0 + kRoundedLines));
 }
 
-double WholeBodyLines::leastOn(const Column& column, const Touch& touch) {
-  FanLine& line = members_[static_cast<std::size_t>(touch.member)].line;
-  line.lookAt(column);
-  return line.massWithin(touch.point) * (1.0 - kRoundedLines);
+double WholeBodyLines::leastOn(const Column& column, const Touch& touch) const {
+  const Member& member = members_[static_cast<std::size_t>(touch.member)];
+  return member.inner.of(column, touch.point) * (1.0 - kRoundedLines);
 }
 
 WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u) {

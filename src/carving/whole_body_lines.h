@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "carving/fan_line.h"
+#include "carving/inner_mass.h"
 #include "pieces/containment.h"
 #include "pieces/whole_body.h"
 
@@ -54,7 +55,7 @@ class WholeBodyLines {
 
   /// No more than what the lines of a column have of collisions in the mean, under N(0, 1):
   /// certain. Those with one member there are counted.
-  double leastOn(const Column& column, const Touch& touch);
+  double leastOn(const Column& column, const Touch& touch) const;
 
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
   double massOn(const Eigen::Vector2d& u, const LeftOut& negligible);
@@ -66,12 +67,13 @@ class WholeBodyLines {
  private:
   struct Member {
     Member(WhitenedFan whitened, int its_index)
-        : fan(std::move(whitened)), line(fan), index(its_index) {}
+        : fan(std::move(whitened)), line(fan), inner(fan), index(its_index) {}
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
 
     WhitenedFan fan;
     FanLine line;
+    InnerMass inner;
     int index;
   };
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What lines along the first axis have of a convex mesh, put to one point of the other one.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "carving/node_spans.h"
+#include "pieces/whitened_fan.h"
+
+namespace fcl_prob::detail {
+
+class InnerMass {
+ public:
+  /// Keeps a reference to the fan.
+  explicit InnerMass(const WhitenedFan& fan);
+
+  /// No more than what the lines of a column have of P put to a point, under N(0, 1), in the mean:
+  /// certain but for the rounding of the sum.
+  double of(const Column& column, const Eigen::Vector3d& point) const;
+
+ private:
+  double leftOf(int face, const Eigen::Vector3d& from) const;
+  double widthOf(int face, const Eigen::Vector2d& half) const;
+  std::vector<int> endsWithin(const std::vector<int>& faces, const Eigen::Vector3d& from,
+                              const Eigen::Vector2d& half) const;
+  LineSpan within(const std::vector<int>& faces, const Eigen::Vector3d& from,
+                  const Eigen::Vector2d& half) const;
+
+  const WhitenedFan& fan_;
+  std::vector<int> all_faces_;  ///< their indices
+};
+
+}  // namespace fcl_prob::detail
