@@ -14,9 +14,6 @@ namespace {
 constexpr int kMostSurfaceDepth = 150;
 constexpr std::size_t kMostSurfaceBoxes = 20000;
 
-/// Of the error of all rules, next to the mass.
-constexpr double kSurfaceTarget = 8e-8;
-constexpr double kSurfaceEnough = 4.5e-7;
 constexpr int kSurfaceAttempts = 6;
 
 constexpr double kInverseTwoPi = kInverseSqrtTwoPi * kInverseSqrtTwoPi;
@@ -136,9 +133,11 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
     return;
   }
   const PatchCell cell(patch, box, farNormal(patch, box));
-  const double all = volumeOf(box) * supremumOf(cell.bound(ComplexBox(box))) * kBoundSlack;
+  const PartBound real = cell.bound(ComplexBox(box));
+  const double all = volumeOf(box) * supremumOf(real) * kBoundSlack;
   if (all <= target || is_last) {
     sum_.error += kInverseTwoPi * all + kFluxUnderflow;
+    if (displacement_ > 0.0) sum_.error += kInverseTwoPi * layerOver(cell, box, real);
     if (!(all < kInfinity)) sum_.error = kInfinity;
     return;
   }
@@ -153,6 +152,18 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
     evaluate(patch, cell, box, plan.points);
   }
 }
+
+/// What a layer as thick as the displacement weighs at the most, but for 1 / 2π: φ(z) is no more
+/// than (z + 1) Q(z).
+double SurfaceCubature::layerOver(const PatchCell& cell, const ParameterBox& box,
+                                  const PartBound& real) const {
+  const PatchRounding& lengths = cell.rounding();
+  const double area = lengths.first_length * lengths.second_length * volumeOf(box);
+  const PartBound field{1.0, real.distance, real.growth, real.reach};
+  return layerAt(std::min(real.reach, kFarthestPoint)) * area * supremumOf(field);
+}
+
+double SurfaceCubature::layerAt(double reach) const { return 2.2 * (reach + 1.0) * displacement_; }
 
 // Where nothing is known, the normals tell why: near a pole they may turn along one parameter only.
 void SurfaceCubature::divideWhereBent(const SurfacePatch& patch, const ParameterBox& box,
@@ -187,26 +198,27 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
   // |∇ log F| is at most reach + 1.
   const double relative = (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach +
                           kFluxRounding + kBoxSumRounding;
-  const double of_area = rounding.first * rounding.second_length +
-                         rounding.second * rounding.first_length +
-                         kFluxRounding * rounding.first_length * rounding.second_length;
+  const double of_area =
+      rounding.first * rounding.second_length + rounding.second * rounding.first_length +
+      (kFluxRounding + layerAt(reach)) * rounding.first_length * rounding.second_length;
   sum_.mass += scale * sums.flux;
   sum_.error += scale * (sums.magnitude * relative + sums.density * of_area) + kFluxUnderflow;
   if (!(rounding.position < 1e-3)) sum_.error = kInfinity;
 }
 
 Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
-                  const Interruption& interruption) {
+                  const Interruption& interruption, const SurfaceAccuracy& accuracy) {
   const double count = static_cast<double>(surface.size()) + 30.0;
   SurfaceSum best{0.0, kInfinity};
   double about = std::clamp(guess, kUnderflow, 0.1);
   for (int attempt = 0; attempt < kSurfaceAttempts; ++attempt) {
-    SurfaceCubature cubature({kSurfaceTarget * about / count, kMostSurfaceBoxes}, interruption);
+    SurfaceCubature cubature({accuracy.target * about / count, kMostSurfaceBoxes}, interruption,
+                             accuracy.displacement);
     for (const SurfacePatch& patch : surface) cubature.add(patch);
     // Rounding stays, whatever rules leave.
     const bool stays = cubature.sum().error > 0.5 * best.error;
     if (cubature.sum().error < best.error) best = cubature.sum();
-    if (best.error <= kSurfaceEnough * best.mass || cubature.exhausted() || stays) break;
+    if (best.error <= accuracy.enough * best.mass || cubature.exhausted() || stays) break;
     // As far as it is known.
     const double most = best.mass + best.error;
     const double next = best.mass > 2.0 * best.error ? best.mass : std::min(1e-6 * about, most);

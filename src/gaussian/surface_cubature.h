@@ -32,8 +32,10 @@ struct SurfaceSum {
 class SurfaceCubature {
  public:
   /// \param interruption  outlives this; once it is due, nothing is known of what is left
-  SurfaceCubature(const CubatureLimits& limits, const Interruption& interruption)
-      : limits_(limits), interruption_(interruption) {}
+  /// \param displacement    how far the patches may be from the true surface
+  SurfaceCubature(const CubatureLimits& limits, const Interruption& interruption,
+                  double displacement = 0.0)
+      : limits_(limits), interruption_(interruption), displacement_(displacement) {}
 
   void add(const SurfacePatch& patch);
 
@@ -44,20 +46,30 @@ class SurfaceCubature {
   void addBox(const SurfacePatch& patch, const ParameterBox& box, int depth);
   void divideWhereBent(const SurfacePatch& patch, const ParameterBox& box,
                        const NormalChanges& changes, int depth);
+  double layerOver(const PatchCell& cell, const ParameterBox& box, const PartBound& real) const;
+  double layerAt(double reach) const;
   void evaluate(const SurfacePatch& patch, const PatchCell& cell, const ParameterBox& box,
                 const std::array<double, 3>& points);
 
   CubatureLimits limits_;
   const Interruption& interruption_;
+  double displacement_;
   std::size_t cells_ = 0;
   std::array<std::size_t, 3> guess_{5, 5, 5};
   SurfaceSum sum_;
+};
+
+/// What is asked of massWithin(): errors of all rules together next to the mass, tried for and
+/// enough; and how far the surface may be from the true one, which counts as error.
+struct SurfaceAccuracy {
+  double target = 8e-8, enough = 4.5e-7;
+  double displacement = 0.0;
 };
 
 /// The mass within a closed surface that goes once around what it encloses, as far as cubature and
 /// the rounding of its terms tell: lower may be negative.
 /// \param guess  of the mass; not too small. What it is wrong by costs time only.
 Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
-                  const Interruption& interruption);
+                  const Interruption& interruption, const SurfaceAccuracy& accuracy = {});
 
 }  // namespace fcl_prob::detail

@@ -59,12 +59,12 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
     known = ballMass(*ball, displacement);
     if (known.width() <= kSandwichWidth * known.upper) return known;
   }
-  if (frame.rank == 3 && isRoundedPair(a, b)) {
+  if (frame.rank >= 2 && isRoundedPair(a, b)) {
     const RoundedEffort effort{false, interruption};
     known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
-  if (frame.rank == 3 && isEllipsoidWithPolytope(a, b)) {
+  if (frame.rank >= 2 && isEllipsoidWithPolytope(a, b)) {
     known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, interruption));
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }

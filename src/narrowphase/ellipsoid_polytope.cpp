@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "gaussian/rounded_polytope_mass.h"
+#include "gaussian/rounded_section_mass.h"
 #include "geometry/exact_sum.h"
 #include "narrowphase/long_whitening.h"
 
@@ -57,7 +58,7 @@ Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a
                              const GaussianDisplacement& displacement,
                              const Interruption& interruption) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 3) return {0.0, 1.0};
+  if (!frame.fits || frame.rank < 2) return {0.0, 1.0};
   const bool first = ellipsoidOf(a) != nullptr;
   const SupportShape& ellipsoid = first ? *ellipsoidOf(a) : *ellipsoidOf(b);
   const LongVector3 semi_axes = ellipsoid.semi_axes.diagonal().cast<long double>();
@@ -81,8 +82,13 @@ Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a
   body.error = kCornerRounding * size +
                mesh.slack * static_cast<double>(to_ball.norm()) * (1.0 + kEpsilon) +
                kPlaceRounding * static_cast<double>(body.origin.norm());
-  const LongMatrix3 whitening =
-      longWhitening(displacement) * rotation * LongMatrix3(semi_axes.asDiagonal());
+  const LongMatrix3 from_ball = rotation * LongMatrix3(semi_axes.asDiagonal());
+  if (frame.rank == 2) {
+    const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
+    const MovingAxes axes{longInverseAxes(displacement) * from_ball, deviations, frame.rank};
+    return roundedSectionMass(body, axes, interruption);
+  }
+  const LongMatrix3 whitening = longWhitening(displacement) * from_ball;
   return roundedPolytopeMass(body, whitening, {false, interruption}).mass;
 }
 

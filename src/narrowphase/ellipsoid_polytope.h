@@ -12,8 +12,9 @@ namespace fcl_prob::detail {
 /// Whether one body is an ellipsoid and the other one a polytope.
 bool isEllipsoidWithPolytope(const ConvexBody& a, const ConvexBody& b);
 
-/// Mass of such a pair under a displacement of rank 3; as roundedPolytopeMass() has it, in the
-/// linear image of the world in which the ellipsoid is the unit ball. \throws as pairFrame() does
+/// Mass of such a pair under a displacement of rank 2 or 3; as roundedSectionMass() and
+/// roundedPolytopeMass() have it, in the linear image of the world in which the ellipsoid is the
+/// unit ball. \throws as pairFrame() does
 Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
                              const ConvexBody& b, const fcl::Transform3d& pose_b,
                              const GaussianDisplacement& displacement,

@@ -8,14 +8,17 @@
 
 namespace fcl_prob::detail {
 
-/// D⁻¹ Q⁻¹ of a displacement Q D ξ of rank 3 whose axes Q are a rotation to rounding: Q⁻¹ is
-/// (2 - QᵀQ) Qᵀ but for the square of that.
-inline LongMatrix3 longWhitening(const GaussianDisplacement& displacement) {
+/// Q⁻¹ of the axes Q of a displacement, which are a rotation to rounding: (2 - QᵀQ) Qᵀ but for the
+/// square of that.
+inline LongMatrix3 longInverseAxes(const GaussianDisplacement& displacement) {
   const LongMatrix3 axes = displacement.axes().cast<long double>();
-  const LongMatrix3 inverse =
-      (2.0L * LongMatrix3::Identity() - axes.transpose() * axes) * axes.transpose();
+  return (2.0L * LongMatrix3::Identity() - axes.transpose() * axes) * axes.transpose();
+}
+
+/// D⁻¹ Q⁻¹ of a displacement Q D ξ of rank 3.
+inline LongMatrix3 longWhitening(const GaussianDisplacement& displacement) {
   const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
-  return deviations.cwiseInverse().asDiagonal() * inverse;
+  return deviations.cwiseInverse().asDiagonal() * longInverseAxes(displacement);
 }
 
 }  // namespace fcl_prob::detail

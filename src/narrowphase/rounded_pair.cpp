@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/power_of_two.h"
 #include "cobstacle/minkowski_sum.h"
+#include "gaussian/rounded_section_mass.h"
 #include "geometry/exact_sum.h"
 #include "narrowphase/long_whitening.h"
 
@@ -127,7 +128,7 @@ RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pos
                                 const GaussianDisplacement& displacement,
                                 const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 3) return {};
+  if (!frame.fits || frame.rank < 1) return {};
   const bool by_centre = a.set().rounded() && b.set().rounded();
   const double size = a.set().size() + b.set().size();
   auto core = by_centre
@@ -148,6 +149,11 @@ RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pos
   body.error = core->error / unit +
                body.radius * (frame.ball_stretch + kShapeRoundings * kEpsilon) +
                kFarRounding * static_cast<double>(body.origin.norm());
+  if (frame.rank < 3) {
+    const LongVector3 deviations = displacement.standardDeviations().cast<long double>() / unit;
+    const MovingAxes axes{longInverseAxes(displacement), deviations, frame.rank};
+    return {roundedSectionMass(body, axes, effort.interruption), std::nullopt};
+  }
   const LongMatrix3 whitening = unit * longWhitening(displacement);
   const RoundedMass mass = roundedPolytopeMass(body, whitening, effort);
   RoundedPairMass result{mass.mass, std::nullopt};

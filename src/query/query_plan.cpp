@@ -27,14 +27,17 @@ struct QueryPair {
   bool haveExactMass(const GaussianDisplacement& displacement) const {
     if (!areConvex()) return false;
     if (isPolytope(typeOf(a)) && isPolytope(typeOf(b))) return true;
-    return areSpheres() || (displacement.rank() == 3 && (areRounded() || areCurved()));
+    return areSpheres() || (displacement.rank() >= 2 && (areRounded() || areEllipsoidAndFlat())) ||
+           (displacement.rank() == 3 && areCurved());
   }
 
   /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
   bool areCurved() const {
     return areConvex() && !areRounded() &&
-           (isCurvedPair(a.rootBody(), b.rootBody()) ||
-            isEllipsoidWithPolytope(a.rootBody(), b.rootBody()));
+           (isCurvedPair(a.rootBody(), b.rootBody()) || areEllipsoidAndFlat());
+  }
+  bool areEllipsoidAndFlat() const {
+    return areConvex() && isEllipsoidWithPolytope(a.rootBody(), b.rootBody());
   }
 
   /// Their C-obstacle is a polytope swept by a ball.
@@ -118,9 +121,16 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
 
 std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& displacement) {
   if (pair.areSpheres()) return "two spheres: their C-obstacle is a ball, mass by quadrature";
-  if (pair.areRounded() && displacement.rank() == 3) {
-    return "round and flat shapes: their C-obstacle is a polytope swept by a ball, mass by "
-           "quadrature";
+  if (pair.areRounded() && displacement.rank() >= 2) {
+    const std::string note =
+        "round and flat shapes: their C-obstacle is a polytope swept by a ball, ";
+    return note + (displacement.rank() == 3
+                       ? "mass by quadrature"
+                       : "mass of its section by quadrature over the boundary");
+  }
+  if (displacement.rank() == 2 && pair.areEllipsoidAndFlat()) {
+    return "an ellipsoid and flat sides: mass of their C-obstacle's section by quadrature over the "
+           "boundary";
   }
   if (displacement.rank() == 3 && pair.areCurved()) {
     return "curved shapes: mass of their C-obstacle by quadrature over its boundary";

@@ -209,7 +209,7 @@ TEST_CASE("thin boxes beside spheres have the probability of a segment") {
   }
 }
 
-TEST_CASE("rounded pairs under low ranks are enclosed as before") {
+TEST_CASE("rounded pairs under low ranks have an interval") {
   RandomBodies random(174);
   for (const GeometryPair& pair : roundedPairs(1.0, 9)) {
     for (const int rank : {1, 2}) {

@@ -221,14 +221,6 @@ TEST_CASE("rounded pairs are exact, with their gradient") {
   }
 }
 
-TEST_CASE("rounded pairs that move along two axes only are left to the partition") {
-  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.3, 0.1, 0.0});
-  const auto result = answer(fcl::Sphered(0.3), kIdentity, fcl::Boxd(0.5, 0.4, 0.3),
-                             at({0.5, 0.2, 0.1}), displacement);
-  CHECK(result.method == ProbabilityMethod::interval);
-  CHECK(result.status == ProbabilityStatus::converged);
-}
-
 TEST_CASE("the exact method integrates over the boundaries of curved shapes") {
   const fcl::Cylinderd cylinder(0.3, 0.5);
   const fcl::Ellipsoidd ellipsoid(0.3, 0.2, 0.4);
