@@ -22,10 +22,8 @@ constexpr SurfaceAccuracy kSectionAccuracy{2e-11, 2e-10};
 /// Of the mass of the box around a section.
 constexpr double kSectionGuess = 0.1;
 
-/// How often a nearest point is looked for, and what is nearer than this share of the middle's
-/// distance counts as the mean itself: both decide about speed only.
+/// How often a nearest point is looked for, which decides about speed only.
 constexpr int kNearestSteps = 40;
-constexpr long double kInsideShare = 0.02L;
 
 /// Of points of arcs, in long doubles, next to what they are made of.
 constexpr long double kSectionRounding = 0x1p-58L;
@@ -73,17 +71,38 @@ class WhitenedSection {
     return piece.centre + piece.image * (g / g.norm());
   }
 
-  /// About, by steps towards the farthest of the points (Frank and Wolfe 1956).
+  /// Whether points are all around the origin: no half turn between neighbours is free of them.
+  static bool areAround(const std::vector<LongVector3>& points) {
+    std::vector<long double> angles;
+    for (const LongVector3& p : points) angles.push_back(std::atan2(p.z(), p.y()));
+    std::sort(angles.begin(), angles.end());
+    long double widest = angles.front() + 2.0L * M_PIl - angles.back();
+    for (std::size_t k = 1; k < angles.size(); ++k) {
+      widest = std::max(widest, angles[k] - angles[k - 1]);
+    }
+    return widest < M_PIl;
+  }
+
+  static LongVector3 nearestOf(const LongVector3& from, const LongVector3& to) {
+    const LongVector3 way = to - from;
+    const long double square = way.squaredNorm();
+    const long double share =
+        square > 0.0L ? std::clamp(-from.dot(way) / square, 0.0L, 1.0L) : 0.0L;
+    return from + share * way;
+  }
+
+  /// Of the hull of points that are not around the origin, by segments between the nearest ones.
   static LongVector3 nearestOfHull(const std::vector<LongVector3>& points) {
-    LongVector3 nearest = points.front();
+    LongVector3 from = points.front(), to = from, nearest = from;
     for (int step = 0; step < kNearestSteps; ++step) {
       const LongVector3& next = *std::min_element(points.begin(), points.end(),
                                                   [&](const LongVector3& x, const LongVector3& y) {
                                                     return nearest.dot(x) < nearest.dot(y);
                                                   });
-      const LongVector3 way = next - nearest;
-      if (!(-nearest.dot(way) > 1e-3L * nearest.squaredNorm())) break;
-      nearest += std::min(1.0L, -nearest.dot(way) / way.squaredNorm()) * way;
+      if (!(nearest.dot(nearest - next) > 1e-6L * nearest.squaredNorm())) break;
+      if (nearestOf(from, next).norm() > nearestOf(to, next).norm()) from = to;
+      to = next;
+      nearest = nearestOf(from, to);
     }
     return nearest;
   }
@@ -98,11 +117,11 @@ class WhitenedSection {
                                    : LongVector3(piece.from + share * (piece.to - piece.from))));
       }
     }
-    const LongVector3 nearest = nearestOfHull(points);
+    const bool is_outside = !areAround(points);
+    const LongVector3 nearest = is_outside ? nearestOfHull(points) : LongVector3::Zero();
     LongVector3 middle = LongVector3::Zero();
     for (const LongVector3& point : points)
       middle += point / static_cast<long double>(points.size());
-    const bool is_outside = nearest.norm() > kInsideShare * middle.norm();
     LongVector3 z = is_outside ? nearest : middle;
     if (!(z.norm() > 0.0L)) z = LongVector3::UnitZ();
     z.normalize();

@@ -265,15 +265,11 @@ double skewOf(const LongMatrix3& frame) {
   return static_cast<double>(skew.cwiseAbs().maxCoeff());
 }
 
-double sizeOf(const Frustum& frustum) {
-  return std::max(frustum.bottom, frustum.top) + frustum.half_height;
-}
-
 }  // namespace
 
 double AxesSum::rounding() const {
   const double stretch = static_cast<double>(sum.map.norm());
-  const double size = 1.001 * (sizeOf(sum.frustum) + sizeOf(second));
+  const double size = 1.001 * (sum.frustum.size() + second.size());
   double ellipsoids = 0.0;
   for (const LongMatrix3& ellipsoid : sum.ellipsoids) {
     ellipsoids += static_cast<double>(ellipsoid.norm());

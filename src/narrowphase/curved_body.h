@@ -19,6 +19,9 @@ struct Frustum {
   /// A cylinder or a segment.
   bool isStraight() const { return bottom == top; }
 
+  /// No point is farther from the middle of the axis than that.
+  double size() const { return half_height + (bottom > top ? bottom : top); }
+
   /// Of the largest ball around the middle of the axis that is within.
   double inradius() const;
 };

@@ -27,10 +27,6 @@ void addFrustum(const CurvedBody& body, bool reflected, CurvedParts& parts) {
   parts.inradius += parts.sum.frustum.inradius();
 }
 
-double sizeOf(const Frustum& frustum) {
-  return frustum.half_height + std::max(frustum.bottom, frustum.top);
-}
-
 /// Reflected, with an axis of its own or, if axes are parallel, about that of the first one. Turned
 /// a little to decide ties, which counts as error.
 void addSecond(const CurvedBody& body, int attempt, CurvedParts& parts) {
@@ -42,7 +38,7 @@ void addSecond(const CurvedBody& body, int attempt, CurvedParts& parts) {
   }
   const LongVector3 first = parts.sum.frame.col(2).normalized(), second = frame.col(2).normalized();
   parts.inradius += added.inradius();
-  parts.error = 1.01 * turn.norm() * sizeOf(added);
+  parts.error = 1.01 * turn.norm() * added.size();
   if (first.cross(second).norm() > kAxesTie) {
     parts.second = added;
     parts.second_frame = frame;
@@ -50,7 +46,7 @@ void addSecond(const CurvedBody& body, int attempt, CurvedParts& parts) {
   }
   if (first.dot(second) < 0.0L) std::swap(added.bottom, added.top);
   parts.error +=
-      2.0 * kAxesTie * sizeOf(added) + 8.0 * kEpsilon * (sizeOf(parts.sum.frustum) + sizeOf(added));
+      2.0 * kAxesTie * added.size() + 8.0 * kEpsilon * (parts.sum.frustum.size() + added.size());
   parts.sum.coaxial = added;
 }
 

@@ -10,7 +10,7 @@ namespace fcl_prob::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
-using LongVector = Eigen::Matrix<long double, 3, 1>;
+using LongNormal = Eigen::Matrix<long double, 3, 1>;
 
 /// Angles that are nearer to each other are a tie; they are right to a few ε.
 constexpr double kAngleTie = 1e-13;
@@ -20,14 +20,14 @@ constexpr double kLongestTurn = 1.6;
 constexpr double kWidestGap = 1.9;
 
 /// On the edge of the half sphere, at an angle from the first axis towards the second.
-struct EdgeNode {
+struct OverlayNode {
   double angle;
   int node;
   int circle;  ///< that it is an end of, or -1
 };
 
 /// A piece of a region's boundary.
-struct Piece {
+struct RegionPiece {
   int from, to;
   int circle;
 };
@@ -35,7 +35,7 @@ struct Piece {
 class OverlayBuilder {
  public:
   explicit OverlayBuilder(const std::array<NormalCircle, 2>& circles) : circles_(circles) {
-    const LongVector a = circles[0].axis.cast<long double>().normalized(),
+    const LongNormal a = circles[0].axis.cast<long double>().normalized(),
                      b = circles[1].axis.cast<long double>().normalized();
     north_ = a.cross(b).normalized();
     first_ = a;
@@ -50,11 +50,11 @@ class OverlayBuilder {
     addEdgeNodes();
     if (!isClear() || !addCrossing()) return std::nullopt;
     for (const int k : {0, 1}) addArcs(k);
-    std::vector<EdgeNode> ends;
+    std::vector<OverlayNode> ends;
     std::copy_if(edge_.begin(), edge_.end(), std::back_inserter(ends),
-                 [](const EdgeNode& node) { return node.circle >= 0; });
+                 [](const OverlayNode& node) { return node.circle >= 0; });
     for (std::size_t k = 0; k < ends.size(); ++k) {
-      EdgeNode to = ends[(k + 1) % ends.size()];
+      OverlayNode to = ends[(k + 1) % ends.size()];
       if (k + 1 == ends.size()) to.angle += 2.0 * M_PI;
       addRegion(ends[k], to);
     }
@@ -65,14 +65,14 @@ class OverlayBuilder {
   static std::size_t index(int k) { return static_cast<std::size_t>(k); }
   const NormalCircle& circle(int k) const { return circles_[index(k)]; }
 
-  int addNode(const LongVector& normal, bool on_edge, int pole = -1) {
+  int addNode(const LongNormal& normal, bool on_edge, int pole = -1) {
     const Vector upper = normal.cast<double>();
-    const LongVector mirrored = normal - 2.0L * normal.dot(north_) * north_;
+    const LongNormal mirrored = normal - 2.0L * normal.dot(north_) * north_;
     overlay_.nodes.push_back({{upper, on_edge ? upper : Vector(mirrored.cast<double>())}, pole});
     return static_cast<int>(overlay_.nodes.size()) - 1;
   }
 
-  LongVector onEdge(double angle) const {
+  LongNormal onEdge(double angle) const {
     const auto x = static_cast<long double>(angle);
     return std::cos(x) * first_ + std::sin(x) * aside_;
   }
@@ -83,10 +83,10 @@ class OverlayBuilder {
   void addEdgeNode(double angle, int circle, int pole) {
     const double whole = 2.0 * M_PI;
     const double from_zero = angle < 0.0 ? angle + whole : angle < whole ? angle : angle - whole;
-    LongVector normal = onEdge(angle);
+    LongNormal normal = onEdge(angle);
     if (pole >= 0) {
-      const LongVector axis = this->circle(pole).axis.cast<long double>();
-      normal = normal.dot(axis) > 0.0L ? axis : LongVector(-axis);
+      const LongNormal axis = this->circle(pole).axis.cast<long double>();
+      normal = normal.dot(axis) > 0.0L ? axis : LongNormal(-axis);
     }
     edge_.push_back({from_zero, addNode(normal, true, pole), circle});
   }
@@ -103,7 +103,7 @@ class OverlayBuilder {
       addEdgeNode(axis - away, k, -1);
     }
     std::sort(edge_.begin(), edge_.end(),
-              [](const EdgeNode& x, const EdgeNode& y) { return x.angle < y.angle; });
+              [](const OverlayNode& x, const OverlayNode& y) { return x.angle < y.angle; });
   }
 
   bool isClear() const {
@@ -118,7 +118,7 @@ class OverlayBuilder {
   /// Circles meet if their ends on the edge alternate: at n·A and n·B as they are to be, |n| = 1.
   bool addCrossing() {
     std::vector<int> order;
-    for (const EdgeNode& node : edge_) {
+    for (const OverlayNode& node : edge_) {
       if (node.circle >= 0) order.push_back(node.circle);
     }
     if (order[0] == order[1] || order[1] == order[2]) return true;
@@ -133,11 +133,11 @@ class OverlayBuilder {
   }
 
   /// Across the axis, towards where the circle begins on the edge.
-  LongVector sideways(int k) const {
+  LongNormal sideways(int k) const {
     return north_.cross(circle(k).axis.cast<long double>()).normalized();
   }
 
-  LongVector onCircle(int k, double turn) const {
+  LongNormal onCircle(int k, double turn) const {
     const auto x = static_cast<long double>(turn);
     return static_cast<long double>(circle(k).lift) * circle(k).axis.cast<long double>() +
            static_cast<long double>(circle(k).cosine) *
@@ -146,8 +146,8 @@ class OverlayBuilder {
 
   /// The end of a circle on the edge: the first one if `sign` is 1.
   int endOf(int k, double sign) const {
-    for (const EdgeNode& node : edge_) {
-      const LongVector normal = overlay_.normal(node.node, 0).cast<long double>();
+    for (const OverlayNode& node : edge_) {
+      const LongNormal normal = overlay_.normal(node.node, 0).cast<long double>();
       if (node.circle == k && normal.dot(sideways(k)) * sign > 0.0L) return node.node;
     }
     return -1;
@@ -158,7 +158,7 @@ class OverlayBuilder {
     int crossing = -1;
     if (overlay_.crossing) {
       crossing = *overlay_.crossing;
-      const LongVector normal = overlay_.normal(crossing, 0).cast<long double>();
+      const LongNormal normal = overlay_.normal(crossing, 0).cast<long double>();
       middle = static_cast<double>(std::atan2(normal.dot(north_), normal.dot(sideways(k))));
     } else {
       crossing = addNode(onCircle(k, M_PI_2), false);
@@ -188,7 +188,7 @@ class OverlayBuilder {
   }
 
   /// From one node of a circle to another, by their places along it.
-  void addPieces(int k, std::size_t from, std::size_t to, std::vector<Piece>& pieces) const {
+  void addPieces(int k, std::size_t from, std::size_t to, std::vector<RegionPiece>& pieces) const {
     const auto& nodes = along_circle_[index(k)];
     for (std::size_t i = from; i != to;) {
       const std::size_t next = from < to ? i + 1 : i - 1;
@@ -197,15 +197,15 @@ class OverlayBuilder {
     }
   }
 
-  std::size_t placeOf(const EdgeNode& end) const {
+  std::size_t placeOf(const OverlayNode& end) const {
     const auto& nodes = along_circle_[index(end.circle)];
     return nodes.front() == end.node ? 0 : nodes.size() - 1;
   }
 
   /// From one end of a circle on the edge to the next one. What is above the edge: back along the
   /// circles.
-  void addRegion(const EdgeNode& from, const EdgeNode& to) {
-    std::vector<Piece> pieces;
+  void addRegion(const OverlayNode& from, const OverlayNode& to) {
+    std::vector<RegionPiece> pieces;
     const std::size_t middle_from = middle_[index(from.circle)],
                       middle_to = middle_[index(to.circle)];
     addPieces(to.circle, placeOf(to), middle_to, pieces);
@@ -219,10 +219,10 @@ class OverlayBuilder {
   }
 
   /// Poles, ends included, with nodes between two of them and where gaps are wide; at least one.
-  std::vector<int> apexesBetween(const EdgeNode& from, const EdgeNode& to) {
-    std::vector<EdgeNode> poles;
+  std::vector<int> apexesBetween(const OverlayNode& from, const OverlayNode& to) {
+    std::vector<OverlayNode> poles;
     for (const double turn : {0.0, 2.0 * M_PI}) {
-      for (EdgeNode node : edge_) {
+      for (OverlayNode node : edge_) {
         node.angle += turn;
         if (overlay_.poleAt(node.node) >= 0 && node.angle >= from.angle && node.angle <= to.angle) {
           poles.push_back(node);
@@ -247,11 +247,11 @@ class OverlayBuilder {
 
   /// The last apex has the pieces up to the turn, the first one those after it, others triangles
   /// with the node at the turn.
-  void addFans(const std::vector<int>& apexes, const std::vector<Piece>& pieces, std::size_t turn,
-               const std::array<bool, 2>& above) {
+  void addFans(const std::vector<int>& apexes, const std::vector<RegionPiece>& pieces,
+               std::size_t turn, const std::array<bool, 2>& above) {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const int apex = k < turn ? apexes.back() : apexes.front();
-      const Piece& piece = pieces[k];
+      const RegionPiece& piece = pieces[k];
       const int pole = overlay_.poleAt(apex);
       // Of a circle through the apex there is nothing between them.
       if (piece.circle >= 0 && pole == 1 - piece.circle && endsAtPoles(piece.circle)) continue;
@@ -269,11 +269,11 @@ class OverlayBuilder {
   }
 
   const std::array<NormalCircle, 2>& circles_;
-  LongVector first_, aside_, north_;  ///< unit: along A, across that towards B, along A × B
+  LongNormal first_, aside_, north_;  ///< unit: along A, across that towards B, along A × B
   std::array<long double, 2> along_;  ///< B along the first two
   double angle_;                      ///< from A to B
   bool is_square_;
-  std::vector<EdgeNode> edge_;
+  std::vector<OverlayNode> edge_;
   std::array<std::vector<int>, 2> along_circle_;  ///< nodes, from one end to the other
   std::array<std::size_t, 2> middle_{};           ///< the place of the crossing or middle there
   NormalOverlay overlay_;
