@@ -409,6 +409,26 @@ TEST_CASE("rare events over poses agree with the estimate, and with a closed for
   CHECK(*far.estimate + 5.0 * *far.standard_error >= *exact.lower);
 }
 
+TEST_CASE("rare events over poses of low rank agree with counting", "[slow]") {
+  RandomBodies random(21);
+  const PreparedPoseQuery query = boxes();
+  const fcl::Transform3d pose_b = poseAt(0.8, 0.1, 0.1);
+  for (const int rank : {1, 2, 3, 4, 5}) {
+    const PoseError error(randomPoseCovariance(random, rank, 0.05, 0.3));
+    ProbabilityRequest counting = poseRequest(Method::monte_carlo, 1e-9);
+    counting.samples = 20'000;
+    const auto counted = answer(query, kIdentity, pose_b, error, counting);
+    ProbabilityRequest request = poseRequest(Method::rare_event, 0.04);
+    request.absolute_tolerance = 0.005;
+    request.samples = 1'000;
+    const auto rare = answer(query, kIdentity, pose_b, error, request);
+    CAPTURE(rank, *counted.estimate, *rare.estimate, *rare.standard_error, rare.plan);
+    CHECK(rare.method == Method::rare_event);
+    CHECK(std::fabs(*rare.estimate - *counted.estimate) <=
+          5.0 * std::hypot(*rare.standard_error, *counted.standard_error));
+  }
+}
+
 TEST_CASE("what cannot be answered over poses is refused, and the result untouched") {
   const PreparedPoseQuery query = boxes();
   const auto error = PoseError::fromStandardDeviations({0.1, 0.1, 0.1}, {0.1, 0.2, 0.1});
