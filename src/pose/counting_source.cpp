@@ -35,8 +35,10 @@ constexpr double kExpectedGain = 30.0;
 constexpr double kGainOfPoints = 7.0;
 
 // Rare samples of large weight show in the spread of sets of some length only: this share of what
-// counting at random takes, and no more than so many points.
-constexpr double kLeastShare = 0.012;
+// counting at random takes before a first look, and before an answer; and no more than so many
+// points.
+constexpr double kFirstShare = 0.012;
+constexpr double kLeastShare = 0.04;
 constexpr std::size_t kMostFirstPoints = 256;
 
 // Drawn beyond what the last look says is needed.
@@ -167,24 +169,29 @@ CountingSource::Counted CountingSource::countNear(const Eigen::VectorXd& across,
   return {wrong * drawn.weightAt(s), 0.0, hit};
 }
 
-std::size_t CountingSource::firstPoints() const {
+std::size_t CountingSource::pointsOfShare(double share) const {
   if (!model_) return kFirstPoints;
   const double tolerance = request_.toleranceAt(mass_);
   const double counting = mass_ * (1.0 - mass_) / (tolerance * tolerance);
   std::size_t points = kFirstPoints;
-  while (points < kMostFirstPoints &&
-         static_cast<double>(points * kShifts) < kLeastShare * counting) {
+  while (points < kMostFirstPoints && static_cast<double>(points * kShifts) < share * counting) {
     points *= 2;
   }
   return points;
 }
 
+std::size_t CountingSource::leastPoints() const {
+  return pointsOfShare(is_close_ ? kLeastShare : kFirstShare);
+}
+
+bool CountingSource::isAnswer() const { return mean_ && points_ >= leastPoints(); }
+
 // The sequence is even where its length is a power of two, and nearly so at half of the way.
 std::size_t CountingSource::pointsTo(double standard_error) const {
-  if (!mean_) return firstPoints();
+  if (!mean_) return pointsOfShare(kFirstShare);
   const double ratio = mean_->standard_error / standard_error;
   const double halves = std::clamp(2.0 * kPointReserve * ratio * ratio, 3.0, 8.0);
-  return points_ * static_cast<std::size_t>(std::ceil(halves)) / 2;
+  return std::max(leastPoints(), points_ * static_cast<std::size_t>(std::ceil(halves)) / 2);
 }
 
 void CountingSource::draw(double standard_error) {

@@ -37,7 +37,7 @@ class CountingSource : public EstimateSource {
 
   void draw(double standard_error) override;
   std::optional<EstimatedMean> mean() const override { return mean_; }
-  bool isAnswer() const override { return mean_.has_value(); }
+  bool isAnswer() const override;
   double costOfFirst() const override;
   double costTo(double standard_error, double probability) const override;
   void describe(ProbabilityResult& result) const override;
@@ -58,7 +58,8 @@ class CountingSource : public EstimateSource {
   bool collidesAt(const Eigen::VectorXd& x) const;
   void findBoundary(double standard_error);
   double varianceNear() const;
-  std::size_t firstPoints() const;
+  std::size_t pointsOfShare(double share) const;
+  std::size_t leastPoints() const;
   std::size_t pointsTo(double standard_error) const;
   CountedShifts countAt(std::size_t point) const;
   Counted countOne(const Eigen::VectorXd& uniform) const;
