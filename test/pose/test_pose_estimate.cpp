@@ -412,7 +412,7 @@ TEST_CASE("rare events over poses agree with the estimate, and with a closed for
 TEST_CASE("rare events over poses of low rank agree with counting", "[slow]") {
   RandomBodies random(21);
   const PreparedPoseQuery query = boxes();
-  const fcl::Transform3d pose_b = poseAt(0.8, 0.1, 0.1);
+  const fcl::Transform3d pose_b = at(0.8, 0.1, 0.1);
   for (const int rank : {1, 2, 3, 4, 5}) {
     const PoseError error(randomPoseCovariance(random, rank, 0.05, 0.3));
     ProbabilityRequest counting = poseRequest(Method::monte_carlo, 1e-9);
