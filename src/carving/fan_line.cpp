@@ -12,9 +12,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-// Faces that are nearly along the lines tell little of places on them.
-constexpr double kLeastSlope = 1e-3;
-
 // Planes that the search for a contact begins with, if they tell most.
 constexpr std::size_t kRememberedFaces = 6;
 

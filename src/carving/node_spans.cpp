@@ -9,9 +9,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-// Faces that are nearly along the lines tell little of places on them.
-constexpr double kLeastSlope = 1e-3;
-
 // Nor does one face more that is nearly parallel to another one.
 constexpr double kLikeness = 0.999;
 

@@ -11,6 +11,9 @@
 
 namespace fcl_prob::detail {
 
+/// Faces that are nearer to along the lines tell little of places on them.
+inline constexpr double kLeastSlope = 1e-3;
+
 /// A part of a line: lo <= y_0 <= hi.
 struct LineSpan {
   double lo;
