@@ -17,6 +17,9 @@ namespace {
 constexpr std::size_t kFirstColumns = 16;
 constexpr std::size_t kMostColumns = 256;
 
+// The more members there are, the longer a column takes: then so many are the most.
+constexpr std::size_t kMostColumnsOfGroup = 32;
+
 // The distance of P from an end of the interval falls about with these powers of the number of
 // columns.
 constexpr double kConvergenceBelow = 0.6;
@@ -41,7 +44,10 @@ struct KnownColumn {
 class ColumnLooks {
  public:
   ColumnLooks(WholeBodyLines& lines, double threshold)
-      : lines_(lines), threshold_(threshold), columns_(lines) {
+      : lines_(lines),
+        threshold_(threshold),
+        most_columns_(lines.memberCount() == 1 ? kMostColumns : kMostColumnsOfGroup),
+        columns_(lines) {
     columns_.divideByMass(kFirstColumns);
   }
 
@@ -52,8 +58,9 @@ class ColumnLooks {
       look(bounds);
       const bool is_decided = bounds.bounds.lower > threshold_ || bounds.bounds.upper < threshold_;
       // Columns that know all of their mass are not divided.
-      const bool may_be_divided = bounds.columns > before && 2 * bounds.columns <= kMostColumns;
-      if (is_decided || !may_be_divided || !(columnsToDecide(bounds) < kMostColumns)) {
+      const bool may_be_divided = bounds.columns > before && 2 * bounds.columns <= most_columns_;
+      if (is_decided || !may_be_divided ||
+          !(columnsToDecide(bounds) < static_cast<double>(most_columns_))) {
         return bounds;
       }
       columns_.divide(2 * bounds.columns, kGapOfHalf);
@@ -119,6 +126,7 @@ class ColumnLooks {
 
   WholeBodyLines& lines_;
   double threshold_;
+  std::size_t most_columns_;
   LineColumns columns_;
   std::unordered_map<int, KnownColumn> known_;
 };

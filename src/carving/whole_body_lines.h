@@ -37,6 +37,8 @@ class WholeBodyLines {
                                             const Eigen::Matrix3d& matrix,
                                             const SolidContact* solids);
 
+  std::size_t memberCount() const { return members_.size(); }
+
   /// No less than what any line { (s, u) } of a column has of collisions, under N(0, 1): certain.
   double mostOn(const Column& column);
 

@@ -227,7 +227,8 @@ std::optional<ColumnBounds> lookAtColumns(const PartitionObject& a, const Partit
   return columns;
 }
 
-// Boxes seldom decide where P is as near to the threshold as this share of it.
+// Boxes seldom decide where P is as near to the threshold as this share of it, unless there are
+// many members.
 constexpr double kNearThreshold = 0.5;
 
 bool isNearThreshold(const ColumnBounds& columns, double threshold) {
@@ -283,7 +284,8 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
         lookAtColumns(a, b, displacement, frame, solids.get(), request, known, result);
     clock.finish("columns");
     if (result.status == ProbabilityStatus::decided) return result;
-    if (columns && isNearThreshold(*columns, *request.threshold)) {
+    const bool is_pair = a.parts.size() == 1 && b.parts.size() == 1;
+    if (is_pair && columns && isNearThreshold(*columns, *request.threshold)) {
       if (carved()) return result;
       if (claim_observer) claim_observer->frame(frame.whitening, displacement);
       may_be_carved = false;
