@@ -28,6 +28,9 @@ constexpr int kNearestSteps = 40;
 /// Of points of arcs, in long doubles, next to what they are made of.
 constexpr long double kSectionRounding = 0x1p-58L;
 
+/// Smaller sections than this, next to their rounding, are none that is known.
+constexpr double kLeastPerimeter = 100.0;
+
 /// Of a patch's constants, in doubles.
 constexpr double kStoredRounding = 4.0 * kEpsilon;
 
@@ -55,6 +58,15 @@ class WhitenedSection {
 
   /// How far the patches may be from the section, whitened.
   double rounding() const { return kStoredRounding * reach_; }
+
+  /// No more than the length of the boundary, whitened.
+  double perimeter() const {
+    double length = 0.0;
+    for (const SectionPiece& piece : section_.pieces) {
+      length += (mapped(piece.to) - mapped(piece.from)).norm();
+    }
+    return length;
+  }
 
   /// About the mass of the prism, rather too small than too large.
   double guess() const {
@@ -185,6 +197,8 @@ Bounds planeMass(const RoundedSection& section, const MovingAxes& axes, const Lo
   if (section.pieces.empty()) return {0.0, 0.0};
   WhitenedSection whitened(section, axes, origin);
   const std::vector<SurfacePatch> patches = whitened.patches();
+  // Of a layer of thickness δ around a convex region of perimeter L, π δ² is next to 2.2 δ L.
+  if (!(whitened.perimeter() > kLeastPerimeter * whitened.rounding())) return {0.0, 1.0};
   SurfaceAccuracy accuracy = kSectionAccuracy;
   accuracy.displacement = whitened.rounding();
   const Bounds prism = massWithin(patches, whitened.guess(), interruption, accuracy);
