@@ -17,36 +17,16 @@
 #include <random>
 
 #include "catch.h"
+#include "exact_cases.h"
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/monte_carlo.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
-#include "poses.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 using Catch::Matchers::Contains;
-
-namespace {
-
-ProbabilityResult answer(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
-                         const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
-                         const GaussianDisplacement& displacement,
-                         const ProbabilityRequest& request = {}) {
-  ProbabilityResult result;
-  collisionProbability(&a, pose_a, &b, pose_b, displacement, request, result);
-  return result;
-}
-
-bool planMentions(const ProbabilityResult& result, const std::string& text) {
-  for (const std::string& note : result.plan) {
-    if (note.find(text) != std::string::npos) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 TEST_CASE("two boxes are answered exactly, from certain to 1e-200") {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.8, Eigen::Vector3d(2, -1, 1).normalized()));

@@ -9,30 +9,13 @@
 #include <string>
 
 #include "catch.h"
+#include "exact_cases.h"
 #include "fcl_prob/fcl_prob.h"
 
 using namespace fcl_prob;
+using namespace fcl_prob_test;
 
 namespace {
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
-
-fcl::Transform3d at(const Eigen::Vector3d& p) { return fcl::Transform3d(Eigen::Translation3d(p)); }
-
-ProbabilityResult answer(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
-                         const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
-                         const GaussianDisplacement& displacement,
-                         const ProbabilityRequest& request = {}) {
-  ProbabilityResult result;
-  collisionProbability(&a, pose_a, &b, pose_b, displacement, request, result);
-  return result;
-}
-
-bool planMentions(const ProbabilityResult& result, const std::string& text) {
-  for (const std::string& note : result.plan) {
-    if (note.find(text) != std::string::npos) return true;
-  }
-  return false;
-}
 
 TEST_CASE("swept polytopes that move along two axes are integrated over their section's boundary") {
   const fcl::Sphered sphere(0.3);
