@@ -132,7 +132,7 @@ void checkValid(const ProbabilityResult& result, const Reference& reference) {
 
 struct Thrown {};
 
-ProbabilityResult marked() {
+ProbabilityResult markedResult() {
   ProbabilityResult result;
   result.estimate = 42.0;
   return result;
@@ -202,7 +202,7 @@ TEST_CASE("an exception of on_progress comes through and leaves the result alone
     for (int i = 0; i < 2; ++i) {
       ProbabilityRequest request = requestWithin(kFine);
       request.on_progress = throwingAt(random.integer(1, reference.calls));
-      ProbabilityResult result = marked();
+      ProbabilityResult result = markedResult();
       CHECK_THROWS_AS(ask(request, result), Thrown);
       CHECK(result.estimate == 42.0);
       CHECK_FALSE(result.lower);
@@ -229,7 +229,7 @@ TEST_CASE("interrupted sampling has a valid confidence interval", "[query]") {
         CHECK(result.confidence_interval.value().lower <= reference.bounds.upper);
         CHECK(result.confidence_interval.value().upper >= reference.bounds.lower);
         request.on_progress = throwingAt(last);
-        result = marked();
+        result = markedResult();
         CHECK_THROWS_AS(ask(request, result), Thrown);
         CHECK(result.estimate == 42.0);
       }
@@ -279,7 +279,7 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
       CHECK(calls == last);
       check(result, ProbabilityStatus::cancelled);
       request.on_progress = throwingAt(last);
-      result = marked();
+      result = markedResult();
       CHECK_THROWS_AS(ask(request, result), Thrown);
       CHECK(result.estimate == 42.0);
     }
