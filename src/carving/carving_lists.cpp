@@ -23,8 +23,7 @@ bool addPlane(const CellPolytope& body, const ObstaclePlane& plane, ObstacleList
 }
 
 // The first face from `from` on whose value is not at most limits[f] + `by`, or `count`. Sixteen
-// are looked at at once, since few are above: a branch for each took a fifth of an interval's time.
-// (The sign of a difference is exact.)
+// are looked at at once, since few are above. (The sign of a difference is exact.)
 int firstAbove(const double* values, const double* limits, double by, int from, int count) {
   constexpr int kAtOnce = 16;
   using Values = Eigen::Map<const Eigen::Array<double, kAtOnce, 1>>;

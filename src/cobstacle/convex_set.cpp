@@ -70,20 +70,15 @@ ConvexMesh hullOf(const SupportShape& shape, const Points& ball, double scale) {
   return makeConvexMesh(points);
 }
 
-Points cornersOf(const Zonotope& zonotope) {
-  Points corners;
-  const int count = zonotope.generatorCount();
-  for (unsigned signs = 0; signs < 1u << count; ++signs) {
-    Eigen::Vector3d corner = zonotope.centre();
-    for (int i = 0; i < count; ++i) {
-      corner += ((signs >> i) & 1u ? 1.0 : -1.0) * zonotope.generator(i);
-    }
-    corners.push_back(corner);
-  }
-  return corners;
-}
-
 }  // namespace
+
+SupportShape supportShape(const RoundedZonotope& body) {
+  SupportShape shape{body.core.corners(), 0, Eigen::Matrix3d::Zero()};
+  if (!(body.radius > 0.0)) return shape;
+  shape.swept = static_cast<int>(shape.points.size());
+  shape.semi_axes = body.radius * Eigen::Matrix3d::Identity();
+  return shape;
+}
 
 ConvexSet::ConvexSet(SupportShape shape, int resolution)
     : forms_(formsOf(std::move(shape), resolution)) {}
@@ -101,17 +96,12 @@ ConvexSet::Forms ConvexSet::formsOf(SupportShape shape, int resolution) {
 }
 
 ConvexSet::Forms ConvexSet::formsOf(const RoundedZonotope& body, int resolution) {
-  const Points corners = cornersOf(body.core);
-  if (body.radius != 0.0) {
-    const SupportShape shape{corners, static_cast<int>(corners.size()),
-                             body.radius * Eigen::Matrix3d::Identity()};
-    return formsOf(shape, resolution);
-  }
+  if (body.radius != 0.0) return formsOf(supportShape(body), resolution);
   if (FaceSet faces; body.core.generatorCount() == 3 && body.core.faces(faces)) {
     const ConvexPolytope box = toPolytope(faces);
     if (box.faces.size() == 6) return {std::nullopt, makeConvexMesh(box), {}};
   }
-  return {std::nullopt, makeConvexMesh(corners), {}};
+  return {std::nullopt, makeConvexMesh(body.core.corners()), {}};
 }
 
 const ConvexSet::Forms& ConvexSet::forms() const {

@@ -66,4 +66,7 @@ class ConvexSet {
   mutable Forms forms_;  // of a rounded zonotope: from the first call of forms() on
 };
 
+/// A box or a rounding of one by its support function.
+SupportShape supportShape(const RoundedZonotope& body);
+
 }  // namespace fcl_prob::detail

@@ -54,6 +54,18 @@ void Zonotope::addGenerator(const Eigen::Vector3d& generator) {
   generators_[count_++] = generator;
 }
 
+std::vector<Eigen::Vector3d> Zonotope::corners() const {
+  std::vector<Eigen::Vector3d> corners;
+  for (unsigned signs = 0; signs < 1u << count_; ++signs) {
+    Eigen::Vector3d corner = centre_;
+    for (int i = 0; i < count_; ++i) {
+      corner += ((signs >> i) & 1u ? 1.0 : -1.0) * generators_[i];
+    }
+    corners.push_back(corner);
+  }
+  return corners;
+}
+
 Zonotope Zonotope::mapped(const Eigen::Matrix3d& map) const {
   Zonotope image(map * centre_);
   image.count_ = count_;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "cobstacle/face_set.h"
 
@@ -32,6 +33,9 @@ class Zonotope {
   void translate(const Eigen::Vector3d& by) { centre_ += by; }
   int generatorCount() const { return count_; }
   const Eigen::Vector3d& generator(int i) const { return generators_[i]; }
+
+  /// The points centre ± g_1 ± ... that it is the hull of: of few generators, all are corners.
+  std::vector<Eigen::Vector3d> corners() const;
 
   /// The image under a linear map. (Keeps the generators apart even if the map makes two parallel.)
   Zonotope mapped(const Eigen::Matrix3d& map) const;

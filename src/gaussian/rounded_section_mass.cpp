@@ -142,11 +142,10 @@ class WhitenedSection {
     turn.row(2) << 0.0L, z.y(), z.z();
     map_ = turn * map_;
     nearest_ = is_outside ? static_cast<double>(nearest.norm()) : 0.0;
-    const LongMatrix3& rotation = turn;
-    LongVector3 least = rotation * points.front(), most = least;
+    LongVector3 least = turn * points.front(), most = least;
     for (const LongVector3& point : points) {
-      least = least.cwiseMin(rotation * point);
-      most = most.cwiseMax(rotation * point);
+      least = least.cwiseMin(turn * point);
+      most = most.cwiseMax(turn * point);
     }
     width_ = static_cast<double>(most.y() - least.y());
     height_ = static_cast<double>(most.z() - least.z());
@@ -243,7 +242,7 @@ Bounds twoDimensionalMass(const RoundedPolytope& body, const RoundedParts& parts
 
 Bounds roundedSectionMass(const RoundedPolytope& body, const MovingAxes& axes,
                           const Interruption& interruption) {
-  if (axes.rank != 2 || body.core.vertices.size() < 2) return {0.0, 1.0};
+  if (body.core.vertices.size() < 2) return {0.0, 1.0};
   const auto parts = roundedParts(body.core, LongVector3::Zero(), LongMatrix3::Identity());
   if (!parts) return {0.0, 1.0};
   const Bounds mass = twoDimensionalMass(body, *parts, axes, interruption);

@@ -70,21 +70,7 @@ std::optional<CurvedBody> curvedBody(const ConvexBody& body, const Eigen::Matrix
 }
 
 SupportShape shapeOf(const ConvexBody& body) {
-  if (const auto& rounded = body.set().rounded()) {
-    SupportShape shape{{rounded->core.centre()}, 0, Eigen::Matrix3d::Zero()};
-    for (int i = 0; i < rounded->core.generatorCount(); ++i) {
-      const std::size_t count = shape.points.size();
-      for (std::size_t k = 0; k < count; ++k) {
-        const Eigen::Vector3d point = shape.points[k];
-        shape.points[k] = point - rounded->core.generator(i);
-        shape.points.push_back(point + rounded->core.generator(i));
-      }
-    }
-    if (!(rounded->radius > 0.0)) return shape;
-    shape.swept = static_cast<int>(shape.points.size());
-    shape.semi_axes = rounded->radius * Eigen::Matrix3d::Identity();
-    return shape;
-  }
+  if (const auto& rounded = body.set().rounded()) return supportShape(*rounded);
   if (const SupportShape* shape = body.set().curvedShape()) return *shape;
   return {body.set().outerMesh().vertices, 0, Eigen::Matrix3d::Zero()};
 }

@@ -94,11 +94,6 @@ void placePolytope(const ConvexMesh& mesh, const LongMatrix3& rotation, int atte
   parts.polytope = std::move(image);
 }
 
-bool isPolytope(const ConvexBody& body) {
-  if (body.set().rounded() && body.set().rounded()->radius > 0.0) return false;
-  return body.set().isPolytope();
-}
-
 /// A cylinder or a cone.
 bool isFrustum(const std::optional<CurvedBody>& body) {
   return body && body->frustum && !body->ellipsoid;
@@ -110,7 +105,7 @@ bool haveCurvedParts(const ConvexBody& a, const ConvexBody& b) {
   const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   const auto body_a = curvedBody(a, turn), body_b = curvedBody(b, turn);
   if (body_a && body_b) return true;
-  return (isFrustum(body_a) && isPolytope(b)) || (isFrustum(body_b) && isPolytope(a));
+  return (isFrustum(body_a) && b.isPolytope()) || (isFrustum(body_b) && a.isPolytope());
 }
 
 std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3d& rotation_a,
@@ -119,7 +114,7 @@ std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3
   const auto body_a = curvedBody(a, rotation_a), body_b = curvedBody(b, rotation_b);
   if (body_a && body_b) return partsOf(*body_a, *body_b, attempt);
   CurvedParts parts;
-  if (isFrustum(body_b) && isPolytope(a)) {
+  if (isFrustum(body_b) && a.isPolytope()) {
     addFrustum(*body_b, false, parts);
     ConvexMesh reflected;
     reflect(a.set().outerMesh(), Eigen::Matrix3d::Identity(), reflected);
@@ -127,7 +122,7 @@ std::optional<CurvedParts> curvedParts(const ConvexBody& a, const Eigen::Matrix3
                   parts);
     return parts;
   }
-  if (isFrustum(body_a) && isPolytope(b)) {
+  if (isFrustum(body_a) && b.isPolytope()) {
     addFrustum(*body_a, true, parts);
     placePolytope(b.set().outerMesh(), body_a->frame.inverse() * rotation_b.cast<long double>(),
                   attempt, parts);

@@ -27,11 +27,6 @@ const SupportShape* ellipsoidOf(const ConvexBody& body) {
   return shape && shape->points.size() == 1 && shape->semi_axes(2, 2) > 0.0 ? shape : nullptr;
 }
 
-bool isFlatBody(const ConvexBody& body) {
-  if (body.set().rounded() && body.set().rounded()->radius > 0.0) return false;
-  return body.set().isPolytope();
-}
-
 /// The image of a polytope, about its own origin.
 FaceSet mappedFaces(const ConvexMesh& mesh, const LongMatrix3& map) {
   FaceSet faces;
@@ -50,7 +45,7 @@ FaceSet mappedFaces(const ConvexMesh& mesh, const LongMatrix3& map) {
 }  // namespace
 
 bool isEllipsoidWithPolytope(const ConvexBody& a, const ConvexBody& b) {
-  return (ellipsoidOf(a) && isFlatBody(b)) || (isFlatBody(a) && ellipsoidOf(b));
+  return (ellipsoidOf(a) && b.isPolytope()) || (a.isPolytope() && ellipsoidOf(b));
 }
 
 Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
@@ -85,7 +80,7 @@ Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a
   const LongMatrix3 from_ball = rotation * LongMatrix3(semi_axes.asDiagonal());
   if (frame.rank == 2) {
     const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
-    const MovingAxes axes{longInverseAxes(displacement) * from_ball, deviations, frame.rank};
+    const MovingAxes axes{longInverseAxes(displacement) * from_ball, deviations};
     return roundedSectionMass(body, axes, interruption);
   }
   const LongMatrix3 whitening = longWhitening(displacement) * from_ball;

@@ -35,24 +35,10 @@ bool isCoreWithBall(const ConvexBody& body) {
   return body.set().rounded() || body.set().isPolytope();
 }
 
-/// The points that a sum of segments is the hull of.
-std::vector<Eigen::Vector3d> cornersOfCore(const Zonotope& core) {
-  std::vector<Eigen::Vector3d> corners{core.centre()};
-  for (int i = 0; i < core.generatorCount(); ++i) {
-    std::vector<Eigen::Vector3d> more;
-    for (const Eigen::Vector3d& corner : corners) {
-      more.push_back(corner - core.generator(i));
-      more.push_back(corner + core.generator(i));
-    }
-    corners = std::move(more);
-  }
-  return corners;
-}
-
 ConvexMesh coreMesh(const ConvexBody& body) {
   const ConvexSet& set = body.set();
   if (set.isPolytope()) return set.outerMesh();
-  const std::vector<Eigen::Vector3d> corners = cornersOfCore(set.rounded()->core);
+  const std::vector<Eigen::Vector3d> corners = set.rounded()->core.corners();
   if (corners.size() > 2) return makeConvexMesh(corners);
   ConvexMesh mesh;
   mesh.vertices = corners;
@@ -82,7 +68,7 @@ std::optional<CoreFaces> sumOfSegments(const PairFrame& frame, const Zonotope& a
     result.error += *defect;
     return result;
   }
-  for (const Eigen::Vector3d& corner : cornersOfCore(core)) result.faces.addVertex(corner);
+  for (const Eigen::Vector3d& corner : core.corners()) result.faces.addVertex(corner);
   return result;
 }
 
@@ -128,7 +114,7 @@ RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pos
                                 const GaussianDisplacement& displacement,
                                 const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 1) return {};
+  if (!frame.fits || frame.rank < 2) return {};
   const bool by_centre = a.set().rounded() && b.set().rounded();
   const double size = a.set().size() + b.set().size();
   auto core = by_centre
@@ -149,9 +135,9 @@ RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pos
   body.error = core->error / unit +
                body.radius * (frame.ball_stretch + kShapeRoundings * kEpsilon) +
                kFarRounding * static_cast<double>(body.origin.norm());
-  if (frame.rank < 3) {
+  if (frame.rank == 2) {
     const LongVector3 deviations = displacement.standardDeviations().cast<long double>() / unit;
-    const MovingAxes axes{longInverseAxes(displacement), deviations, frame.rank};
+    const MovingAxes axes{longInverseAxes(displacement), deviations};
     return {roundedSectionMass(body, axes, effort.interruption), std::nullopt};
   }
   const LongMatrix3 whitening = unit * longWhitening(displacement);

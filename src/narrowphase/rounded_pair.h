@@ -18,7 +18,7 @@ struct RoundedPairMass {
 };
 
 /// Mass and, if the moment is asked for and the displacement is of rank 3, gradient of an
-/// isRoundedPair() where anything moves; [0, 1] if rounding spoils the faces. What rounding does to
+/// isRoundedPair() under rank 2 or 3; [0, 1] if rounding spoils the faces. What rounding does to
 /// the shapes is counted next to their own size: where they are is known to 2⁻⁶², however far away.
 /// \throws as pairFrame() does
 RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,

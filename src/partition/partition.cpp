@@ -268,7 +268,16 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   if (a.hasSolid() || b.hasSolid()) {
     solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);
   }
-  if (claim_observer) claim_observer->frame(frame.whitening, displacement);
+  const auto announceFrame = [&] {
+    if (claim_observer) claim_observer->frame(frame.whitening, displacement);
+  };
+  // What carving claimed, in a frame of its own, is over if it did not get there.
+  const auto carvedInstead = [&] {
+    const bool reached = carved();
+    if (!reached) announceFrame();
+    return reached;
+  };
+  announceFrame();
   clock.finish("whitening");
 
   const bool estimate = request.method == ProbabilityMethod::estimate;
@@ -286,8 +295,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
     if (result.status == ProbabilityStatus::decided) return result;
     const bool is_pair = a.parts.size() == 1 && b.parts.size() == 1;
     if (is_pair && columns && isNearThreshold(*columns, *request.threshold)) {
-      if (carved()) return result;
-      if (claim_observer) claim_observer->frame(frame.whitening, displacement);
+      if (carvedInstead()) return result;
       may_be_carved = false;
     }
   }
@@ -308,8 +316,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
       request.max_cells < whole_request.max_cells) {
     const Bounds of_boxes = engine.interval();
     known = {std::max(known.lower, of_boxes.lower), std::min(known.upper, of_boxes.upper)};
-    if (carved()) return result;
-    if (claim_observer) claim_observer->frame(frame.whitening, displacement);
+    if (carvedInstead()) return result;
     request.max_cells = whole_request.max_cells;
     result.status = engine.run(estimate);
     clock.finish("partition");
