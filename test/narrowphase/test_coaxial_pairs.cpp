@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "catch.h"
+#include "curved_cases.h"
 #include "fcl_prob/convex_pcd.h"
 #include "random_bodies.h"
 #include "section_truth.h"
@@ -44,31 +45,31 @@ Profile profileOf(std::array<Vector3d, 2> frustums) {
 TEST_CASE("cones and cylinders about parallel axes against quadrature over sections") {
   RandomBodies random(310);
   for (int k = 0; k < 24; ++k) {
-    const double radius = random.uniform(0.2, 1.0), length = random.uniform(0.4, 2.0);
-    const double other = random.uniform(0.1, 0.8), longer = random.uniform(0.3, 2.0);
-    const double sigma = random.uniform(0.3, 1.0), sigma_along = random.uniform(0.3, 1.0);
-    const double across = random.uniform(0.0, 5.0), along = random.uniform(-3.0, 3.0);
+    const CoaxialPair pair(random);
     const bool is_cone = k % 2 == 0, turned = k % 4 < 2;
     // -A is a cone upside down, unless A is turned.
-    const Vector3d a(length, turned ? radius : 0.0, turned ? 0.0 : radius);
-    const Profile profile = profileOf({a, {longer, other, is_cone ? 0.0 : other}});
+    const Vector3d a(pair.length, turned ? pair.radius : 0.0, turned ? 0.0 : pair.radius);
+    const Profile profile = profileOf({a, {pair.longer, pair.other, is_cone ? 0.0 : pair.other}});
     const double truth = integrateOver(
-        {along + profile.height[0], along + profile.height[1], along + profile.height[2]},
+        {pair.along + profile.height[0], pair.along + profile.height[1],
+         pair.along + profile.height[2]},
         [&](double z) {
-          return densityAt(z / sigma_along) / sigma_along *
-                 discMassAt(across / sigma, profile.at(z - along) / sigma);
+          return densityAt(z / pair.sigma_along) / pair.sigma_along *
+                 discMassAt(pair.across / pair.sigma, profile.at(z - pair.along) / pair.sigma);
         });
-    const auto error = GaussianDisplacement::fromStandardDeviations({sigma, sigma, sigma_along});
+    const auto error = pair.error();
     Pose pose_a = Pose::Identity();
     if (turned) pose_a.linear() = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-    const fcl::Coned cone(radius, length);
+    const fcl::Coned cone(pair.radius, pair.length);
     const std::unique_ptr<fcl::CollisionGeometryd> second =
-        is_cone ? std::unique_ptr<fcl::CollisionGeometryd>(new fcl::Coned(other, longer))
-                : std::unique_ptr<fcl::CollisionGeometryd>(new fcl::Cylinderd(other, longer));
-    INFO((is_cone ? "cone " : "cylinder ") << radius << " " << length << " and " << other << " "
-                                           << longer << " at " << across << ", " << along);
+        is_cone
+            ? std::unique_ptr<fcl::CollisionGeometryd>(new fcl::Coned(pair.other, pair.longer))
+            : std::unique_ptr<fcl::CollisionGeometryd>(new fcl::Cylinderd(pair.other, pair.longer));
+    INFO((is_cone ? "cone " : "cylinder ")
+         << pair.radius << " " << pair.length << " and " << pair.other << " " << pair.longer
+         << " at " << pair.across << ", " << pair.along);
     Pose pose_b = Pose::Identity();
-    pose_b.translation() << across, 0.0, along;
+    pose_b.translation() << pair.across, 0.0, pair.along;
     const Bounds mass =
         convexPairMass(ConvexBody(cone), pose_a, ConvexBody(*second), pose_b, error);
     CHECK(mass.lower <= truth * (1.0 + 1e-8));

@@ -17,7 +17,9 @@
 #include <memory>
 
 #include "catch.h"
+#include "curved_cases.h"
 #include "fcl_prob/convex_pcd.h"
+#include "poses.h"
 #include "section_truth.h"
 #include "shapes.h"
 
@@ -31,12 +33,6 @@ using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 using Pose = Eigen::Isometry3d;
 
 constexpr double kWidth = 1e-6;
-
-Pose at(const Vector3d& position) {
-  Pose pose = Pose::Identity();
-  pose.translation() = position;
-  return pose;
-}
 
 Bounds massOf(const fcl::CollisionGeometryd& a, const Pose& pose_a,
               const fcl::CollisionGeometryd& b, const Pose& pose_b,
@@ -322,21 +318,21 @@ TEST_CASE("needles, plates and covariances of ratios up to 1e6 hold what polytop
 TEST_CASE("two cylinders and a capsule and a cylinder of parallel axes against sections") {
   RandomBodies random(308);
   for (int k = 0; k < 12; ++k) {
-    const double radius = random.uniform(0.2, 1.0), length = random.uniform(0.4, 2.0);
-    const double other = random.uniform(0.1, 0.8), longer = random.uniform(0.3, 2.0);
-    const double sigma = random.uniform(0.3, 1.0), sigma_along = random.uniform(0.3, 1.0);
-    const double across = random.uniform(0.0, 5.0), along = random.uniform(-3.0, 3.0);
-    const double half = 0.5 * (length + longer);
-    const auto error = GaussianDisplacement::fromStandardDeviations({sigma, sigma, sigma_along});
-    const Pose pose = at({across, 0.0, along});
-    const double product = discMassAt(across / sigma, (radius + other) / sigma) *
-                           massBetween((along - half) / sigma_along, (along + half) / sigma_along);
-    checkHolds(massOf(fcl::Cylinderd(radius, length), Pose::Identity(),
-                      fcl::Cylinderd(other, longer), pose, error),
+    const CoaxialPair pair(random);
+    const double half = 0.5 * (pair.length + pair.longer);
+    const auto error = pair.error();
+    const Pose pose = at({pair.across, 0.0, pair.along});
+    const double product =
+        discMassAt(pair.across / pair.sigma, (pair.radius + pair.other) / pair.sigma) *
+        massBetween((pair.along - half) / pair.sigma_along, (pair.along + half) / pair.sigma_along);
+    checkHolds(massOf(fcl::Cylinderd(pair.radius, pair.length), Pose::Identity(),
+                      fcl::Cylinderd(pair.other, pair.longer), pose, error),
                product, 1e-8);
-    checkHolds(massOf(fcl::Capsuled(other, longer), Pose::Identity(),
-                      fcl::Cylinderd(radius, length), pose, error),
-               sweptMass(half, radius, radius, other, across, along, sigma, sigma_along), 1e-8);
+    checkHolds(massOf(fcl::Capsuled(pair.other, pair.longer), Pose::Identity(),
+                      fcl::Cylinderd(pair.radius, pair.length), pose, error),
+               sweptMass(half, pair.radius, pair.radius, pair.other, pair.across, pair.along,
+                         pair.sigma, pair.sigma_along),
+               1e-8);
   }
 }
 
@@ -346,12 +342,8 @@ TEST_CASE("axes that are nearly parallel or perpendicular hold what polytopes en
   for (const double tilt : {0.0, 1e-14, 1e-12, 1e-10, 1e-7, 1e-3}) {
     for (const double from : {0.0, M_PI_2}) {
       for (const bool is_capsule : {false, true}) {
-        const auto error = randomDisplacement(random, 0.1, 0.6);
-        const Pose pose_a = random.pose(0.2);
-        Pose pose_b = random.pose(0.0);
-        pose_b.linear() =
-            pose_a.linear() * Eigen::AngleAxisd(from + tilt, Vector3d::UnitX()).toRotationMatrix();
-        pose_b.translation() = random.uniform(0.0, 2.0) * random.direction();
+        const TiltedPair pair(from + tilt, random);
+        const auto& [error, pose_a, pose_b] = pair;
         const ConvexBody cylinder(fcl::Cylinderd(radius, length));
         const fcl::Capsuled capsule(other, longer);
         const auto second = [&](bool around) {
@@ -400,12 +392,8 @@ TEST_CASE("cones beside what has an axis, in all ties, hold what polytopes enclo
     for (const double from : {0.0, M_PI_2, M_PI, opening, second_opening, M_PI_2 - opening,
                               opening + second_opening, M_PI - opening - second_opening}) {
       for (const double top : {other, 0.0}) {
-        const auto error = randomDisplacement(random, 0.1, 0.6);
-        const Pose pose_a = random.pose(0.2);
-        Pose pose_b = random.pose(0.0);
-        pose_b.linear() =
-            pose_a.linear() * Eigen::AngleAxisd(from + tilt, Vector3d::UnitX()).toRotationMatrix();
-        pose_b.translation() = random.uniform(0.0, 2.0) * random.direction();
+        const TiltedPair pair(from + tilt, random);
+        const auto& [error, pose_a, pose_b] = pair;
         const ConvexBody cone(fcl::Coned(radius, length));
         const ConvexBody shape = top > 0.0 ? ConvexBody(fcl::Cylinderd(other, longer))
                                            : ConvexBody(fcl::Coned(other, longer));

@@ -11,25 +11,16 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "catch.h"
+#include "exact_cases.h"
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
-#include "poses.h"
 #include "shapes.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
 namespace {
-
-ProbabilityResult answer(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
-                         const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
-                         const GaussianDisplacement& displacement,
-                         const ProbabilityRequest& request = {}) {
-  ProbabilityResult result;
-  collisionProbability(&a, pose_a, &b, pose_b, displacement, request, result);
-  return result;
-}
 
 void checkHolds(const ProbabilityResult& result, double expected) {
   CAPTURE(*result.lower, *result.upper, expected);
