@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cells/simplex_mass.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/symmetric_axes.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -158,7 +158,7 @@ Rule jacobi(int power) {
     const double square = 4.0 * n * n * (n + alpha) * (n + alpha) / (s * s * (s + 1) * (s - 1));
     matrix(n, n - 1) = matrix(n - 1, n) = std::sqrt(square);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  const auto solver = symmetricAxes(matrix);
   Rule rule;
   rule.node = 0.5 * (solver.eigenvalues().array() + 1.0);
   rule.weight = solver.eigenvectors().row(0).cwiseAbs2().transpose();

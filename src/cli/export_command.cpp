@@ -3,11 +3,11 @@
 #include "cli/export_command.h"
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Eigenvalues>
 #include <iostream>
 #include <optional>
 #include <set>
 
+#include "base/symmetric_axes.h"
 #include "cli/drawn_shapes.h"
 #ifdef FCL_PROB_HAS_ROBOT
 #include "cli/export_motion.h"
@@ -40,7 +40,7 @@ void addDisplacedCopies(const Scene& scene, const LoadedObject& object, std::uin
                         std::vector<ColouredMesh>& meshes) {
   constexpr std::uint64_t kCopies = 12;
   const PoseError& error = *scene.pose_error;
-  const Eigen::SelfAdjointEigenSolver<PoseError::Matrix6> solver(error.covariance());
+  const auto solver = detail::symmetricAxes(error.covariance());
   const PoseError::Matrix6 root =
       solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   const Whitening unit(GaussianDisplacement::fromStandardDeviations({1.0, 1.0, 1.0}));

@@ -3,12 +3,12 @@
 #include "fcl_prob/reconstruction.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 
 #include "base/number_text.h"
+#include "base/quantiles.h"
 #include "cloud/depth_grid.h"
 #include "cloud/grid_mesh.h"
 #include "cloud/median.h"
@@ -55,7 +55,7 @@ void validate(const ReconstructionRequest& request) {
 /// How many deviations hold `count` independent errors at once.
 double deviationsFor(double coverage, double count) {
   const double missed = (1.0 - coverage) / std::max(count, 1.0);
-  return std::sqrt(2.0) * boost::math::erfc_inv(missed);
+  return std::sqrt(2.0) * erfcInverse(missed);
 }
 
 class Reconstructor {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -26,7 +25,7 @@ constexpr double kLeastGainOfPiece = 1e-6;
 
 /// Points on a sphere, about evenly (Fibonacci's spiral).
 std::vector<Eigen::Vector3d> spiral(int count) {
-  const double golden_angle = boost::math::constants::pi<double>() * (3.0 - std::sqrt(5.0));
+  const double golden_angle = M_PI * (3.0 - std::sqrt(5.0));
   std::vector<Eigen::Vector3d> directions;
   for (int i = 0; i < count; ++i) {
     const double z = 1.0 - (2.0 * i + 1.0) / count;

@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "decomposition/overlap_samples.h"
 
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+
+#include "base/quantiles.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -21,7 +22,7 @@ std::vector<Eigen::Vector3d> normalPoints() {
     for (int k = 0; k < 3; ++k) {
       step /= kRoot;
       const double uniform = 0.5 + i * step - std::floor(0.5 + i * step);
-      point[k] = -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * std::max(uniform, 1e-12));
+      point[k] = -std::sqrt(2.0) * erfcInverse(2.0 * std::max(uniform, 1e-12));
     }
     points.push_back(point);
   }

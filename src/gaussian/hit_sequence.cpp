@@ -2,9 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "gaussian/hit_sequence.h"
 
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+
+#include "base/quantiles.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -13,9 +14,7 @@ namespace {
 constexpr int kHalvings = 60;
 
 // Not std::lgamma, which writes a global.
-double logBeta(double a, double b) {
-  return boost::math::lgamma(a) + boost::math::lgamma(b) - boost::math::lgamma(a + b);
-}
+double logBeta(double a, double b) { return logGamma(a) + logGamma(b) - logGamma(a + b); }
 
 }  // namespace
 

@@ -2,12 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/pose_error.h"
 
-#include <Eigen/Eigenvalues>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <string>
 
 #include "base/number_text.h"
+#include "base/symmetric_axes.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/covariance_limits.h"
 #include "gaussian/principal_axes.h"
@@ -22,8 +21,6 @@ using detail::kSymmetryTolerance;
 using detail::numberText;
 using Vector6 = PoseError::Vector6;
 using Matrix6 = PoseError::Matrix6;
-
-constexpr double kPi = boost::math::constants::pi<double>();
 
 std::string entryName(int row, int column) {
   static const char* const names[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -83,9 +80,7 @@ void requireSemidefinite(const Matrix6& covariance) {
       }
     }
   }
-  const double least = Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly)
-                           .eigenvalues()
-                           .minCoeff();
+  const double least = detail::symmetricAxes(scaled).eigenvalues().minCoeff();
   if (least >= -kDefinitenessTolerance) return;
   throw InvalidDistribution("pose covariance has a negative eigenvalue: " + numberText(least) +
                             " of its largest entries");
@@ -94,12 +89,12 @@ void requireSemidefinite(const Matrix6& covariance) {
 void requireRadians(const Matrix6& covariance, const Vector6& mean) {
   for (int axis = 3; axis < 6; ++axis) {
     const double deviation = std::sqrt(std::max(0.0, covariance(axis, axis)));
-    if (deviation <= kPi) continue;
+    if (deviation <= M_PI) continue;
     throw InvalidDistribution("standard deviation of the rotation is " + numberText(deviation) +
                               " radians, above pi: degrees?");
   }
   const double angle = mean.tail<3>().norm();
-  if (angle <= kPi) return;
+  if (angle <= M_PI) return;
   throw InvalidDistribution("mean rotation is " + numberText(angle) +
                             " radians, above pi: degrees?");
 }

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
 
@@ -94,7 +93,7 @@ class RoundedPartsBuilder {
  private:
   /// The normals of the outer surface go around the sphere once.
   bool windsOnce() const {
-    constexpr double kSphere = 4.0 * boost::math::constants::pi<double>();
+    constexpr double kSphere = 4.0 * M_PI;
     return std::abs(turned_ / kSphere - 1.0) <= kLeastTurn;
   }
 

@@ -3,11 +3,10 @@
 #include "montecarlo/confidence.h"
 
 #include <algorithm>
-#include <boost/math/distributions/beta.hpp>
-#include <boost/math/special_functions/gamma.hpp>
 #include <limits>
 #include <string>
 
+#include "base/quantiles.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 
@@ -24,10 +23,9 @@ Bounds clopperPearsonInterval(std::size_t hits, std::size_t samples, double conf
   const double tail = 0.5 * (1.0 - confidence);
   const auto k = static_cast<double>(hits);
   const auto n = static_cast<double>(samples);
-  using Beta = boost::math::beta_distribution<double>;
   Bounds bounds{0.0, 1.0};
-  if (hits > 0) bounds.lower = quantile(Beta(k, n - k + 1.0), tail);
-  if (hits < samples) bounds.upper = quantile(complement(Beta(k + 1.0, n - k), tail));
+  if (hits > 0) bounds.lower = detail::betaQuantile(k, n - k + 1.0, tail);
+  if (hits < samples) bounds.upper = detail::betaQuantileAbove(k + 1.0, n - k, tail);
   return bounds;
 }
 
@@ -73,11 +71,11 @@ Bounds gammaInterval(const WeightedHits& hits, double largest_weight, double con
   Bounds bounds{0.0, 0.0};
   if (hits.sum_squares > kLeastSquare) {
     const double scale = hits.sum_squares / hits.sum;
-    bounds.lower = scale * boost::math::gamma_p_inv(hits.sum / scale, tail);
+    bounds.lower = scale * gammaPInverse(hits.sum / scale, tail);
   }
   const double mean = hits.sum + largest_weight;
   const double scale = (hits.sum_squares + largest_weight * largest_weight) / mean;
-  bounds.upper = scale * boost::math::gamma_q_inv(mean / scale, tail);
+  bounds.upper = scale * gammaQInverse(mean / scale, tail);
   return bounds;
 }
 

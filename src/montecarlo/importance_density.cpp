@@ -5,11 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 
+#include "base/quantiles.h"
 #include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
@@ -25,8 +24,7 @@ double logStandardNormal(const Eigen::Vector3d& y, int rank) {
 /// Log of the normalising constant of a t distribution of unit scatter.
 double logStudentConstant(int rank) {
   // Not std::lgamma, which writes to a global variable (signgam).
-  return boost::math::lgamma(0.5 * (kDegreesOfFreedom + rank)) -
-         boost::math::lgamma(0.5 * kDegreesOfFreedom) -
+  return logGamma(0.5 * (kDegreesOfFreedom + rank)) - logGamma(0.5 * kDegreesOfFreedom) -
          0.5 * rank * std::log(kDegreesOfFreedom * kPi);
 }
 
@@ -39,7 +37,7 @@ double truncatedNormal(double lo, double hi, double uniform) {
   const double above_hi = normalTailMass(hi);
   const double tail = above_hi + uniform * (normalTailMass(lo) - above_hi);
   if (!(tail > 0.0)) return lo;  // rounded to nothing: most of it is there
-  const double y = std::sqrt(2.0) * boost::math::erfc_inv(2.0 * tail);
+  const double y = std::sqrt(2.0) * erfcInverse(2.0 * tail);
   return std::clamp(y, lo, hi);
 }
 
@@ -75,7 +73,7 @@ Eigen::Vector3d ImportanceDensity::sampleShell(RandomStream stream, std::uint64_
   Eigen::Vector3d direction = standardNormalFrom(randomWords(stream, index, 0));
   for (int k = rank_; k < 3; ++k) direction[k] = 0.0;
   const double beyond = std::max(uniform * cover_.mass, std::numeric_limits<double>::min());
-  const double half_square = boost::math::gamma_q_inv(0.5 * rank_, beyond);
+  const double half_square = gammaQInverse(0.5 * rank_, beyond);
   const double radius = std::max(cover_.shell_radius, std::sqrt(2.0 * half_square));
   return direction * (radius / direction.norm());
 }

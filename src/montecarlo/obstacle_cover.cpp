@@ -3,8 +3,8 @@
 #include "montecarlo/obstacle_cover.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/gamma.hpp>
 
+#include "base/quantiles.h"
 #include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
@@ -110,7 +110,7 @@ ObstacleCover coverByBoxes(const CoverSide& a, const CoverSide& b, int rank,
 ObstacleCover coverByShell(double radius, int rank) {
   ObstacleCover cover;
   cover.shell_radius = radius;
-  cover.mass = boost::math::gamma_q(0.5 * rank, 0.5 * radius * radius);
+  cover.mass = gammaQ(0.5 * rank, 0.5 * radius * radius);
   return cover;
 }
 

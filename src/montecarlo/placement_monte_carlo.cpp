@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/placement_monte_carlo.h"
 
-#include <Eigen/Eigenvalues>
 #include <string>
 
 #include "base/random_words.h"
 #include "base/stopwatch.h"
+#include "base/symmetric_axes.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/validation.h"
 #include "montecarlo/counting_run.h"
@@ -61,7 +61,7 @@ PoseError::Matrix6 squareRootOf(const PoseError::Matrix6& covariance) {
       }
     }
   }
-  const Eigen::SelfAdjointEigenSolver<PoseError::Matrix6> solver(correlation);
+  const auto solver = detail::symmetricAxes(correlation);
   return scales.asDiagonal() * solver.eigenvectors() *
          solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }

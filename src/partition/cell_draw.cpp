@@ -3,18 +3,15 @@
 #include "partition/cell_draw.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "base/quantiles.h"
 #include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
 namespace {
 
 constexpr double kSqrt2 = 1.41421356237309504880;
-
-// Boost would compute in long double, at three times the cost.
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 // The axis along which the plane of a cell is steepest; -1 without a plane.
 int steepestAxis(const OpenCell& open) {
@@ -33,7 +30,7 @@ double truncatedNormal(double lo, double hi, double u) {
   // On the side of the lower tail: Φ(y) = Φ(lo) + u (Φ(hi) - Φ(lo)).
   const double mass = normalTailMass(-lo) + u * normalIntervalMass(lo, hi);
   if (!(mass > 0.0)) return hi;
-  const double y = -kSqrt2 * boost::math::erfc_inv(2.0 * std::min(mass, 0.999999), InDouble());
+  const double y = -kSqrt2 * erfcInverseInDouble(2.0 * std::min(mass, 0.999999));
   return std::clamp(y, lo, hi);
 }
 

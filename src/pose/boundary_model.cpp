@@ -3,11 +3,12 @@
 #include "pose/boundary_model.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+
+#include "base/symmetric_axes.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -70,7 +71,7 @@ Eigen::Index BoundaryModel::coefficients(Eigen::Index dimension, bool quadratic)
 // that (Gil-Pelaez 1951; Imhof 1961).
 double BoundaryModel::mass() const {
   using Complex = std::complex<double>;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(c_);
+  const auto axes = symmetricAxes(c_);
   const Eigen::VectorXd& curved = axes.eigenvalues();
   const Eigen::VectorXd slope = axes.eigenvectors().transpose() * b_;
   double sum = 0.0;

@@ -3,9 +3,9 @@
 #include "pose/boundary_search.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "base/quantiles.h"
 #include "base/random_words.h"
 
 namespace fcl_prob::detail {
@@ -76,7 +76,7 @@ std::optional<BoundaryModel> BoundarySearch::halfSpace() {
     const Eigen::VectorXd towards = meeting / hits - missing / (kLook - hits);
     if (!(towards.norm() > 0.0)) return std::nullopt;
     const double share = static_cast<double>(hits) / kLook;
-    const double level = scale * std::sqrt(2.0) * boost::math::erfc_inv(2.0 * share);
+    const double level = scale * std::sqrt(2.0) * erfcInverse(2.0 * share);
     return BoundaryModel(towards.normalized(), level);
   }
   return std::nullopt;

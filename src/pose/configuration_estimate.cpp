@@ -3,11 +3,11 @@
 #include "pose/configuration_estimate.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "base/constants.h"
 #include "base/decision.h"
+#include "base/quantiles.h"
 #include "pose/counting_source.h"
 #include "pose/pair_source.h"
 #include "pose/query_costs.h"
@@ -97,10 +97,7 @@ class Estimator {
   // The error probabilities of all looks add up to that of the request.
   Bounds intervalAt(int look, const EstimatedMean& mean) const {
     const double error = (1.0 - request_.confidence) * std::ldexp(1.0, -look);
-    const boost::math::students_t distribution(mean.freedom);
-    const double quantile =
-        boost::math::quantile(boost::math::complement(distribution, 0.5 * error));
-    const double reach = quantile * mean.standard_error;
+    const double reach = studentQuantileAbove(mean.freedom, 0.5 * error) * mean.standard_error;
     return {std::clamp(mean.mean - reach, 0.0, 1.0), std::clamp(mean.mean + reach, 0.0, 1.0)};
   }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <functional>
 
 #include "base/constants.h"
 #include "base/decision.h"
 #include "base/number_text.h"
+#include "base/quantiles.h"
 #include "base/random_words.h"
 #include "base/refuse_band.h"
 #include "base/stopwatch.h"
@@ -203,9 +203,7 @@ class MixtureSum {
 
   void decide() {
     const double tail = 0.5 * (1.0 - request_.confidence);
-    const double reach =
-        boost::math::quantile(boost::math::complement(boost::math::normal(), tail)) *
-        *sum_.standard_error;
+    const double reach = detail::normalQuantileAbove(tail) * *sum_.standard_error;
     const Bounds interval{std::max(0.0, *sum_.estimate - reach),
                           std::min(1.0, *sum_.estimate + reach)};
     sum_.confidence_interval = interval;

@@ -4,16 +4,16 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "base/quantiles.h"
 #include "gaussian/normal_density.h"
 
 namespace fcl_prob::detail {
 
 /// Of the normal distribution.
 inline double quantileOf(double uniform) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * std::clamp(uniform, 1e-16, 1.0 - 1e-16));
+  return -std::sqrt(2.0) * erfcInverse(2.0 * std::clamp(uniform, 1e-16, 1.0 - 1e-16));
 }
 
 /// Where along a line samples are drawn: near the level where contact is expected to begin; some as

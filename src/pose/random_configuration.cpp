@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/random_configuration.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <string>
 
 #include "base/number_text.h"
+#include "base/symmetric_axes.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
 #include "pose/moved_frame.h"
@@ -76,7 +76,7 @@ Eigen::MatrixXd factorOf(const Eigen::MatrixXd& covariance) {
     }
   }
   if (covariance.rows() == 0) return correlation;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlation);
+  const auto solver = detail::symmetricAxes(correlation);
   const Eigen::VectorXd& values = solver.eigenvalues();
   const double tolerance = kDefinitenessTolerance * static_cast<double>(covariance.rows());
   if (values.minCoeff() < -tolerance) {

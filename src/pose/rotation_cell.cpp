@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/quantiles.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/normal_density.h"
 #include "gaussian/rotation.h"
@@ -58,19 +58,18 @@ RotationCell part(const RotationCell& cell, Eigen::Index k, double lo, double hi
   return result;
 }
 
-double quantile(double p) { return boost::math::quantile(boost::math::normal(), p); }
 double normalCdf(double x) { return normalTailMass(-x); }
 
 // Of all sets of mass g or less the one with the largest second derivative of its mass along a
 // direction is { |u| > a }: 2 a φ(a). At a = 1 it is largest.
 double mostUpwards(double g) {
-  const double a = g < 1.0 ? -quantile(std::max(0.5 * g, 1e-300)) : 0.0;
+  const double a = g < 1.0 ? -normalQuantile(std::max(0.5 * g, 1e-300)) : 0.0;
   return 2.0 * std::max(a, 1.0) * normalDensity(std::max(a, 1.0));
 }
 
 // And downwards { |u| < b }.
 double mostDownwards(double g) {
-  const double b = g < 1.0 ? quantile(0.5 + 0.5 * g) : 1.0;
+  const double b = g < 1.0 ? normalQuantile(0.5 + 0.5 * g) : 1.0;
   return 2.0 * std::min(b, 1.0) * normalDensity(std::min(b, 1.0));
 }
 
@@ -313,7 +312,7 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
   }
   double most = inner.upper;
   if (most > 0.0 && most < 1.0 && motion.reach > 0.0) {
-    most = std::min(1.0, (1.0 + 1e-9) * normalCdf(quantile(most) + motion.reach + 1e-9));
+    most = std::min(1.0, (1.0 + 1e-9) * normalCdf(normalQuantile(most) + motion.reach + 1e-9));
   }
   const double variance = motion.curvatures.sum();
   const double up = 0.5 * mostUpwards(most) * variance * (1.0 + 1e-9);

@@ -3,13 +3,13 @@
 #include "pose/turning_contacts.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/random_words.h"
+#include "base/symmetric_axes.h"
 #include "gaussian/normal_density.h"
 #include "partition/line_crossings.h"
 
@@ -103,7 +103,7 @@ std::optional<TurningContacts> turningContacts(const PartitionObject& a, const P
           contacts[i].normal.dot(turn.cross(contacts[i].point - result.centre));
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(moved * moved.transpose());
+  const auto principal = symmetricAxes(Eigen::MatrixXd(moved * moved.transpose()));
   result.axes = principal.eigenvectors().rowwise().reverse();
   result.moved = (result.axes.transpose() * moved).cwiseAbs().rowwise().sum();
   return result;

@@ -3,11 +3,11 @@
 #include "query/object_pairs.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
 
 #include "base/number_text.h"
+#include "base/quantiles.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
 #include "geometry/validation.h"
@@ -26,7 +26,7 @@ double deviationsOf(const BroadphaseRequest& request) {
     throw InvalidRequest("culling_probability must be in (0, 0.5), is " +
                          numberText(request.culling_probability));
   }
-  return std::sqrt(2.0) * boost::math::erfc_inv(2.0 * request.culling_probability);
+  return std::sqrt(2.0) * erfcInverse(2.0 * request.culling_probability);
 }
 
 /// A box of the world frame around a placed one, rounding included.

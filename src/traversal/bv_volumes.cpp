@@ -4,14 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
+#include <cmath>
 
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kPi = boost::math::constants::pi<double>();
-
-double ballVolume(double radius) { return 4.0 / 3.0 * kPi * radius * radius * radius; }
+double ballVolume(double radius) { return 4.0 / 3.0 * M_PI * radius * radius * radius; }
 
 }  // namespace
 
@@ -34,7 +32,7 @@ double volumeOf(const fcl::AABBd& box) { return (box.max_ - box.min_).prod(); }
 double volumeOf(const fcl::OBBd& box) { return 8.0 * box.extent.prod(); }
 
 double volumeOf(const fcl::RSSd& rss) {
-  return 2.0 * rss.r * rss.l[0] * rss.l[1] + kPi * rss.r * rss.r * (rss.l[0] + rss.l[1]) +
+  return 2.0 * rss.r * rss.l[0] * rss.l[1] + M_PI * rss.r * rss.r * (rss.l[0] + rss.l[1]) +
          ballVolume(rss.r);
 }
 

@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/quantiles.h"
 #include "cobstacle/nearest.h"
 #include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/exceptions.h"
@@ -115,8 +115,7 @@ EnlargedCollision enlargedCollision(const fcl::CollisionGeometryd& a,
   PairFrame frame(displacement, pose_a, tree_a->size(), pose_b, tree_b->size());
   frame.error += tree_a->slack() + tree_b->slack();
 
-  const boost::math::chi_squared_distribution<double> squared_radius(3.0);
-  const double radius = std::sqrt(boost::math::quantile(squared_radius, confidence));
+  const double radius = std::sqrt(chiSquaredQuantile(3.0, confidence));
   EnlargedTraversal traversal(*tree_a, *tree_b, frame, radius);
   EnlargedCollision result;
   result.collides = traversal.collides();
