@@ -3,8 +3,8 @@
 #include "gaussian/hit_sequence.h"
 
 #include <cmath>
-#include <limits>
 
+#include "base/constants.h"
 #include "base/quantiles.h"
 
 namespace fcl_prob::detail {
@@ -16,34 +16,47 @@ constexpr int kHalvings = 60;
 // Not std::lgamma, which writes a global.
 double logBeta(double a, double b) { return logGamma(a) + logGamma(b) - logGamma(a + b); }
 
-}  // namespace
+/// Against that a hit has the probability p, by the likelihood.
+class Evidence {
+ public:
+  Evidence(double hits, double misses)
+      : hits_(hits),
+        misses_(misses),
+        mean_(logBeta(0.5 + hits, 0.5 + misses) - logBeta(0.5, 0.5)) {}
 
-double HitSequence::logEvidenceAgainst(double p) const {
-  const double hits = static_cast<double>(hits_);
-  const double misses = static_cast<double>(samples_) - hits;
-  const double infinite = std::numeric_limits<double>::infinity();
-  if (p <= 0.0 && hits > 0.0) return infinite;
-  if (p >= 1.0 && misses > 0.0) return infinite;
-  double sum = logBeta(0.5 + hits, 0.5 + misses) - logBeta(0.5, 0.5);
-  if (hits > 0.0) sum -= hits * std::log(p);
-  if (misses > 0.0) sum -= misses * std::log1p(-p);
-  return sum;
-}
-
-double HitSequence::end(double outside, double inside, double enough) const {
-  if (!(logEvidenceAgainst(outside) >= enough)) return outside;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (outside + inside);
-    (logEvidenceAgainst(middle) >= enough ? outside : inside) = middle;
+  double logAgainst(double p) const {
+    if (p <= 0.0 && hits_ > 0.0) return kInfinity;
+    if (p >= 1.0 && misses_ > 0.0) return kInfinity;
+    double sum = mean_;
+    if (hits_ > 0.0) sum -= hits_ * std::log(p);
+    if (misses_ > 0.0) sum -= misses_ * std::log1p(-p);
+    return sum;
   }
-  return outside;
-}
+
+  double end(double outside, double inside, double enough) const {
+    if (!(logAgainst(outside) >= enough)) return outside;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (outside + inside);
+      (logAgainst(middle) >= enough ? outside : inside) = middle;
+    }
+    return outside;
+  }
+
+ private:
+  double hits_;
+  double misses_;
+  double mean_;  ///< logarithm of the likelihood's mean over the prior
+};
+
+}  // namespace
 
 Bounds HitSequence::interval(double error) const {
   if (samples_ == 0) return {0.0, 1.0};
-  const double likeliest = static_cast<double>(hits_) / static_cast<double>(samples_);
+  const double hits = static_cast<double>(hits_);
+  const double samples = static_cast<double>(samples_);
+  const Evidence evidence(hits, samples - hits);
   const double enough = -std::log(error);
-  return {end(0.0, likeliest, enough), end(1.0, likeliest, enough)};
+  return {evidence.end(0.0, hits / samples, enough), evidence.end(1.0, hits / samples, enough)};
 }
 
 }  // namespace fcl_prob::detail

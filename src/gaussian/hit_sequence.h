@@ -28,9 +28,6 @@ class HitSequence {
   Bounds interval(double error) const;
 
  private:
-  double logEvidenceAgainst(double p) const;
-  double end(double outside, double inside, double enough) const;
-
   std::size_t hits_ = 0;
   std::size_t samples_ = 0;
 };
