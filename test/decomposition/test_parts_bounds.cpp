@@ -243,7 +243,7 @@ TEST_CASE("parts of thin triangles are what a group takes", "[decomposition]") {
 TEST_CASE("bounds with parts are never below the meshes' probability, on random scenes",
           "[decomposition][slow]") {
   RandomBodies random(1);
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 8; ++i) {
     CAPTURE(i);
     checkRandomScene(random);
   }

@@ -51,6 +51,24 @@ std::vector<Obstacle> ballOnly() {
   return obstacles;
 }
 
+void checkMotions(int motions, unsigned seed) {
+  const RobotQuery query(shippedArm(), ballOnly());
+  std::mt19937_64 random(seed);
+  int seen = 0;
+  for (int i = 0; i < motions; ++i) {
+    const auto waypoints = randomMotion(query.robot(), random);
+    const RobotResult result = continuous(query, waypoints, withTolerance(0.05));
+    CAPTURE(i, toString(result.status));
+    CHECK(result.status == ProbabilityStatus::converged);
+    const bool tells = result.any.upper > 0.01 && result.any.lower < 0.99;
+    if (!tells) continue;
+    ++seen;
+    constexpr int kDraws = 100;
+    checkCounted(result.any, counted(query, manyTimes(waypoints, 2'000), kDraws, 32), kDraws);
+  }
+  CHECK(4 * seen >= motions);
+}
+
 }  // namespace
 
 TEST_CASE("no point of a body leaves what its sweep says") {
@@ -113,21 +131,11 @@ TEST_CASE("continuous time is above ten times as many waypoints, and within the 
 }
 
 TEST_CASE("continuous time holds what counting finds at 2,000 interpolated states", "[slow]") {
-  const RobotQuery query(shippedArm(), ballOnly());
-  std::mt19937_64 random(31);
-  int seen = 0;
-  for (int i = 0; i < 20; ++i) {
-    const auto waypoints = randomMotion(query.robot(), random);
-    const RobotResult result = continuous(query, waypoints, withTolerance(0.05));
-    CAPTURE(i, toString(result.status));
-    CHECK(result.status == ProbabilityStatus::converged);
-    const bool tells = result.any.upper > 0.01 && result.any.lower < 0.99;
-    if (!tells) continue;
-    ++seen;
-    constexpr int kDraws = 100;
-    checkCounted(result.any, counted(query, manyTimes(waypoints, 2'000), kDraws, 32), kDraws);
-  }
-  CHECK(seen >= 5);
+  checkMotions(8, 31);
+}
+
+TEST_CASE("continuous time holds what counting finds, on 40 motions", "[long]") {
+  checkMotions(40, 32);
 }
 
 TEST_CASE("a threshold in continuous time is decided as the probability says, with less work") {
