@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kColumns = 32;
 constexpr double kKilometre = 1000.0;
 
-using Row = std::array<double, kColumns>;
+using Values = std::array<double, kColumns>;
 
 [[noreturn]] void refuse(const std::string& name, std::size_t line, const std::string& why) {
   throw FileError(name + ", line " + std::to_string(line) + ": " + why);
@@ -33,10 +33,10 @@ double numberOf(const std::string& word, const std::string& name, std::size_t li
   return value;
 }
 
-Row rowOf(const std::string& text, const std::string& name, std::size_t line) {
+Values rowOf(const std::string& text, const std::string& name, std::size_t line) {
   std::istringstream words(text);
   std::string word;
-  Row row{};
+  Values row{};
   std::size_t count = 0;
   while (std::getline(words, word, ',')) {
     if (count < kColumns) row[count] = numberOf(word, name, line);
@@ -114,7 +114,7 @@ std::vector<Encounter> readEncounters(std::istream& table, const std::string& na
   for (std::size_t line = 2; std::getline(table, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
     if (text.empty()) continue;
-    const Row row = rowOf(text, name, line);
+    const Values row = rowOf(text, name, line);
     Encounter encounter;
     encounter.id = text.substr(0, text.find(','));
     encounter.radius = kKilometre * row[1];

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 // Boxes cut by half-spaces.
 #include <Eigen/Geometry>
-#include <limits>
 
+#include "base/constants.h"
 #include "catch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
@@ -14,6 +14,7 @@
 namespace fcl_prob {
 namespace {
 
+using detail::kInfinity;
 using Eigen::Vector3d;
 using fcl_prob_test::HighPrecision;
 using fcl_prob_test::logUniform;
@@ -22,18 +23,17 @@ using fcl_prob_test::trueIntervalMass;
 using fcl_prob_test::trueTail;
 using fcl_prob_test::uniform;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Vector3d kEverywhere = Vector3d::Constant(kInfinity);
 
-struct Box {
+struct AlignedBox {
   Vector3d lo, hi;
 
   double mass() const { return normalBoxMass(lo, hi); }
 };
 
 // Some sides infinite, some narrow, near or far from the origin.
-Box randomBox(std::mt19937& random, double farthest) {
-  Box box;
+AlignedBox randomAlignedBox(std::mt19937& random, double farthest) {
+  AlignedBox box;
   for (int k = 0; k < 3; ++k) {
     const double middle = uniform(random, -farthest, farthest);
     const double half = logUniform(random, 1e-2, 5);
@@ -44,7 +44,7 @@ Box randomBox(std::mt19937& random, double farthest) {
 }
 
 // Through a random point of the box.
-HalfSpace randomCut(std::mt19937& random, const Box& box) {
+HalfSpace randomCut(std::mt19937& random, const AlignedBox& box) {
   HalfSpace h;
   h.normal = randomVector(random);
   if (random() % 4 == 0) h.normal[random() % 3] = 0;
@@ -73,10 +73,10 @@ bool mayAddUp(const Bounds& a, const Bounds& b, double whole) {
 TEST_CASE("axis-aligned half-spaces of a box are exact") {
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
-    const Box box = randomBox(random, 4);
+    const AlignedBox box = randomAlignedBox(random, 4);
     const int axis = i % 3;
     HalfSpace h{Vector3d::Unit(axis), uniform(random, -5, 5)};
-    Box part = box;
+    AlignedBox part = box;
     part.lo[axis] = std::max(part.lo[axis], h.offset);
     const Bounds bounds = boxHalfSpaceMass(box.lo, box.hi, h);
     CHECK(bounds.lower <= part.mass());
@@ -108,7 +108,7 @@ TEST_CASE("both sides of a cut add up to the box") {
   double widest = 0;
   int tails = 0;
   for (int i = 0; i < 400; ++i) {
-    const Box box = randomBox(random, i % 2 == 0 ? 2 : 18);
+    const AlignedBox box = randomAlignedBox(random, i % 2 == 0 ? 2 : 18);
     const double whole = box.mass();
     if (whole < 1e-250) continue;
     const HalfSpace h = randomCut(random, box);
@@ -129,7 +129,7 @@ TEST_CASE("wedges obey inclusion and exclusion") {
   std::mt19937 random(4);
   double widest = 0;
   for (int i = 0; i < 300; ++i) {
-    const Box box = randomBox(random, i % 2 == 0 ? 2 : 12);
+    const AlignedBox box = randomAlignedBox(random, i % 2 == 0 ? 2 : 12);
     const double whole = box.mass();
     if (whole < 1e-250) continue;
     const HalfSpace a = randomCut(random, box);
@@ -154,7 +154,7 @@ TEST_CASE("cut boxes against sampling") {
   std::normal_distribution<double> normal;
   constexpr int kSamples = 20000;
   for (int i = 0; i < 20; ++i) {
-    Box box = randomBox(random, 1);
+    AlignedBox box = randomAlignedBox(random, 1);
     for (int k = 0; k < 3; ++k) {
       box.lo[k] = std::min(box.lo[k], -0.5);
       box.hi[k] = std::max(box.hi[k], 0.5);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "base/constants.h"
 #include "catch.h"
 #include "high_precision.h"
 
@@ -16,9 +17,9 @@ using fcl_prob_test::trueTail;
 namespace fcl_prob {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using detail::kInfinity;
 
-HighPrecision trueDensity(double h) {
+HighPrecision densityAt(double h) {
   const HighPrecision pi = boost::math::constants::pi<HighPrecision>();
   return exp(-HighPrecision(h) * h / 2) / sqrt(2 * pi);
 }
@@ -124,8 +125,8 @@ TEST_CASE("interval moment is the difference of the densities without its cancel
     const double lo = std::uniform_real_distribution<double>(-37, 37)(random);
     const double hi = lo + randomWidth(random);
     if (!(lo < hi)) continue;
-    const HighPrecision at_lo = trueDensity(lo);
-    const HighPrecision at_hi = trueDensity(hi);
+    const HighPrecision at_lo = densityAt(lo);
+    const HighPrecision at_hi = densityAt(hi);
     const HighPrecision truth = at_lo - at_hi;
     if (abs(truth) < 1e-300) continue;
     worst = std::max(worst, relativeError(normalIntervalMoment(lo, hi), truth));

@@ -84,7 +84,7 @@ bool isByLines(const ProbabilityResult& result) {
   return fcl_prob_test::planMentions(result, "parallel lines");
 }
 
-constexpr int kSeeds = 60;
+constexpr int kLineSeeds = 60;
 
 /// What estimates with different seeds are off the truth by, in standard errors, root mean square.
 /// \param by_lines  to it is added how many of them were not left to cells
@@ -92,7 +92,7 @@ double deviationOf(const PartitionQuery& query, const GaussianDisplacement& disp
                    int& by_lines) {
   const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(5e-4));
   double sum = 0.0;
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  for (int seed = 1; seed <= kLineSeeds; ++seed) {
     const ProbabilityResult result = query.run(displacement, estimateRequest(0.01, seed));
     by_lines += isByLines(result);
     CHECK(*result.upper >= *truth.lower);
@@ -100,7 +100,7 @@ double deviationOf(const PartitionQuery& query, const GaussianDisplacement& disp
     const double off = (*result.estimate - truth.probability()) / *result.standard_error;
     sum += off * off;
   }
-  return std::sqrt(sum / kSeeds);
+  return std::sqrt(sum / kLineSeeds);
 }
 
 /// Two plates, one across and one along the way between the objects.
@@ -179,7 +179,7 @@ TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][sl
     for (const bool solid : {false, true}) {
       if (solid) query.makeSolid();
       const double deviation = deviationOf(query, displacement, by_lines);
-      all += kSeeds;
+      all += kLineSeeds;
       CAPTURE(i, solid);
       // What may be unseen makes the standard error larger than the deviation.
       CHECK(deviation > 0.5);

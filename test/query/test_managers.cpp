@@ -32,7 +32,7 @@ namespace {
 
 using Object = fcl::CollisionObjectd;
 using Manager = fcl::BroadPhaseCollisionManagerd;
-using Pair = std::pair<const Object*, const Object*>;
+using ObjectPair = std::pair<const Object*, const Object*>;
 
 std::vector<std::unique_ptr<Manager>> allManagers() {
   std::vector<std::unique_ptr<Manager>> all;
@@ -55,7 +55,7 @@ std::shared_ptr<fcl::CollisionGeometryd> voxels() {
   return std::make_shared<fcl::OcTreed>(tree);
 }
 
-Pair unordered(const Object* a, const Object* b) { return std::minmax(a, b); }
+ObjectPair unordered(const Object* a, const Object* b) { return std::minmax(a, b); }
 
 /// Objects of all kinds, each displaced on its own.
 class World {
@@ -97,21 +97,21 @@ class World {
   BroadphaseRequest request;
 
  private:
-  std::map<Pair, Bounds> known_;
+  std::map<ObjectPair, Bounds> known_;
 };
 
 /// Every one of `pairs` once: answered as by itself, or within what is said of the culled ones.
-void checkAnswers(World& world, std::set<Pair> pairs, const BroadphaseResult& result) {
+void checkAnswers(World& world, std::set<ObjectPair> pairs, const BroadphaseResult& result) {
   CHECK(result.pairs.size() + result.pairs_culled == pairs.size());
   CHECK(result.pairs_culled <= pairs.size());
   double largest = 0.0, of_culled = 0.0, most = 0.0;
-  for (const Pair& pair : pairs)
+  for (const ObjectPair& pair : pairs)
     largest = std::max(largest, world.pair(pair.first, pair.second).lower);
   for (const PairProbability& pair : result.pairs) {
     REQUIRE(pairs.erase(unordered(pair.a, pair.b)) == 1);
     most += *pair.result.upper;
   }
-  for (const Pair& culled : pairs) of_culled += world.pair(culled.first, culled.second).lower;
+  for (const ObjectPair& culled : pairs) of_culled += world.pair(culled.first, culled.second).lower;
   CHECK(of_culled <= result.culled_upper);
   CHECK(result.any.lower <= result.any.upper);
   CHECK(result.any.upper >= largest);
@@ -119,8 +119,8 @@ void checkAnswers(World& world, std::set<Pair> pairs, const BroadphaseResult& re
   CHECK(result.any.upper <= std::min(1.0, (most + result.culled_upper) * (1 + 1e-9)));
 }
 
-std::set<Pair> allPairs(const std::vector<Object*>& a, const std::vector<Object*>& b) {
-  std::set<Pair> pairs;
+std::set<ObjectPair> allPairs(const std::vector<Object*>& a, const std::vector<Object*>& b) {
+  std::set<ObjectPair> pairs;
   for (const Object* first : a) {
     for (const Object* second : b) {
       if (first != second) pairs.insert(unordered(first, second));

@@ -150,7 +150,7 @@ bool isCompatible(double lower, double upper, int hits, int samples) {
   return hits >= lower * samples - deviation(lower) && hits <= upper * samples + deviation(upper);
 }
 
-struct Tally {
+struct Outcomes {
   int pairs = 0;
   int likely = 0;   // P > 0.5
   int between = 0;  // 0.01 to 0.5
@@ -158,7 +158,7 @@ struct Tally {
 };
 
 void checkScene(const NamedGeometry& a, const NamedGeometry& b, int samples, RandomBodies& random,
-                Tally& tally) {
+                Outcomes& tally) {
   const Scene scene = randomScene(a, b, random);
   ProbabilityRequest request;
   request.relative_tolerance = 0.05;
@@ -180,7 +180,7 @@ void checkScene(const NamedGeometry& a, const NamedGeometry& b, int samples, Ran
 
 void checkMatrix(int repetitions, int samples, unsigned seed) {
   RandomBodies random(seed);
-  Tally tally;
+  Outcomes tally;
   const auto all = allGeometries();
   for (const NamedGeometry& a : all) {
     for (const NamedGeometry& b : all) {
