@@ -15,6 +15,7 @@
 #include "narrowphase/ellipsoid_polytope.h"
 #include "narrowphase/pair_bounds.h"
 #include "narrowphase/rounded_pair.h"
+#include "narrowphase/section_mass.h"
 
 namespace fcl_prob {
 namespace {
@@ -70,6 +71,10 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   }
   if (frame.rank == 3 && isCurvedPair(a, b)) {
     known = agreed(known, curvedPairMass(a, pose_a, b, pose_b, displacement, interruption));
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (frame.rank < 3 && isSectionPair(a, b)) {
+    known = agreed(known, sectionMass(a, pose_a, b, pose_b, displacement, interruption));
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;

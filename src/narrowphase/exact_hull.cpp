@@ -18,12 +18,6 @@ double differenceOfProducts(double a, double d, double b, double c) {
   return std::fma(a, d, -product) + rounding;
 }
 
-bool turnsLeft(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  const Eigen::Vector2d u = b - a;
-  const Eigen::Vector2d v = c - a;
-  return differenceOfProducts(u.x(), v.y(), u.y(), v.x()) > 0.0;
-}
-
 /// Appends the chain from the first to the last of the points but for the last, with the rest to
 /// its left (Andrew 1979).
 template <typename Iterator>
@@ -39,6 +33,12 @@ void appendChain(Iterator begin, Iterator end, Points& hull) {
 }
 
 }  // namespace
+
+bool turnsLeft(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const Eigen::Vector2d u = b - a;
+  const Eigen::Vector2d v = c - a;
+  return differenceOfProducts(u.x(), v.y(), u.y(), v.x()) > 0.0;
+}
 
 std::vector<Eigen::Vector2d> exactHull(std::vector<Eigen::Vector2d> points) {
   std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {

@@ -8,6 +8,10 @@
 
 namespace fcl_prob::detail {
 
+/// Whether c is to the left of the line from a to b: with coordinates as below, or such times a
+/// power of two, never wrong. (Neither if it is on the line.)
+bool turnsLeft(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c);
+
 /// The corners of the convex hull of points whose coordinates are whole numbers below 2^52 (where
 /// every turn is decided exactly), counter-clockwise, none within a side. However thin the polygon
 /// is: two corners mean that all points are on a segment, one that they are equal.

@@ -10,9 +10,10 @@
 
 namespace fcl_prob::detail {
 
-/// The mass of the C-obstacle. Flat sides leave a rounding margin only; curved ones are enclosed
-/// between polytopes, which are refined once if the tolerance asks for it. A limit of the request
-/// leaves what is certain by then.
+/// The mass of the C-obstacle. Flat sides leave a rounding margin only; curved ones what their
+/// quadrature or polygons leave; where that is too much they are enclosed between polytopes, which
+/// are refined once if the tolerance asks for it. A limit of the request leaves what is certain by
+/// then.
 ProbabilityResult exactMass(const PlacedPair& pair, const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request);
 

@@ -26,10 +26,10 @@ struct QueryPair {
   /// Convex shapes whose C-obstacle has an exact mass under a displacement.
   bool haveExactMass(const GaussianDisplacement& displacement) const {
     if (!areConvex()) return false;
-    if (isPolytope(typeOf(a)) && isPolytope(typeOf(b))) return true;
-    return areSpheres() || (displacement.rank() >= 2 && (areRounded() || areEllipsoidAndFlat())) ||
-           (displacement.rank() == 3 && areCurved());
+    return displacement.rank() < 3 || areFlat() || areSpheres() || areRounded() || areCurved();
   }
+
+  bool areFlat() const { return isPolytope(typeOf(a)) && isPolytope(typeOf(b)); }
 
   /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
   bool areCurved() const {
@@ -42,7 +42,7 @@ struct QueryPair {
 
   /// Their C-obstacle is a polytope swept by a ball.
   bool areRounded() const {
-    if (isPolytope(typeOf(a)) && isPolytope(typeOf(b))) return false;
+    if (areFlat()) return false;
     return isRoundedOrFlat(typeOf(a)) && isRoundedOrFlat(typeOf(b));
   }
 
@@ -132,6 +132,11 @@ std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& d
     return "an ellipsoid and flat sides: mass of their C-obstacle's section by quadrature over the "
            "boundary";
   }
+  if (displacement.rank() < 3 && !pair.areFlat()) {
+    return displacement.rank() == 2
+               ? "curved shapes: mass of their C-obstacle's section between two polygons"
+               : "curved shapes: where a line meets their C-obstacle";
+  }
   if (displacement.rank() == 3 && pair.areCurved()) {
     return "curved shapes: mass of their C-obstacle by quadrature over its boundary";
   }
@@ -156,10 +161,9 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
   const bool has_gradient = displacement.rank() == 3 && pair.areRounded();
   if (exact && (has_gradient || !request.gradient)) {
     QueryPlan plan = planExact(pair, displacement, request);
-    plan.partition_if_unresolved =
-        pair.areRounded() ? request.gradient || !pair.areSpheres() : pair.areCurved();
+    plan.partition_if_unresolved = !pair.areFlat() && (request.gradient || !pair.areSpheres());
     // Quadrature over a boundary takes milliseconds, a bound microseconds.
-    plan.try_root_bound = !pair.areRounded() && pair.areCurved();
+    plan.try_root_bound = !pair.areFlat() && !pair.areRounded() && displacement.rank() > 1;
     return plan;
   }
   QueryPlan plan = planPartition(pair, displacement, request);

@@ -54,7 +54,7 @@ TEST_CASE("the mass of a convex pair interrupted at any moment", "[narrowphase]"
       };
       const auto [whole, polls] = massUntil(std::numeric_limits<long>::max());
       CHECK(whole.width() < 0.2 * whole.upper);
-      CHECK(massUntil(1).first.lower == 0.0);
+      CHECK(massUntil(1).first.width() > 2.0 * whole.width());
       const auto bounds = [&, a = a, b = b](bool interrupted) {
         return detail::convexPcd(*a, pose_a, *b, pose_b, displacement, [=] { return interrupted; });
       };

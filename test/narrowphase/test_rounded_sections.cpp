@@ -8,13 +8,11 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
-#include <functional>
-
 #include "catch.h"
 #include "fcl_prob/convex_pcd.h"
 #include "narrowphase/rounded_pair.h"
+#include "plane_truth.h"
 #include "random_bodies.h"
-#include "section_truth.h"
 
 namespace {
 
@@ -22,64 +20,10 @@ using namespace fcl_prob_test;
 using namespace fcl_prob;
 using Eigen::Vector3d;
 using Pose = Eigen::Isometry3d;
-using Distance = std::function<double(const Vector3d&)>;
 
 Bounds roundedMass(const ConvexBody& a, const Pose& pose_a, const ConvexBody& b, const Pose& pose_b,
                    const GaussianDisplacement& error) {
   return detail::roundedPairMass(a, pose_a, b, pose_b, error, {}).mass;
-}
-
-/// Where a convex function along a line is below 0: least first by thirds, then ends by halves.
-std::pair<double, double> whereNegative(const std::function<double(double)>& f, double reach) {
-  double lower = -reach, upper = reach;
-  for (int k = 0; k < 200; ++k) {
-    const double third = (upper - lower) / 3.0;
-    (f(lower + third) < f(upper - third) ? upper : lower) =
-        f(lower + third) < f(upper - third) ? upper - third : lower + third;
-  }
-  const double middle = 0.5 * (lower + upper);
-  if (!(f(middle) < 0.0)) return {middle, middle};
-  const auto endTowards = [&](double outside) {
-    double inside = middle;
-    for (int k = 0; k < 70; ++k) {
-      const double between = 0.5 * (inside + outside);
-      (f(between) < 0.0 ? inside : outside) = between;
-    }
-    return inside;
-  };
-  return {endTowards(-reach), endTowards(reach)};
-}
-
-/// Of { ε in the plane : distance(ε) < 0 } under deviations along the first two axes.
-double massInPlane(const Distance& distance, const GaussianDisplacement& error, double reach) {
-  const Vector3d s = error.standardDeviations();
-  const auto at = [&](double x, double y) {
-    return distance(error.axes() * Vector3d(x, y, 0.0) + error.mean());
-  };
-  // The extent along x: the least distance over y is convex in x.
-  const auto leastOver = [&](double x) {
-    double lower = -reach, upper = reach;
-    for (int k = 0; k < 100; ++k) {
-      const double third = (upper - lower) / 3.0;
-      if (at(x, lower + third) < at(x, upper - third)) {
-        upper -= third;
-      } else {
-        lower += third;
-      }
-    }
-    return at(x, 0.5 * (lower + upper));
-  };
-  const auto [from, to] = whereNegative(leastOver, reach);
-  if (!(to > from)) return 0.0;
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  std::vector<double> angles;
-  for (int k = 0; k <= 60; ++k) angles.push_back(M_PI * (k / 60.0 - 0.5));
-  return integrateOver(angles, [&](double angle) {
-    const double x = middle + half * std::sin(angle);
-    const auto [low, high] = whereNegative([&](double y) { return at(x, y); }, reach);
-    return half * std::cos(angle) * densityAt(x / s[0]) / s[0] *
-           massBetween(low / s[1], high / s[1]);
-  });
 }
 
 double distanceToSegment(const Vector3d& p, const Vector3d& end) {

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "gaussian/polygon_mass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/constants.h"
+#include "gaussian/gauss_rule.h"
+#include "gaussian/normal_density.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Beyond, nothing weighs as much as the smallest double.
+constexpr double kFarthestOfSides = 39.0;
+constexpr double kSideUnderflow = 1e-306;
+
+/// A side is halved until this is no less than half its length times (1 + its distance).
+constexpr double kLongestHalf = 1.0;
+
+/// -log of what the error of a rule is next to its bound on the integrand.
+constexpr double kRuleDecay = 30.0;
+
+/// ρ of the Bernstein ellipses.
+constexpr double kLargestEllipse = 1e4;
+
+/// Of a term: nodes, exp, erfc, weights, and of the sum.
+constexpr double kSideRounding = 64.0 * kEpsilon;
+constexpr double kSideRoundingOfSquare = 8.0 * kEpsilon;
+
+/// What turning a corner and halving sides round, next to the farthest corner.
+constexpr double kTurnRounding = 8.0 * kEpsilon;
+
+/// The point of a segment that is nearest to the origin.
+Vector2d nearestOfSide(const Vector2d& from, const Vector2d& to) {
+  const Vector2d way = to - from;
+  const double square = way.squaredNorm();
+  if (!(square > 0.0)) return from;
+  return from + std::clamp(-from.dot(way) / square, 0.0, 1.0) * way;
+}
+
+/// Of a half-plane n·x >= d with n_b >= 0 that a side is in, about the largest d >= 0.
+double distanceOfSide(const Vector2d& from, const Vector2d& to) {
+  const Vector2d nearest = nearestOfSide(from, to);
+  double distance = 0.0;
+  if (nearest.y() >= 0.0) {
+    const double length = nearest.norm();
+    if (length > 0.0) distance = std::min(nearest.dot(from), nearest.dot(to)) / length;
+  } else if (from.x() * to.x() > 0.0) {
+    distance = std::min(std::abs(from.x()), std::abs(to.x()));
+  }
+  return std::max(0.0, distance * (1.0 - 8.0 * kEpsilon) - 8.0 * kEpsilon);
+}
+
+class PolygonFlux {
+ public:
+  explicit PolygonFlux(double displacement) : displacement_(displacement) {}
+
+  // With ρ = 4 / x, x the half length h times 1 + d, points of the ellipse are no farther than
+  // hρ/2 = 2 / (1 + d) off the side, along it or in imaginary direction: there |F| is at most
+  // exp(2 - d²/2) / √2π.
+  void addSide(const Vector2d& from, const Vector2d& to) {
+    const double distance = distanceOfSide(from, to);
+    if (distance > kFarthestOfSides) {
+      error_ += kSideUnderflow;
+      return;
+    }
+    const double length = (to - from).norm();
+    const double bend = 0.5 * length * (1.0 + distance);
+    if (bend > kLongestHalf) {
+      const Vector2d middle = 0.5 * (from + to);
+      addSide(from, middle);
+      addSide(middle, to);
+      return;
+    }
+    const double density = std::exp(-0.5 * distance * distance);
+    const double log_ellipse = std::log(std::min(4.0 / bend, kLargestEllipse));
+    const int points = std::clamp(static_cast<int>(std::ceil(0.5 * kRuleDecay / log_ellipse)),
+                                  GaussRule::kFewest, GaussRule::kMost);
+    error_ += 7.0 * std::abs(to.x() - from.x()) * density * std::exp(-2.0 * points * log_ellipse);
+    addRule(from, to, GaussRule::ofSize(points));
+    addLayer(distance, length);
+  }
+
+  Bounds mass() const {
+    const double error = error_ * (1.0 + 1e-9) + kUnderflow;
+    return {sum_ - error, sum_ + error};
+  }
+
+ private:
+  void addRule(const Vector2d& from, const Vector2d& to, const GaussRule& rule) {
+    const Vector2d middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    for (std::size_t k = 0; k < rule.node.size() && rule.weight[k] > 0.0; ++k) {
+      const Vector2d x = middle + rule.node[k] * half;
+      const double field = rule.weight[k] * gaussianExp(x.x()) * std::erfc(x.y() * kInverseSqrtTwo);
+      const double term = 0.5 * kInverseSqrtTwoPi * half.x() * field;
+      sum_ += term;
+      error_ += std::abs(term) * (kSideRounding + kSideRoundingOfSquare * (1.0 + x.squaredNorm())) +
+                kSideUnderflow;
+    }
+  }
+
+  /// What a side may sweep when its corners move, and what sums are rounded by.
+  void addLayer(double distance, double length) {
+    const double near = std::max(0.0, distance - displacement_);
+    error_ += kInverseSqrtTwoPi * kInverseSqrtTwoPi * std::exp(-0.5 * near * near) * displacement_ *
+                  2.2 * (length + 2.0 * displacement_) +
+              kEpsilon * std::abs(sum_);
+  }
+
+  double displacement_;
+  double sum_ = 0.0, error_ = 0.0;
+};
+
+/// Whether the origin is to the left of all sides.
+bool holdsOrigin(const Polygon2& corners) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector2d &p = corners[k], &q = corners[(k + 1) % corners.size()];
+    if (p.x() * q.y() - p.y() * q.x() < 0.0) return false;
+  }
+  return true;
+}
+
+/// Towards the nearest point or, from within, the first corner.
+Vector2d fieldDirection(const Polygon2& corners) {
+  Vector2d nearest = corners.front();
+  if (!holdsOrigin(corners)) {
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vector2d point = nearestOfSide(corners[k], corners[(k + 1) % corners.size()]);
+      if (point.squaredNorm() < nearest.squaredNorm()) nearest = point;
+    }
+  }
+  const double length = nearest.stableNorm();
+  return length > 0.0 ? Vector2d(nearest / length) : Vector2d(Vector2d::UnitY());
+}
+
+}  // namespace
+
+Bounds polygonMass(const Polygon2& corners, double displacement) {
+  if (corners.size() < 3) return {0.0, 0.0};
+  const Vector2d b = fieldDirection(corners);
+  double reach = 1.0;
+  for (const Vector2d& p : corners) reach = std::max(reach, p.norm());
+  const auto turned = [&](const Vector2d& p) {
+    return Vector2d(b.y() * p.x() - b.x() * p.y(), b.dot(p));
+  };
+  PolygonFlux flux(displacement + kTurnRounding * reach);
+  Vector2d from = turned(corners.back());
+  for (const Vector2d& corner : corners) {
+    const Vector2d to = turned(corner);
+    flux.addSide(from, to);
+    from = to;
+  }
+  return flux.mass();
+}
+
+}  // namespace fcl_prob::detail
