@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
-
-#include "carving/line_columns.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -34,107 +31,95 @@ constexpr double kUnseen = 0.3;
 // Of a sum of masses.
 constexpr double kRounded = 1e-12;
 
-/// What is known of one column besides a bound from above.
-struct KnownColumn {
-  WholeBodyLines::LineContacts middle;  ///< of one line
-  double least = 0.0;                   ///< of its lines in the mean, certainly
-  bool has_least = false;
-};
-
-class ColumnLooks {
- public:
-  ColumnLooks(WholeBodyLines& lines, double threshold)
-      : lines_(lines),
-        threshold_(threshold),
-        most_columns_(lines.memberCount() == 1 ? kMostColumns : kMostColumnsOfGroup),
-        columns_(lines) {
-    columns_.divideByMass(kFirstColumns);
-  }
-
-  ColumnBounds run() {
-    ColumnBounds bounds{{0.0, 1.0}, 0.0, 0};
-    for (;;) {
-      const std::size_t before = std::exchange(bounds.columns, columns_.inOrder().size());
-      look(bounds);
-      const bool is_decided = bounds.bounds.lower > threshold_ || bounds.bounds.upper < threshold_;
-      // Columns that know all of their mass are not divided.
-      const bool may_be_divided = bounds.columns > before && 2 * bounds.columns <= most_columns_;
-      if (is_decided || !may_be_divided ||
-          !(columnsToDecide(bounds) < static_cast<double>(most_columns_))) {
-        return bounds;
-      }
-      columns_.divide(2 * bounds.columns, kGapOfHalf);
-    }
-  }
-
- private:
-  // Only the end of the interval that P is to be separated from is looked for.
-  void look(ColumnBounds& bounds) {
-    bounds.likely = 0.0;
-    for (const int column : columns_.inOrder()) {
-      bounds.likely += middleOf(column).mass * columns_[column].measure;
-    }
-    const bool is_above = bounds.likely > threshold_;
-    double lower = 0.0;
-    for (const int column : columns_.inOrder()) {
-      LineColumns::Node& node = columns_[column];
-      const double middle = middleOf(column).mass;
-      const double least = is_above ? leastOf(column) : 0.0;
-      lower += least * node.measure;
-      const double seen = is_above ? middle - least : node.most - middle;
-      node.weight = std::max({0.0, seen, kUnseen * (node.most - least)}) * node.measure;
-    }
-    bounds.bounds.lower = std::max(bounds.bounds.lower, lower * (1.0 - kRounded));
-    bounds.bounds.upper = std::min(bounds.bounds.upper, columns_.most());
-  }
-
-  const WholeBodyLines::LineContacts& middleOf(int column) {
-    const auto [at, is_new] = known_.try_emplace(column);
-    KnownColumn& known = at->second;
-    if (!is_new) return known.middle;
-    known.middle = lines_.contactsOn(detail::middleOf(columns_[column].column));
-    const auto parent = known_.find(columns_[column].parent);
-    if (parent == known_.end()) return known.middle;
-    // The parent's best touch is its first one.
-    auto& touches = known.middle.touches;
-    const auto& of_parent = parent->second.middle.touches;
-    if (!of_parent.empty()) touches.push_back(of_parent.front());
-    return known.middle;
-  }
-
-  double leastOf(int column) {
-    KnownColumn& known = known_.at(column);
-    auto& touches = known.middle.touches;
-    if (std::exchange(known.has_least, true)) return known.least;
-    for (auto& touch : touches) {
-      const double least = lines_.leastOn(columns_[column].column, touch);
-      if (!(least > known.least)) continue;
-      known.least = least;
-      std::swap(touch, touches.front());
-    }
-    return known.least;
-  }
-
-  // How many it takes until the end of the interval is on the same side of the threshold as P.
-  double columnsToDecide(const ColumnBounds& known) const {
-    const bool is_above = known.likely > threshold_;
-    const double end = is_above ? known.bounds.lower : known.bounds.upper;
-    const double ratio = std::fabs((known.likely - end) / (known.likely - threshold_));
-    return static_cast<double>(known.columns) *
-           std::pow(ratio, 1.0 / (is_above ? kConvergenceBelow : kConvergenceAbove));
-  }
-
-  WholeBodyLines& lines_;
-  double threshold_;
-  std::size_t most_columns_;
-  LineColumns columns_;
-  std::unordered_map<int, KnownColumn> known_;
-};
+// How many it takes until the end of the interval is on the same side of the threshold as P.
+double columnsToDecide(const ColumnBounds& known, double threshold) {
+  const bool is_above = known.likely > threshold;
+  const double end = is_above ? known.bounds.lower : known.bounds.upper;
+  const double ratio = std::fabs((known.likely - end) / (known.likely - threshold));
+  return static_cast<double>(known.columns) *
+         std::pow(ratio, 1.0 / (is_above ? kConvergenceBelow : kConvergenceAbove));
+}
 
 }  // namespace
 
+ColumnLooks::ColumnLooks(WholeBodyLines& lines) : lines_(lines), columns_(lines) {
+  columns_.divideByMass(kFirstColumns);
+}
+
+double ColumnLooks::likely() {
+  double sum = 0.0;
+  for (const int column : columns_.inOrder()) {
+    sum += middleOf(column).mass * columns_[column].measure;
+  }
+  return sum;
+}
+
+Bounds ColumnLooks::look(bool above) {
+  double lower = 0.0;
+  for (const int column : columns_.inOrder()) {
+    LineColumns::Node& node = columns_[column];
+    const double middle = middleOf(column).mass;
+    const double least = above && lines_.boundsBelow() ? leastOf(column) : 0.0;
+    lower += least * node.measure;
+    const double seen = above ? middle - least : node.most - middle;
+    node.weight = std::max({0.0, seen, kUnseen * (node.most - least)}) * node.measure;
+  }
+  bounds_.lower = std::max(bounds_.lower, lower * (1.0 - kRounded));
+  if (lines_.boundsAbove()) bounds_.upper = std::min(bounds_.upper, columns_.most());
+  return bounds_;
+}
+
+// Columns that know all of their mass are not divided.
+bool ColumnLooks::divideTo(std::size_t count) {
+  const std::size_t before = columns_.inOrder().size();
+  columns_.divide(count, kGapOfHalf);
+  return columns_.inOrder().size() > before;
+}
+
+const WholeBodyLines::LineContacts& ColumnLooks::middleOf(int column) {
+  const auto [at, is_new] = known_.try_emplace(column);
+  KnownColumn& known = at->second;
+  if (!is_new) return known.middle;
+  known.middle = lines_.contactsOn(detail::middleOf(columns_[column].column));
+  const auto parent = known_.find(columns_[column].parent);
+  if (parent == known_.end()) return known.middle;
+  // The parent's best touch is its first one.
+  auto& touches = known.middle.touches;
+  const auto& of_parent = parent->second.middle.touches;
+  if (!of_parent.empty()) touches.push_back(of_parent.front());
+  return known.middle;
+}
+
+double ColumnLooks::leastOf(int column) {
+  KnownColumn& known = known_.at(column);
+  auto& touches = known.middle.touches;
+  if (std::exchange(known.has_least, true)) return known.least;
+  for (auto& touch : touches) {
+    const double least = lines_.leastOn(columns_[column].column, touch);
+    if (!(least > known.least)) continue;
+    known.least = least;
+    std::swap(touch, touches.front());
+  }
+  return known.least;
+}
+
 ColumnBounds columnBounds(WholeBodyLines& lines, double threshold) {
-  return ColumnLooks(lines, threshold).run();
+  const std::size_t most_columns = lines.memberCount() == 1 ? kMostColumns : kMostColumnsOfGroup;
+  const auto most = static_cast<double>(most_columns);
+  ColumnLooks looks(lines);
+  ColumnBounds known{{0.0, 1.0}, 0.0, 0, !lines.boundsBelow()};
+  for (;;) {
+    known.columns = looks.columns().inOrder().size();
+    known.likely = looks.likely();
+    const bool is_above = known.likely > threshold;
+    known.bounds = looks.look(is_above);
+    const bool is_decided = known.bounds.lower > threshold || known.bounds.upper < threshold;
+    const bool may_tell = is_above ? lines.boundsBelow() : lines.boundsAbove();
+    if (is_decided || !may_tell || 2 * known.columns > most_columns ||
+        !(columnsToDecide(known, threshold) < most) || !looks.divideTo(2 * known.columns)) {
+      return known;
+    }
+  }
 }
 
 }  // namespace fcl_prob::detail

@@ -3,7 +3,9 @@
 // A first, certified interval where convex meshes are taken whole.
 #pragma once
 
-#include "carving/whole_body_lines.h"
+#include <unordered_map>
+
+#include "carving/line_columns.h"
 #include "fcl_prob/bounds.h"
 
 namespace fcl_prob::detail {
@@ -12,11 +14,53 @@ struct ColumnBounds {
   Bounds bounds;
   double likely;  ///< P, about
   std::size_t columns;
+  bool only_above = false;  ///< no bound from below can be told, since hulls stand for members
 };
 
-/// Certified, from columns across the nearest contact: no line of a column meets anything before
-/// the boxes of the mesh's tree, and all of them meet the convex mesh put to one point of the other
-/// one. Ends when it is certain on which side of the threshold P lies, or when that would likely
+/// Columns across the nearest contact, and what the line in the middle of each tells. No line of a
+/// column meets anything before the boxes of the mesh's tree, and all of them meet the convex mesh
+/// put to one point of the other one.
+class ColumnLooks {
+ public:
+  /// Keeps the reference.
+  explicit ColumnLooks(WholeBodyLines& lines);
+
+  /// P, about: by the lines in the middle of the columns as they are.
+  double likely();
+
+  /// Certified, of all columns so far: the end of the interval that P is to be separated from, the
+  /// other one as it was. Columns are then divided for its sake.
+  /// \param above  whether that is the lower one
+  Bounds look(bool above);
+
+  /// Until there are so many. False if no more have anything open.
+  bool divideTo(std::size_t count);
+
+  const LineColumns& columns() const { return columns_; }
+
+  /// Of the line in the middle, about.
+  double massInMiddle(int column) { return middleOf(column).mass; }
+
+  /// Of the lines of the column in the mean: certain.
+  double leastOf(int column);
+
+ private:
+  /// What is known of one column besides a bound from above.
+  struct KnownColumn {
+    WholeBodyLines::LineContacts middle;  ///< of one line
+    double least = 0.0;                   ///< of its lines in the mean, certainly
+    bool has_least = false;
+  };
+
+  const WholeBodyLines::LineContacts& middleOf(int column);
+
+  WholeBodyLines& lines_;
+  LineColumns columns_;
+  std::unordered_map<int, KnownColumn> known_;
+  Bounds bounds_{0.0, 1.0};
+};
+
+/// Ends when it is certain on which side of the threshold P lies, or when that would likely
 /// take more columns than pay.
 ColumnBounds columnBounds(WholeBodyLines& lines, double threshold);
 

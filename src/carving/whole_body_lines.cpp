@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/normal_mass.h"
+#include "pieces/nearly_convex.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -31,6 +32,45 @@ double distanceOfTail(double mass) {
   return std::sqrt(std::max(0.0, -2.0 * std::log(std::max(2.0 * mass, 1e-300))));
 }
 
+/// One part of the body in the frame of the lines.
+class WhitenedPart {
+ public:
+  WhitenedPart(const WhitenedPair& pair, const WholeBody& whole, const Eigen::Matrix3d& matrix,
+               std::size_t index)
+      : pair_(pair), whole_(whole), index_(index), part_(whole.body.tree->parts[index]) {
+    linear_ = matrix * whole.body.parts[index].pose.linear();
+  }
+
+  bool isConvex() const { return part_.fan != nullptr; }
+
+  /// Nothing if that is not accurate enough, or may hold part of the mesh.
+  std::optional<WhitenedFan> fan(StandIns stand_ins) const {
+    if (isConvex()) return visible(*part_.fan);
+    auto hull = visible(part_.nearly->hull);
+    if (!hull || stand_ins == StandIns::hulls) return hull;
+    return whitened(part_.nearly->core);
+  }
+
+ private:
+  std::optional<WhitenedFan> whitened(const ConvexFan& fan) const {
+    WhitenedFan result(pair_, part_, fan, whole_.body_is_a, linear_);
+    if (!result.usable()) return std::nullopt;
+    return result;
+  }
+
+  std::optional<WhitenedFan> visible(const ConvexFan& fan) const {
+    auto result = whitened(fan);
+    if (result && mayHoldPart(whole_, index_, *result)) return std::nullopt;
+    return result;
+  }
+
+  const WhitenedPair& pair_;
+  const WholeBody& whole_;
+  std::size_t index_;
+  const PieceTree::Part& part_;
+  Eigen::Matrix3d linear_;
+};
+
 double nearness(const LineSpan& span) { return std::max({span.lo, -span.hi, 0.0}); }
 
 }  // namespace
@@ -40,18 +80,19 @@ std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const WhitenedPair& pair,
                                                    const PartitionObject& b,
                                                    const GaussianDisplacement& displacement,
                                                    const Eigen::Matrix3d& matrix,
-                                                   const SolidContact* solids) {
-  const auto whole = wholeBodyOf(a, b, displacement, Convexity::exact);
+                                                   const SolidContact* solids, StandIns stand_ins) {
+  const auto whole = wholeBodyOf(
+      a, b, displacement, stand_ins == StandIns::none ? Convexity::exact : Convexity::nearly);
   if (!whole || pair.band) return nullptr;
   auto lines = std::make_unique<WholeBodyLines>();
-  lines->solids_ = solids;
   for (std::size_t i = 0; i < whole->body.parts.size(); ++i) {
-    const PieceTree::Part& part = whole->body.tree->parts[i];
-    WhitenedFan fan(pair, part, *part.fan, whole->body_is_a,
-                    matrix * whole->body.parts[i].pose.linear());
-    if (!fan.usable() || mayHoldPart(*whole, i, fan)) return nullptr;
-    lines->members_.emplace_back(std::move(fan), static_cast<int>(i));
+    const WhitenedPart part(pair, *whole, matrix, i);
+    if (!part.isConvex()) lines->stand_ins_ = stand_ins;
+    auto fan = part.fan(stand_ins);
+    if (!fan) return nullptr;
+    lines->members_.emplace_back(std::move(*fan), static_cast<int>(i));
   }
+  if (lines->stand_ins_ != StandIns::cores) lines->solids_ = solids;
   return lines;
 }
 
@@ -76,35 +117,61 @@ void WholeBodyLines::pushChildren(const Visit& visit) {
   if (of_left && left_first) stack_.push_back({left, *of_left});
 }
 
-// The least sign·s of what a column may meet.
-double WholeBodyLines::extremeOf(const Column& column, double sign) {
-  const auto extreme = [sign](const LineSpan& span) { return sign > 0 ? span.lo : -span.hi; };
+// What a column may meet, united: nodes that are fine, and behind them those that stick out.
+void WholeBodyLines::meet(const Column& column) {
   const Eigen::Vector2d fine = kFineEnough * (column.hi - column.lo);
   begin(column);
-  double least = kInfinity;
+  met_.clear();
   while (!stack_.empty()) {
     const Visit visit = stack_.back();
     stack_.pop_back();
-    if (!(extreme(visit.span) < least)) continue;
+    if (isMet(visit.span)) continue;
     const WhitenedTree& mesh = visit.place.member->fan.mesh();
     const NodeBox& box = mesh.boxes[visit.place.node];
     const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
     if (is_fine || mesh.tree->nodes[visit.place.node].isLeaf()) {
-      least = extreme(visit.span);
+      addMet(visit.span);
     } else {
       pushChildren(visit);
     }
   }
-  return least;
+}
+
+bool WholeBodyLines::isMet(const LineSpan& span) const {
+  return std::any_of(met_.begin(), met_.end(), [&span](const LineSpan& known) {
+    return known.lo <= span.lo && span.hi <= known.hi;
+  });
+}
+
+// United with all that it meets.
+void WholeBodyLines::addMet(LineSpan span) {
+  std::size_t kept = 0;
+  for (const LineSpan& known : met_) {
+    if (known.hi < span.lo || span.hi < known.lo) {
+      met_[kept++] = known;
+    } else {
+      span = {std::min(span.lo, known.lo), std::max(span.hi, known.hi)};
+    }
+  }
+  met_.resize(kept);
+  met_.push_back(span);
 }
 
 // Where one solid is in the other, too, their surfaces touch before and behind: far out on the line
 // the objects are apart.
 double WholeBodyLines::mostOn(const Column& column) {
-  const double from = extremeOf(column, 1.0);
-  if (!(from < kInfinity)) return 0.0;
-  const double to = -extremeOf(column, -1.0);
-  return std::min(1.0, normalIntervalMass(from, to) * (1.0 + kRoundedLines));
+  meet(column);
+  if (met_.empty()) return 0.0;
+  if (solids_) {
+    LineSpan all = met_.front();
+    for (const LineSpan& span : met_) {
+      all = {std::min(all.lo, span.lo), std::max(all.hi, span.hi)};
+    }
+    met_ = {all};
+  }
+  double mass = 0.0;
+  for (const LineSpan& span : met_) mass += normalIntervalMass(span.lo, span.hi);
+  return std::min(1.0, mass * (1.0 + kRoundedLines));
 }
 
 double WholeBodyLines::leastOn(const Column& column, const Touch& touch) const {

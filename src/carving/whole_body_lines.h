@@ -26,6 +26,11 @@ struct Silhouette {
   double area;    ///< no less
 };
 
+/// What members that are nearly convex are taken for. With hulls lines have no less than with the
+/// members, and bounds hold from above only; with cores they have no more, and bounds hold from
+/// below only, as of surfaces. None: where there are such members, there are no lines.
+enum class StandIns { none, hulls, cores };
+
 class WholeBodyLines {
  public:
   /// Null where no object can be taken whole. Keeps references to the pair and the solids.
@@ -35,9 +40,13 @@ class WholeBodyLines {
                                             const PartitionObject& b,
                                             const GaussianDisplacement& displacement,
                                             const Eigen::Matrix3d& matrix,
-                                            const SolidContact* solids);
+                                            const SolidContact* solids, StandIns stand_ins);
 
   std::size_t memberCount() const { return members_.size(); }
+
+  /// Whether bounds on one side of what the members have can be told: from below, or above.
+  bool boundsBelow() const { return stand_ins_ != StandIns::hulls; }
+  bool boundsAbove() const { return stand_ins_ != StandIns::cores; }
 
   /// No less than what any line { (s, u) } of a column has of collisions, under N(0, 1): certain.
   double mostOn(const Column& column);
@@ -98,7 +107,9 @@ class WholeBodyLines {
   };
 
   void begin(const Column& column);
-  double extremeOf(const Column& column, double sign);
+  void meet(const Column& column);
+  bool isMet(const LineSpan& span) const;
+  void addMet(LineSpan span);
   void pushChildren(const Visit& visit);
   bool isSettled(LineSpan& span);
   void beginLine(const LeftOut& negligible);
@@ -112,6 +123,9 @@ class WholeBodyLines {
 
   std::deque<Member> members_;
   const SolidContact* solids_ = nullptr;
+  StandIns stand_ins_ = StandIns::none;  ///< none where all members are convex
+
+  std::vector<LineSpan> met_;  ///< by lines of the column that was looked at last, apart
 
   // Of the line that is looked at.
   std::vector<Visit> stack_;

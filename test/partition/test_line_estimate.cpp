@@ -36,7 +36,7 @@ std::unique_ptr<Contacts> contactsOf(const WhitenedMeshes& meshes) {
   const PartitionObject b{meshes.tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}};
   const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
   if constexpr (std::is_same_v<Contacts, WholeBodyLines>) {
-    return WholeBodyLines::of(meshes.pair, a, b, kUnit, matrix, nullptr);
+    return WholeBodyLines::of(meshes.pair, a, b, kUnit, matrix, nullptr, StandIns::none);
   } else {
     return WholeBodyTester::of(meshes.pair, a, b, kUnit, matrix);
   }
