@@ -11,8 +11,8 @@
 #include "base/random_words.h"
 #include "carving/line_columns.h"
 #include "gaussian/normal_density.h"
-#include "partition/cell_draw.h"
 #include "partition/cell_sampling.h"
+#include "partition/column_draw.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -116,9 +116,7 @@ class ColumnSampler {
 
  private:
   double massAt(const LineColumns::Node& node, const Eigen::Vector2d& x, PairsOfColumn& drawn) {
-    const auto& [lo, hi] = node.column;
-    const Eigen::Vector2d u(truncatedNormal(lo[0], hi[0], x[0]),
-                            truncatedNormal(lo[1], hi[1], x[1]));
+    const Eigen::Vector2d u = pointOf(node.column, x);
     const double mass = lines_.massOn(
         u, {kLeftOutOfError * request_.relative_tolerance, kLeftOutOfBound * node.most});
     drawn.lowest = std::min(drawn.lowest, mass);

@@ -3,14 +3,15 @@
 #include "robot/probable_answer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "base/engine_limits.h"
 #include "fcl_prob/combined_bounds.h"
-#include "partition/probable_partition.h"
 #include "query/call_budget.h"
-#include "robot/body_bounds.h"
-#include "robot/sum_above.h"
+#include "robot/obstacle_sampling.h"
+#include "robot/seeds_apart.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -25,94 +26,28 @@ constexpr double kUnlikelyOfThreshold = 0.01;
 constexpr std::size_t kCellsBeforeProof = 64;
 constexpr std::size_t kCellsOfProof = 4'000;
 
-/// Bodies against one obstacle, as far as they have been looked at.
-class ObstacleSampling {
- public:
-  ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
-                   const std::vector<Ball>& balls, double most_far)
-      : scene_(scene), geometries_(geometries), displacement_(gaussian(scene).reversed()) {
-    far_ = leaveOutFar(balls, *scene.around, scene.state, most_far, scene_.bodies);
-    certified_ = {0.0, scene_.bodies.empty() ? far_ : 1.0};
-    probable_ = certified_;
-  }
+/// Of what the others leave open, obstacles that half-spaces bound so well need no lines.
+constexpr double kHardlyOpen = 0.3;
 
-  Bounds certified() const { return certified_; }
-  Bounds probable() const { return probable_; }
-  bool isDone() const { return done_ || scene_.bodies.empty(); }
-  std::size_t cells() const { return partition_ ? partition_->statistics().cells : 0; }
-  std::size_t samples() const { return partition_ ? partition_->statistics().samples : 0; }
+/// Lines and cells may each be wrong with this part of the chance.
+constexpr double kShareOfMethod = 0.5;
 
-  /// Half-spaces between bodies and obstacle; those that hardly matter need no samples.
-  /// \param most_left_out  what they may add up to
-  void boundByHalfSpaces(double most_left_out) {
-    if (scene_.bodies.empty()) return;
-    const BodyBounds bounds(geometries_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
-                            displacement_);
-    double left_out = 0.0;
-    scene_.bodies = bounds.likelier(most_left_out, left_out);
-    certified_.upper = std::min(certified_.upper, sumAbove(bounds.sum(), far_));
-    probable_.upper = std::min(probable_.upper, certified_.upper);
-    far_ = sumAbove(far_, left_out);
-  }
-
-  /// \return  why it stopped, if that is a limit
-  std::optional<ProbabilityStatus> improve(const ProbabilityRequest& request, double chance,
-                                           const std::function<bool()>& enough) {
-    if (!partition_) begin(request, chance);
-    const auto stopped = partition_->improve([&] {
-      certified_ = within(partition_->certified(), certified_);
-      probable_ = within(partition_->probable(), probable_);
-      return enough();
-    });
-    done_ = stopped.has_value();
-    return stopped == ProbabilityStatus::exact ? std::nullopt : stopped;
-  }
-
- private:
-  static const GaussianDisplacement& gaussian(const ProbableScene& scene) {
-    return std::get<GaussianDisplacement>(scene.state.displacement);
-  }
-
-  void begin(const ProbabilityRequest& request, double chance) {
-    std::vector<const PieceTree*> trees;
-    for (const PlacedBody& body : scene_.bodies) {
-      const PreparedGeometry& geometry = *geometries_[body.body];
-      trees.push_back(&geometry.pieces());
-      bodies_.parts.push_back({body.pose, geometry.solid(request.contact)});
-    }
-    tree_ = joinPieceTrees(trees);
-    bodies_.tree = tree_.get();
-    const PreparedGeometry& obstacle = *scene_.obstacle;
-    obstacle_ = {&obstacle.pieces(), {{scene_.state.pose, obstacle.solid(request.contact)}}};
-    partition_ =
-        std::make_unique<ProbablePartition>(bodies_, obstacle_, displacement_, request, chance);
-  }
-
-  /// What is far is besides.
-  Bounds within(const Bounds& of_near, const Bounds& known) const {
-    const double upper = std::min(known.upper, sumAbove(of_near.upper, far_));
-    return {std::min(upper, std::max(known.lower, of_near.lower)), upper};
-  }
-
-  ProbableScene scene_;
-  const PreparedGeometries& geometries_;
-  GaussianDisplacement displacement_;  ///< of the bodies
-  double far_ = 0.0;
-  std::shared_ptr<const PieceTree> tree_;
-  PartitionObject bodies_{};
-  PartitionObject obstacle_{};
-  std::unique_ptr<ProbablePartition> partition_;
-  bool done_ = false;
-  Bounds certified_;
-  Bounds probable_;
+/// What samples may be drawn of.
+struct Sampling {
+  bool by_lines;
+  std::size_t most_cells;
 };
 
 class AnyProbably {
  public:
   AnyProbably(const std::vector<ProbableScene>& scenes, const PreparedGeometries& geometries,
               const std::vector<Ball>& balls, double threshold, double chance,
-              const ProbabilityRequest& request)
-      : threshold_(threshold), chance_(chance), request_(request), budget_(request_) {
+              const ProbabilityRequest& request, const Sampling& sampling)
+      : threshold_(threshold),
+        chance_(chance),
+        request_(request),
+        sampling_(sampling),
+        budget_(request_) {
     const double far = kFarOfThreshold * threshold / static_cast<double>(scenes.size());
     for (const ProbableScene& scene : scenes) {
       obstacles_.push_back(std::make_unique<ObstacleSampling>(scene, geometries, balls, far));
@@ -126,17 +61,20 @@ class AnyProbably {
     const double unlikely =
         kUnlikelyOfThreshold * threshold_ / static_cast<double>(obstacles_.size());
     for (const auto& obstacle : obstacles_) obstacle->boundByHalfSpaces(unlikely);
-    const double share = chance_ / static_cast<double>(obstacles_.size());
+    share_ = kShareOfMethod * chance_ / static_cast<double>(obstacles_.size());
+    if (sampling_.by_lines) {
+      if (const auto ended = tryLines()) return finished(*ended);
+    }
     while (!decide()) {
       ObstacleSampling* next = widest();
       if (next == nullptr) return finished(stopped_.value_or(ProbabilityStatus::exact));
-      const auto limit = next->improve(request_, share, [this] { return decide(); });
+      const auto limit = next->improve(request_, share_, [this] { return decide(); });
       if (limit && !decide()) {
         stopped_ = limit;
         if (*limit == ProbabilityStatus::cancelled) return finished(*limit);
       }
       if (const auto out = budget_.exhausted(); out && !decide()) return finished(*out);
-      if (cells() >= request_.max_cells && !decide()) {
+      if (cells() >= sampling_.most_cells && !decide()) {
         return finished(ProbabilityStatus::cell_limit);
       }
     }
@@ -144,6 +82,89 @@ class AnyProbably {
   }
 
  private:
+  /// What is to be told next of an obstacle.
+  struct LineTarget {
+    ObstacleSampling* obstacle = nullptr;
+    bool above = false;
+    double value = 0.0;
+  };
+
+  /// Lines, as long as they pay. \return  why that ends all; nothing if there are none to be had
+  std::optional<ProbabilityStatus> tryLines() {
+    const ProbabilityStatistics none;
+    const EngineLimits limits(request_, none);
+    for (;;) {
+      if (decide()) return ProbabilityStatus::decided;
+      if (const auto stopped = limits.interruption(result_.certified)) return stopped;
+      const LineTarget next = nextTarget();
+      if (next.obstacle == nullptr) return std::nullopt;
+      if (!next.obstacle->hasLines()) {
+        if (!next.obstacle->beginLines(withNextSeed(), share_)) return std::nullopt;
+      } else if (!next.obstacle->improveByLines(next.above, next.value)) {
+        return ProbabilityStatus::cell_limit;
+      }
+    }
+  }
+
+  /// What is drawn for an obstacle may depend on what was drawn for others before, and must not be
+  /// the same.
+  ProbabilityRequest withNextSeed() {
+    ProbabilityRequest request = request_;
+    request.seed += ++seeds_ * kSeedsApart;
+    return request;
+  }
+
+  /// The likeliest obstacle without lines, if they all together are open for too much of what
+  /// there is to the threshold; else one with lines, and where its end of the interval should be:
+  /// each is left a share of that, the more so, the more open it is. One after the other gets
+  /// there, and what the ones before have left over is for those behind.
+  LineTarget nextTarget() {
+    double none = 1.0, hidden = 0.0;
+    ObstacleSampling* without = nullptr;
+    for (const auto& obstacle : obstacles_) {
+      if (obstacle->hasLines()) {
+        none *= 1.0 - obstacle->likely();
+      } else if (!obstacle->isDone()) {
+        hidden += obstacle->certified().width();
+        if (!without || without->certified().upper < obstacle->certified().upper) {
+          without = obstacle.get();
+        }
+      }
+    }
+    const bool above = 1.0 - none > threshold_;
+    if (without && hidden > kHardlyOpen * std::fabs(1.0 - none - threshold_)) return {without};
+    return nextOfLines(above);
+  }
+
+  LineTarget nextOfLines(bool above) const {
+    std::vector<double> open, at;
+    double all_open = 0.0;
+    for (const auto& obstacle : obstacles_) {
+      const bool counts = obstacle->hasLines();
+      const double end = endOf(*obstacle, above);
+      at.push_back(counts ? obstacle->likely() : end);
+      const Bounds certified = obstacle->certified();
+      const double most = above ? at.back() : certified.upper - at.back();
+      all_open += open.emplace_back(counts ? std::sqrt(std::max(most, 0.0)) : 0.0);
+    }
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (!(open[i] > 0.0)) continue;
+      double others = 1.0;
+      for (std::size_t j = 0; j < at.size(); ++j) others *= j == i ? 1.0 : 1.0 - at[j];
+      const double left = 1.0 - (1.0 - threshold_) / others;
+      const double target = at[i] + (left - at[i]) * std::min(1.0, open[i] / all_open);
+      all_open -= open[i];
+      at[i] = endOf(*obstacles_[i], above);
+      const bool is_there = above ? at[i] >= target : at[i] <= target;
+      if (!is_there) return {obstacles_[i].get(), above, target};
+    }
+    return {};
+  }
+
+  static double endOf(const ObstacleSampling& obstacle, bool above) {
+    return above ? obstacle.probable().lower : obstacle.probable().upper;
+  }
+
   /// The obstacle that leaves most open and is not done.
   ObstacleSampling* widest() {
     ObstacleSampling* found = nullptr;
@@ -186,9 +207,15 @@ class AnyProbably {
     return sum;
   }
 
+  std::size_t columns() const {
+    std::size_t sum = 0;
+    for (const auto& obstacle : obstacles_) sum += obstacle->columns();
+    return sum;
+  }
+
   ProbableResult finished(ProbabilityStatus status) {
     result_.status = status;
-    result_.cells = cells();
+    result_.cells = cells() + columns();
     for (const auto& obstacle : obstacles_) result_.samples += obstacle->samples();
     return result_;
   }
@@ -196,6 +223,9 @@ class AnyProbably {
   double threshold_;
   double chance_;
   ProbabilityRequest request_;
+  Sampling sampling_;
+  std::uint64_t seeds_ = 0;
+  double share_ = 0.0;  ///< of an obstacle and a method in the chance
   CallBudget budget_;
   std::vector<std::unique_ptr<ObstacleSampling>> obstacles_;
   std::optional<ProbabilityStatus> stopped_;
@@ -233,11 +263,12 @@ ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
     part.max_cells = std::min(part.max_cells, most_cells);
     return part;
   };
-  const auto sampled = [&](std::size_t most_cells) {
-    return counted(
-        AnyProbably(scenes, geometries, balls, threshold, chance, within(most_cells)).run());
+  const auto sampled = [&](const Sampling& sampling) {
+    return counted(AnyProbably(scenes, geometries, balls, threshold, chance,
+                               within(request.max_cells), sampling)
+                       .run());
   };
-  const ProbableResult soon = sampled(kCellsBeforeProof);
+  const ProbableResult soon = sampled({true, std::min(kCellsBeforeProof, request.max_cells)});
   if (soon.status != ProbabilityStatus::cell_limit || budget.exhausted()) return soon;
   ProbableResult proven = counted(prove(within(kCellsOfProof)));
   if (proven.decision != ProbableDecision::undecided) return proven;
@@ -247,7 +278,7 @@ ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
                        std::clamp(soon.probable.upper, lower, upper)};
     return proven;
   }
-  return sampled(request.max_cells);
+  return sampled({false, request.max_cells});
 }
 
 }  // namespace fcl_prob::detail

@@ -19,6 +19,7 @@
 #include "robot/obstacle_gradient.h"
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
+#include "robot/seeds_apart.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {
@@ -30,9 +31,6 @@ using detail::PlacedBody;
 
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
-
-// Between the seeds of obstacles: 2⁶⁴ over the golden ratio.
-constexpr std::uint64_t kSeedsApart = 0x9e3779b97f4a7c15;
 
 void addUp(const std::vector<FarBodies>& far, RobotResult& result) {
   for (const FarBodies& of_one : far) {
@@ -269,7 +267,7 @@ struct RobotQuery::Implementation {
       const auto near = nearBodies(all, i);
       if (near.empty()) continue;
       MotionGradientRequest of_one = progress.requestOf(i);
-      of_one.seed += i * kSeedsApart;
+      of_one.seed += i * detail::kSeedsApart;
       parts.push_back(detail::obstacleGradient(robot, waypoints, near, obstacles[i].geometry,
                                                detail::stateAt(obstacles[i], 0), of_one));
     }

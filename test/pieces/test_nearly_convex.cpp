@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "catch.h"
+#include "dented_mesh.h"
 #include "mesh_shapes.h"
 #include "models.h"
 #include "obj_file.h"
@@ -25,29 +26,10 @@ using fcl_prob_test::PartitionQuery;
 using fcl_prob_test::RandomBodies;
 using fcl_prob_test::sphereMesh;
 using fcl_prob_test::windingNumber;
+using fcl_prob_test::withDents;
 
 std::shared_ptr<const NearlyConvex> nearlyOf(const TriangleMesh& mesh) {
   return nearlyConvexOf(viewOf(mesh), mesh.vertices, Eigen::Vector3d::Zero());
-}
-
-// Some triangles in three, with a point of their middle pushed inwards.
-TriangleMesh withDents(TriangleMesh mesh, int count, double depth, RandomBodies& random) {
-  for (int i = 0; i < count; ++i) {
-    const auto at =
-        static_cast<std::size_t>(random.integer(0, static_cast<int>(mesh.triangles.size()) - 1));
-    const fcl::Triangle t = mesh.triangles[at];
-    const Eigen::Vector3d& a = mesh.vertices[t[0]];
-    const Eigen::Vector3d& b = mesh.vertices[t[1]];
-    const Eigen::Vector3d& c = mesh.vertices[t[2]];
-    const Eigen::Vector3d inwards = -(b - a).cross(c - a).normalized();
-    const Eigen::Vector3d bottom = (a + b + c) / 3 + random.uniform(0.1, 1.0) * depth * inwards;
-    const std::size_t middle = mesh.vertices.size();
-    mesh.vertices.push_back(bottom);
-    mesh.triangles[at] = {t[0], t[1], middle};
-    mesh.triangles.emplace_back(t[1], t[2], middle);
-    mesh.triangles.emplace_back(t[2], t[0], middle);
-  }
-  return mesh;
 }
 
 // Points all over a body, most of them near its surface, are within the mesh.

@@ -39,9 +39,14 @@ class PartitionQuery {
 
   fcl_prob::ProbabilityResult run(const fcl_prob::GaussianDisplacement& displacement,
                                   const fcl_prob::ProbabilityRequest& request) const {
-    return fcl_prob::detail::partitionProbability({tree_a_.get(), {{pose_a, solid_a_.get()}}},
-                                                  {tree_b_.get(), {{pose_b, solid_b_.get()}}},
-                                                  displacement, request);
+    return fcl_prob::detail::partitionProbability(a(), b(), displacement, request);
+  }
+
+  fcl_prob::detail::PartitionObject a() const {
+    return {tree_a_.get(), {{pose_a, solid_a_.get()}}};
+  }
+  fcl_prob::detail::PartitionObject b() const {
+    return {tree_b_.get(), {{pose_b, solid_b_.get()}}};
   }
 
   std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_a;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/obstacle_sampling.h"
+
+#include <algorithm>
+
+#include "robot/body_bounds.h"
+#include "robot/sum_above.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+GaussianDisplacement displacementOfBodies(const ProbableScene& scene) {
+  return std::get<GaussianDisplacement>(scene.state.displacement).reversed();
+}
+
+}  // namespace
+
+ObstacleSampling::ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
+                                   const std::vector<Ball>& balls, double most_far)
+    : scene_(scene), geometries_(geometries), displacement_(displacementOfBodies(scene)) {
+  far_ = leaveOutFar(balls, *scene.around, scene.state, most_far, scene_.bodies);
+  certified_ = {0.0, scene_.bodies.empty() ? far_ : 1.0};
+  probable_ = certified_;
+}
+
+std::size_t ObstacleSampling::cells() const {
+  return partition_ ? partition_->statistics().cells : 0;
+}
+
+std::size_t ObstacleSampling::columns() const { return lines_ ? lines_->columns() : 0; }
+
+std::size_t ObstacleSampling::samples() const {
+  return (lines_ ? lines_->lines() : 0) + (partition_ ? partition_->statistics().samples : 0);
+}
+
+void ObstacleSampling::boundByHalfSpaces(double most_left_out) {
+  if (scene_.bodies.empty()) return;
+  const BodyBounds bounds(geometries_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
+                          displacement_);
+  double left_out = 0.0;
+  scene_.bodies = bounds.likelier(most_left_out, left_out);
+  certified_.upper = std::min(certified_.upper, sumAbove(bounds.sum(), far_));
+  probable_.upper = std::min(probable_.upper, certified_.upper);
+  far_ = sumAbove(far_, left_out);
+}
+
+bool ObstacleSampling::beginLines(const ProbabilityRequest& request, double chance) {
+  place(request);
+  lines_ = LineBets::of(bodies_, obstacle_, displacement_, request, chance);
+  if (!lines_) return false;
+  certified_ = within(lines_->certified(), certified_);
+  probable_ = within(lines_->probable(), probable_);
+  return true;
+}
+
+double ObstacleSampling::likely() const {
+  if (!lines_) return 0.5 * (probable_.lower + probable_.upper);
+  return std::clamp(lines_->likely(), probable_.lower, probable_.upper);
+}
+
+bool ObstacleSampling::improveByLines(bool above, double target) {
+  const bool goes_on = lines_->improve(above, above ? target : std::max(0.0, target - far_));
+  certified_ = within(lines_->certified(), certified_);
+  probable_ = within(lines_->probable(), probable_);
+  return goes_on;
+}
+
+std::optional<ProbabilityStatus> ObstacleSampling::improve(const ProbabilityRequest& request,
+                                                           double chance,
+                                                           const std::function<bool()>& enough) {
+  if (!partition_) {
+    place(request);
+    partition_ =
+        std::make_unique<ProbablePartition>(bodies_, obstacle_, displacement_, request, chance);
+  }
+  const auto stopped = partition_->improve([&] {
+    certified_ = within(partition_->certified(), certified_);
+    probable_ = within(partition_->probable(), probable_);
+    return enough();
+  });
+  done_ = stopped.has_value();
+  return stopped == ProbabilityStatus::exact ? std::nullopt : stopped;
+}
+
+void ObstacleSampling::place(const ProbabilityRequest& request) {
+  if (tree_) return;
+  std::vector<const PieceTree*> trees;
+  for (const PlacedBody& body : scene_.bodies) {
+    const PreparedGeometry& geometry = *geometries_[body.body];
+    trees.push_back(&geometry.pieces());
+    bodies_.parts.push_back({body.pose, geometry.solid(request.contact)});
+  }
+  tree_ = joinPieceTrees(trees);
+  bodies_.tree = tree_.get();
+  const PreparedGeometry& obstacle = *scene_.obstacle;
+  obstacle_ = {&obstacle.pieces(), {{scene_.state.pose, obstacle.solid(request.contact)}}};
+}
+
+/// What is far is besides.
+Bounds ObstacleSampling::within(const Bounds& of_near, const Bounds& known) const {
+  const double upper = std::min(known.upper, sumAbove(of_near.upper, far_));
+  return {std::min(upper, std::max(known.lower, of_near.lower)), upper};
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Placed bodies against one obstacle, as far as they have been looked at for a probable decision.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "partition/line_bets.h"
+#include "partition/probable_partition.h"
+#include "robot/probable_answer.h"
+
+namespace fcl_prob::detail {
+
+class ObstacleSampling {
+ public:
+  /// \param most_far  what bodies that balls show to be far may add up to
+  ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
+                   const std::vector<Ball>& balls, double most_far);
+
+  Bounds certified() const { return certified_; }
+  Bounds probable() const { return probable_; }
+  bool isDone() const { return done_ || scene_.bodies.empty(); }
+  std::size_t cells() const;
+  std::size_t columns() const;  ///< of lines
+  std::size_t samples() const;
+
+  /// Half-spaces between bodies and obstacle; those that hardly matter need no samples.
+  /// \param most_left_out  what they may add up to
+  void boundByHalfSpaces(double most_left_out);
+
+  /// Makes what tells by lines. False where there are no lines.
+  /// \param chance  of an error of theirs
+  bool beginLines(const ProbabilityRequest& request, double chance);
+  bool hasLines() const { return lines_ != nullptr; }
+
+  /// P, about; before there are lines, half of its upper bound.
+  double likely() const;
+
+  /// As LineBets::improve().
+  bool improveByLines(bool above, double target);
+
+  /// By cells and samples. \param chance  of an error of theirs
+  /// \return  why it stopped, if that is a limit
+  std::optional<ProbabilityStatus> improve(const ProbabilityRequest& request, double chance,
+                                           const std::function<bool()>& enough);
+
+ private:
+  void place(const ProbabilityRequest& request);
+  Bounds within(const Bounds& of_near, const Bounds& known) const;
+
+  ProbableScene scene_;
+  const PreparedGeometries& geometries_;
+  GaussianDisplacement displacement_;  ///< of the bodies
+  double far_ = 0.0;
+  std::shared_ptr<const PieceTree> tree_;
+  PartitionObject bodies_{};
+  PartitionObject obstacle_{};
+  std::unique_ptr<LineBets> lines_;
+  std::unique_ptr<ProbablePartition> partition_;
+  bool done_ = false;
+  Bounds certified_;
+  Bounds probable_;
+};
+
+}  // namespace fcl_prob::detail
