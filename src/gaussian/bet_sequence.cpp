@@ -22,7 +22,7 @@ constexpr double kMostLost = 0.75;
 constexpr std::size_t kFactors = 16;
 
 // Of a bisection; the end that is taken is outside.
-constexpr int kHalvings = 24;
+constexpr int kCoarseHalvings = 24;
 
 // Of a logarithm of capital, for rounding.
 constexpr double kRoundedLog = 1e-9;
@@ -80,7 +80,7 @@ double BetSequence::upper(double error, double most) const {
   const double enough = -std::log(error);
   double outside = most, inside = std::min(most, mean());
   if (!(logCapital(outside) >= enough)) return most;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kCoarseHalvings; ++i) {
     const double middle = 0.5 * (inside + outside);
     (logCapital(middle) >= enough ? outside : inside) = middle;
   }

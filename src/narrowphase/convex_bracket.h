@@ -60,7 +60,12 @@ class BracketSearch {
   static constexpr double kFirstStep = 0.1;
   static constexpr double kLeastStep = 1e-12;
   static constexpr int kMostSteps = 80;
-  enum Step { kSecant, kTangents, kHalf, kSteps };
+  enum class Step { secant, tangents, half };
+
+  static Step after(Step step) {
+    if (step == Step::secant) return Step::tangents;
+    return step == Step::tangents ? Step::half : Step::secant;
+  }
 
   template <class Evaluate>
   static std::optional<Bracket> enclose(const Evaluate& at, double guess, double bend) {
@@ -80,10 +85,10 @@ class BracketSearch {
     return Bracket{near, near};
   }
 
-  static double proposal(const Bracket& bracket, int step) {
+  static double proposal(const Bracket& bracket, Step step) {
     const double width = bracket.upper.t - bracket.lower.t;
-    if (step == kHalf) return bracket.lower.t + 0.5 * width;
-    if (step == kTangents) return bracket.crossing();
+    if (step == Step::half) return bracket.lower.t + 0.5 * width;
+    if (step == Step::tangents) return bracket.crossing();
     const double rise = (bracket.upper.slope - bracket.lower.slope) / width;
     const Sample& flat = bracket.flattest();
     const double steepest = std::max(-bracket.lower.slope, bracket.upper.slope);
@@ -96,18 +101,18 @@ class BracketSearch {
     const auto isOpen = [&] {
       return bracket.gap() > tolerance * (1.0 + std::abs(bracket.lowest().t));
     };
-    int step = kSecant;
+    Step step = Step::secant;
     for (int k = 0; k < kMostSteps && isOpen(); ++k) {
       double t = proposal(bracket, step);
       const auto isWithin = [&] { return bracket.lower.t < t && t < bracket.upper.t; };
-      if (!isWithin()) t = proposal(bracket, kHalf);
+      if (!isWithin()) t = proposal(bracket, Step::half);
       if (!isWithin()) return;
       const double width = bracket.upper.t - bracket.lower.t;
       const Sample sample = at(t);
       if (sample.slope <= 0.0) bracket.lower = sample;
       if (sample.slope >= 0.0) bracket.upper = sample;
       const bool is_poor = bracket.upper.t - bracket.lower.t > 0.3 * width;
-      step = is_poor ? (step + 1) % kSteps : kSecant;
+      step = is_poor ? after(step) : Step::secant;
     }
   }
 };

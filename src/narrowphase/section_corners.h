@@ -12,7 +12,7 @@
 namespace fcl_prob::detail {
 
 /// By how much a corner of innerCorners() may be off one of the points.
-inline constexpr double kCornerRounding = 0x1p-48;
+inline constexpr double kGridRounding = 0x1p-48;
 
 /// Where the lines of two neighbours meet, from the point of the first.
 /// \param margin  by which both are moved outwards first

@@ -182,7 +182,7 @@ Bounds SectionPolygons::innerMass() const {
   for (const std::size_t k : ring()) points.push_back(nodes_[k].touch.point);
   const auto corners = innerCorners(points, section_.within().point);
   if (!corners) return {0.0, 1.0};
-  const double error = section_.error() + kCornerRounding;
+  const double error = section_.error() + kGridRounding;
   return massOf(*corners, 1.0 / (1.0 + error / section_.within().distance));
 }
 

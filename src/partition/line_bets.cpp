@@ -19,11 +19,11 @@ constexpr std::size_t kBatch = 32;
 
 // Samples that are drawn for an end at most, and for every column before columns are divided
 // instead. Measured on links beside an arm.
-constexpr std::size_t kFirstColumns = 32;
+constexpr std::size_t kFirstBetColumns = 32;
 constexpr double kFirstSamples = 64.0;
 constexpr double kMostSamples = 2500.0;
 constexpr double kSamplesOfColumn = 3.0;
-constexpr std::size_t kMostColumns = 512;
+constexpr std::size_t kMostBetColumns = 512;
 
 // A column may differ from what it is known for by this share of it, if its bounds leave that.
 constexpr double kMayDiffer = 0.2;
@@ -74,7 +74,7 @@ std::unique_ptr<LineBets> LineBets::of(const PartitionObject& a, const Partition
 LineBets::LineBets(QueryFrame frame, const ProbabilityRequest& request, double error)
     : error_(error),
       seed_(request.seed),
-      most_columns_(std::min(kMostColumns, request.max_cells)),
+      most_columns_(std::min(kMostBetColumns, request.max_cells)),
       frame_(std::move(frame)) {}
 
 // The lower end is of other lines where hulls stand for members.
@@ -107,7 +107,7 @@ bool LineBets::improve(bool above, double target) {
   likely_ = sign * end->bets->mean();
   const bool is_known = end->bets->samplesOfKind() >= kFirstSamples;
   const bool is_cheap = needed < kSamplesOfColumn * static_cast<double>(columns);
-  const bool may_be_divided = !is_cheap && (is_known || columns < kFirstColumns);
+  const bool may_be_divided = !is_cheap && (is_known || columns < kFirstBetColumns);
   if (may_be_divided && 2 * columns <= most_columns_ && source.looks.divideTo(2 * columns)) {
     look(*end, above);
     end->bets->changeKind();
