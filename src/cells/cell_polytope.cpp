@@ -125,19 +125,19 @@ void PolytopeCutter::cut(const CellPolytope& body, const Eigen::Vector3d& n, dou
     if (nothing) *nothing = CellPolytope();
     return;
   }
-  CellPolytope low;
-  if (below) keep(body, -1.0, low);
-  if (above) {
-    CellPolytope high;
-    keep(body, 1.0, high);
-    *above = std::move(high);
-  }
-  if (below) *below = std::move(low);
+  // Either of them may be the body.
+  if (below) keep(body, -1.0, low_);
+  if (above) keep(body, 1.0, high_);
+  if (below) std::swap(*below, low_);
+  if (above) std::swap(*above, high_);
 }
 
 // The part of the surface on one side of the plane, and a face in the plane.
 void PolytopeCutter::keep(const CellPolytope& body, double side, CellPolytope& part) {
   rim_.clear();
+  part.vertices_.clear();
+  part.first_.clear();
+  part.corners_.clear();
   for (std::size_t f = 0; f < body.first_.size(); ++f) {
     const int* begin = body.corners_.data() + body.first_[f];
     const int* stop = body.corners_.data() + body.end(f);

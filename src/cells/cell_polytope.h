@@ -93,6 +93,8 @@ class PolytopeCutter {
   void keep(const CellPolytope& body, double side, CellPolytope& part);
   void close(CellPolytope& part);
 
+  CellPolytope low_;
+  CellPolytope high_;
   std::vector<Eigen::Vector3d> vertices_;  // the body's and the new ones
   std::vector<double> height_;             // above the plane
   std::vector<Crossing> crossings_;

@@ -5,12 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "base/constants.h"
 #include "base/symmetric_axes.h"
+#include "cells/rule_kernels.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -44,67 +43,22 @@ constexpr double kNode[3] = {0.31088591926330060980, 0.092735250310891226402,
 constexpr double kWeight[3] = {0.11268792571801585080, 0.073493043116361949544,
                                0.042546020777081466438};
 
-// What fastExp() may be off by, relative: its series ends behind the seventh power, and
-// 0.347⁸ / 8! · e^0.347 < 7.4e-9.
-constexpr double kExpError = 8e-9;
-
-// Exponents are cut off there, so that exp() below needs no special cases: what lies farther out is
-// taken to be as dense as that, and wrong by no more.
-constexpr double kMostExponent = 700.0;
-constexpr double kLeastDensity = 1e-304;  // exp(-kMostExponent), rounded up
-
-// exp(-s) for 0 <= s <= kMostExponent, quicker than to the last digit: in loops it becomes vector
-// instructions.
-inline double fastExp(double s) {
-  constexpr double kMagic = 0x1.8p52;  // added, it leaves the integer in the lowest bits
-  constexpr double kLog2e = 1.44269504088896340736;
-  constexpr double kLn2High = 0x1.62e42fefa38p-1;
-  constexpr double kLn2Low = 0x1.ef35793c7673p-45;
-  const double shifted = kMagic - s * kLog2e;
-  const double power = shifted - kMagic;
-  const double r = -s - power * kLn2High - power * kLn2Low;
-  const double series =
-      1.0 +
-      r * (1.0 + r * (1.0 / 2 +
-                      r * (1.0 / 6 +
-                           r * (1.0 / 24 + r * (1.0 / 120 + r * (1.0 / 720 + r * (1.0 / 5040)))))));
-  std::uint64_t bits;
-  std::memcpy(&bits, &shifted, sizeof bits);
-  bits = (bits + 1023) << 52;
-  double scale;
-  std::memcpy(&scale, &bits, sizeof scale);
-  return scale * series;
-}
-
-// Σ weight_i exp(-|y_i|² / 2) over points with these coordinates.
-template <int count>
-double weightedSum(const double* x, const double* y, const double* z, const double* weight) {
-  double values[count];
-  for (int i = 0; i < count; ++i) {
-    const double square = 0.5 * (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
-    values[i] = weight[i] * fastExp(square < kMostExponent ? square : kMostExponent);
-  }
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i) sum += values[i];
-  return sum;
-}
+// What lies beyond the exponents of the kernels is no denser.
+constexpr double kLeastDensity = 1e-304;  // exp(-kMostRuleExponent), rounded up
 
 // Points given by their barycentric coordinates, in arrays of their own.
-template <int count>
+template <int points>
 struct PointRule {
-  double share[4][count];
-  double weight[count];
+  static constexpr int kCount = (points + 3) / 4 * 4;  // as the kernels take them
+  double share[4][kCount] = {};
+  double weight[kCount] = {};
 
   // Of the density over the tetrahedron, but for the factor kDensity.
   double meanDensity(const SimplexMass::Corners& v) const {
-    double y[3][count];
-    for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < count; ++i) {
-        y[k][i] = share[0][i] * v[0][k] + share[1][i] * v[1][k] + share[2][i] * v[2][k] +
-                  share[3][i] * v[3][k];
-      }
-    }
-    return weightedSum<count>(y[0], y[1], y[2], weight);
+    double corners[12];
+    for (int k = 0; k < 12; ++k) corners[k] = v[static_cast<std::size_t>(k / 3)][k % 3];
+    static const RuleKernel kernel = ruleKernel();
+    return kernel(share[0], weight, corners, kCount);
   }
 };
 
@@ -222,10 +176,10 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   const double length = std::sqrt(8 * q);
   const double size = length * length * (length + middle.norm());
   mass_ += volume * mean;
-  const double rounding = kExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
+  const double rounding = kRuleExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
   error_ += std::max(around, std::numeric_limits<double>::denorm_min()) * tail +
             std::fabs(volume) * rounding * mean + 16 * kEpsilon * size * mean;
-  if (farthest > 0.99 * kMostExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
+  if (farthest > 0.99 * kMostRuleExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
 }
 
 // Halves the longest edge.
