@@ -28,11 +28,12 @@ constexpr int kMostCandidates = 6;
 // Samples of a cell by which its best obstacle is chosen, about.
 constexpr std::size_t kSamples = 10;
 
-// What is in hulls and in none of their cores is looked at for no finer tolerance, and as long as
-// there are no more cells. The pieces are many and small: boxes of triangles take less time for
-// more digits (a can beside an arm, 0.1 %: 0.3 to 1.7 s by boxes, 0.3 to 10 s by pieces).
-constexpr double kFinestOfPieces = 0.003;
-constexpr std::size_t kMostCellsOfPieces = 20'000;
+// What is in hulls and in none of their cores is looked at as long as there are no more cells:
+// where the pieces of what is between are many, boxes of triangles come to an end sooner.
+constexpr std::size_t kMostCellsOfPieces = 100'000;
+
+// Less of a cell than this along a plane's normal is not worth cutting off.
+constexpr double kLeastTrimmed = 0.3;
 
 // A plane over which a cell sticks out by no more is not cut.
 constexpr double kTouching = 2 * CellPolytope::kSnap;
@@ -62,6 +63,7 @@ std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
   for (std::size_t e = 0; e < list.entries.size(); ++e) {
     const List::Entry& entry = list.entries[e];
     if (!only_hulls && encloses(entry)) continue;
+    const FatObstacles::Planes planes = planesOf(entry.obstacle);
     double score = 0.0;
     double nearest = kInfinity;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -69,7 +71,7 @@ std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
       const double enough = most >= 0.0 ? 0.0 : -most;
       double excess = -kInfinity;
       for (std::size_t p = entry.first; p < entry.last && !(excess > enough); ++p) {
-        const ObstaclePlane& plane = list.planes[p];
+        const ObstaclePlane plane = planes[list.planes[p]];
         excess = std::max(excess, plane.n.dot(samples_[i]) - plane.inner());
       }
       if (excess <= 0.0) score += weights_[i];
@@ -84,20 +86,60 @@ std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
   return best;
 }
 
-// The part of a body within all planes of an obstacle.
+// The part of a body within all planes of an obstacle. Those first that cut off the most: others
+// then cut nothing.
 bool CellCarver::clip(const CellPolytope& body, const List& list, std::size_t entry,
                       CellPolytope& inside) {
-  inside = body;
+  const FatObstacles::Planes planes = planesOf(list.entries[entry].obstacle);
+  depths_.clear();
   for (std::size_t p = list.entries[entry].first; p < list.entries[entry].last; ++p) {
-    cutter_.cut(inside, list.planes[p].n, list.planes[p].inner(), &inside, nullptr);
+    const ObstaclePlane plane = planes[list.planes[p]];
+    const CellPolytope::Extent extent = body.along(plane.n);
+    const double depth = plane.inner() - extent.lo;
+    if (depth < -CellPolytope::kSnap) return false;
+    depths_.emplace_back(depth, list.planes[p]);
+  }
+  std::sort(depths_.begin(), depths_.end());
+  inside = body;
+  for (const auto& [unused, index] : depths_) {
+    const ObstaclePlane plane = planes[index];
+    cutter_.cut(inside, plane.n, plane.inner(), &inside, nullptr);
     if (inside.empty()) return false;
   }
   return true;
 }
 
+// What lies behind one plane of an obstacle is often not reached by the others but next to it.
+void CellCarver::trim(CarvedCell& cell, const List& list) {
+  const Eigen::Vector3d& n = cell.behind;
+  if (n.isZero()) return;
+  supports_.assign(static_cast<std::size_t>(obstacles_.memberCount()), std::nan(""));
+  double top = -kInfinity;
+  for (const List::Entry& entry : list.entries) {
+    const auto& [member, triangle] = entry.obstacle;
+    const FatObstacles& body = obstacles_.of(member);
+    double& support = supports_[member];
+    if (std::isnan(support)) support = body.support(n) + body.padding(n);
+    top = std::max(top, support + body.extent(triangle, n));
+  }
+  const CellPolytope::Extent extent = cell.body.along(n);
+  if (!(extent.hi - top > kLeastTrimmed * (extent.hi - extent.lo))) return;
+  allowSlivers(cell.body, 1);
+  CarvedCell beyond;
+  cutter_.cut(cell.body, n, top + 2 * CellPolytope::kCutLayer, &cell.body, &beyond.body);
+  if (beyond.body.empty()) return;
+  beyond.mass = cell.mass;
+  beyond.layers = cell.layers;
+  beyond.dropped = cell.dropped;
+  if (solids_) beyond.mass = openMass(beyond.body, cell.mass.upper);
+  settleFree(beyond);
+  if (!cell.body.empty()) cell.mass = openMass(cell.body, cell.mass.upper);
+}
+
 void CellCarver::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
   CellPolytope inside;
   for (int tried = 0; tried < kMostCandidates; ++tried) {
+    if (mayOpenHulls(*list)) return openHulls(cell, list);
     const std::size_t best = bestEntry(cell, *list);
     if (clip(cell.body, *list, best, inside)) {
       carveBy(cell, list, best, inside);
@@ -112,11 +154,12 @@ void CellCarver::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
 // Whether anything of a body is within all outer planes of an obstacle. None of them need be beyond
 // the body, as one has to be for refine() to see that.
 bool CellCarver::mayMeet(const CellPolytope& body, const List& list, std::size_t entry) {
-  const List::Entry& planes = list.entries[entry];
-  allowSlivers(body, planes.last - planes.first);
+  const auto& [obstacle, first, last] = list.entries[entry];
+  const FatObstacles::Planes planes = planesOf(obstacle);
+  allowSlivers(body, last - first);
   CellPolytope rest = body;
-  for (std::size_t p = planes.first; p < planes.last; ++p) {
-    const ObstaclePlane& plane = list.planes[p];
+  for (std::size_t p = first; p < last; ++p) {
+    const ObstaclePlane plane = planes[list.planes[p]];
     cutter_.cut(rest, plane.n, plane.outer + 2 * CellPolytope::kCutLayer, &rest, nullptr);
     if (rest.empty()) return false;
   }
@@ -132,8 +175,9 @@ void CellCarver::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
   }
   CellPolytope rest = cell.body;
   CarvedCell outside;
+  const FatObstacles::Planes planes = planesOf(list.entries[entry].obstacle);
   for (std::size_t p = list.entries[entry].first; p < list.entries[entry].last; ++p) {
-    const ObstaclePlane& plane = list.planes[p];
+    const ObstaclePlane plane = planes[list.planes[p]];
     cutter_.cut(rest, plane.n, plane.inner(), &rest, &outside.body);
     if (!outside.body.empty()) {
       outside.mass = openMass(outside.body, cell.mass.upper);
@@ -159,8 +203,10 @@ void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, st
   const List::Entry entry = list->entries[best];
   const bool is_hull = obstacles_.encloses(entry.obstacle.member);
   Rest rest{cell.body, {}, cell.mass.upper, entry.obstacle};
-  rest.planes.assign(list->planes.begin() + static_cast<std::ptrdiff_t>(entry.first),
-                     list->planes.begin() + static_cast<std::ptrdiff_t>(entry.last));
+  const FatObstacles::Planes planes = planesOf(entry.obstacle);
+  for (std::size_t p = entry.first; p < entry.last; ++p) {
+    rest.planes.push_back(planes[list->planes[p]]);
+  }
   allowSlivers(cell.body, entry.last - entry.first);  // the same cuts in another order
   const double enough = inner.lower + kLazyShare * (cell.mass.upper - inner.lower);
   while (const auto plane = nextPlane(rest)) {
@@ -177,33 +223,33 @@ void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, st
     }
     cutOff(cell, list, *plane, rest);
   }
-  if (is_hull) return openHull(cell, list, inside, inner.upper);
+  if (is_hull) {
+    carving_->settled.upper += inner.upper;
+    return;
+  }
   claim("planes of a fat pair", true, inside);
   settle(settledMass(inside));
 }
 
-// What is in hulls and in none of their cores.
-void CellCarver::openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
-                          const CellPolytope& inside, double mass) {
-  const bool rough = request_.threshold || request_.relative_tolerance >= kFinestOfPieces;
-  const bool worth_while = rough && so_far_.cells < kMostCellsOfPieces;
-  const bool all_have_pieces =
-      worth_while &&
-      std::all_of(list->entries.begin(), list->entries.end(), [this](const List::Entry& entry) {
-        return !obstacles_.piecesWithin(entry.obstacle.member).empty();
-      });
-  if (!all_have_pieces) {
-    carving_->settled.upper += mass;
-    return;
-  }
-  CarvedCell within;
-  within.mass = {0.0, mass};
-  within.body = inside;
-  within.list = list;
-  within.layers = cell.layers;
-  within.dropped = cell.dropped;
-  within.opens_hulls = true;
-  push(std::move(within));
+// Whether there are but hulls, and what is in them can be looked at instead.
+bool CellCarver::mayOpenHulls(const List& list) const {
+  if (so_far_.cells >= kMostCellsOfPieces) return false;
+  return std::all_of(list.entries.begin(), list.entries.end(), [this](const List::Entry& entry) {
+    const int member = entry.obstacle.member;
+    return obstacles_.encloses(member) && !obstacles_.piecesWithin(member).empty();
+  });
+}
+
+// Their pieces end in few places of the cell, hulls in many: nothing is cut along hulls.
+void CellCarver::openHulls(CarvedCell& cell, const std::shared_ptr<List>& list) {
+  CarvedCell open;
+  open.mass = {0.0, cell.mass.upper};
+  open.body = std::move(cell.body);
+  open.list = list;
+  open.layers = cell.layers;
+  open.dropped = cell.dropped;
+  open.opens_hulls = true;
+  push(std::move(open));
 }
 
 // The plane that cuts off most, which is taken from the list; those that cut nothing are dropped.

@@ -14,14 +14,6 @@ namespace {
 // A node of the mesh's tree is opened in a box if it is this many times larger.
 constexpr double kOpenRatio = 2.0;
 
-// A plane of an obstacle over which a body sticks out. False if all of it does: the two are apart.
-bool addPlane(const CellPolytope& body, const ObstaclePlane& plane, ObstacleList& into) {
-  const CellPolytope::Extent extent = body.along(plane.n);
-  if (extent.lo > plane.outer) return false;
-  if (extent.hi > plane.inner() - 2 * CellPolytope::kSnap) into.planes.push_back(plane);
-  return true;
-}
-
 // The first face from `from` on whose value is not at most limits[f] + `by`, or `count`. Sixteen
 // are looked at at once, since few are above. (The sign of a difference is exact.)
 int firstAbove(const double* values, const double* limits, double by, int from, int count) {
@@ -45,54 +37,54 @@ void CellCarver::divideBox(CarvedCell&& cell) {
     half.box = cell.box;
     (upper ? half.box->lo : half.box->hi)[at.axis] = at.at;
     half.mass = cellMass(*half.box);
-    std::vector<FatNode> nodes;
-    gatherNodes(*half.box, *cell.nodes, false, nodes);
-    if (nodes.empty()) {
+    gatherNodes(*half.box, *cell.nodes, false);
+    if (gathered_.empty()) {
       half.body = CellPolytope(*half.box);
       settleFree(half);
       continue;
     }
-    half.nodes = std::make_shared<const std::vector<FatNode>>(std::move(nodes));
+    half.nodes = std::make_shared<const std::vector<FatNode>>(gathered_);
     push(std::move(half));
   }
 }
 
-void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
-                             std::vector<FatNode>& into) const {
+// Those of the nodes, and of what is below them, that the box may meet.
+void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves) {
   const WhitenedTree& mesh = obstacles_.mesh();
-  const double size = (box.hi - box.lo).sum();
-  std::vector<FatNode> stack(from.rbegin(), from.rend());
-  while (!stack.empty()) {
-    const auto [member, node] = stack.back();
-    stack.pop_back();
+  const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
+  const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
+  const double size = 2.0 * half.sum();
+  lowest_.clear();
+  for (int member = 0; member < obstacles_.count(); ++member) {
+    lowest_.push_back(obstacles_.reachOf(member).lowestOf(middle, half));
+  }
+  gathered_.clear();
+  stack_.assign(from.rbegin(), from.rend());
+  while (!stack_.empty()) {
+    const auto [member, node] = stack_.back();
+    stack_.pop_back();
     ++statistics_.pairs_tested;
     const NodeBox around = obstacles_.of(member).obstacleBox(node);
     if (isClearOf(around, box.lo.data(), box.hi.data())) continue;
+    if (obstacles_.reachOf(member).isClearOf(lowest_[member], node)) continue;
     const PieceTree::Node& in_tree = mesh.tree->nodes[node];
     if (in_tree.isLeaf() || (!to_leaves && mesh.boxes[node].size() < kOpenRatio * size)) {
-      into.push_back({member, node});
+      gathered_.push_back({member, node});
     } else {
-      stack.push_back({member, in_tree.right});
-      stack.push_back({member, in_tree.left});
+      stack_.push_back({member, in_tree.right});
+      stack_.push_back({member, in_tree.left});
     }
   }
 }
 
 CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
-  if (cell.opens_hulls) return openHulls(cell, into);
-  if (!cell.box) return refine(cell, into);
-  std::vector<FatNode> leaves;
-  gatherNodes(*cell.box, *cell.nodes, true, leaves);
-  std::vector<FatObstacle> obstacles;
-  for (const auto& [member, leaf] : leaves) {
-    obstacles.push_back({member, obstacles_.mesh().tree->nodes[leaf].piece});
-  }
-  return listBox(cell, obstacles, into);
+  if (cell.opens_hulls) return listPieces(cell, into);
+  return cell.box ? listBox(cell, into) : refine(cell, into);
 }
 
 // The most central obstacles first: one of them may cover the box.
-CellCarver::Relation CellCarver::listBox(const CarvedCell& cell,
-                                         const std::vector<FatObstacle>& obstacles, List& into) {
+CellCarver::Relation CellCarver::listBox(const CarvedCell& cell, List& into) {
+  gatherNodes(*cell.box, *cell.nodes, true);
   const CellBox box = cell.box->box();
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   face_lo_.resize(obstacles_.faceCount());
@@ -100,7 +92,8 @@ CellCarver::Relation CellCarver::listBox(const CarvedCell& cell,
   ranged_.assign(obstacles_.count(), false);
   apart_.assign(obstacles_.count(), 0);
   std::vector<std::tuple<double, int, int>> order;
-  for (const auto& [member, t] : obstacles) {
+  for (const auto& [member, leaf] : gathered_) {
+    const int t = obstacles_.mesh().tree->nodes[leaf].piece;
     order.emplace_back((obstacles_.of(member).middle(t) - middle).squaredNorm(), member, t);
   }
   std::sort(order.begin(), order.end());
@@ -149,21 +142,27 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   const Eigen::Map<const Eigen::Vector3d> half(box.half);
   const std::size_t first = into.planes.size();
-  for (const ObstaclePlane& plane : others) {
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const ObstaclePlane& plane = others[i];
     const double at = plane.n.dot(middle);
     const double radius = plane.n.cwiseAbs().dot(half);
     if (at - radius > plane.outer) {
       into.planes.resize(first);
       return Relation::free;
     }
-    if (at + radius > plane.inner()) into.planes.push_back(plane);
+    if (at + radius > plane.inner()) into.planes.push_back(faces + static_cast<int>(i));
   }
-  const auto firstCut = [&](int from) {
-    return firstAbove(face_hi, offsets.data(), -margin, from, faces);
-  };
-  for (int f = firstCut(0); f < faces; f = firstCut(f + 1)) {
-    const ObstaclePlane plane = body.facePlane(obstacle.triangle, f);
-    if (face_hi[f] > plane.inner()) into.planes.push_back(plane);
+  const FatObstacles::Planes planes = body.planesOf(obstacle.triangle);
+  cut_faces_.resize(static_cast<std::size_t>(faces));
+  std::size_t count = 0;
+  for (int f = 0; f < faces; ++f) {
+    cut_faces_[count] = f;
+    count += face_hi[f] > offsets[f] - margin;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (face_hi[cut_faces_[i]] > planes[cut_faces_[i]].inner()) {
+      into.planes.push_back(cut_faces_[i]);
+    }
   }
   return addEntry(obstacle, first, into);
 }
@@ -184,14 +183,17 @@ CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
   const auto [member, triangle] = cell.outside_of;
   const FatObstacles* const body = member < 0 ? nullptr : &obstacles_.of(member);
   const double reach = body ? body->extent(triangle, cell.behind) : 0.0;
+  ++bodies_;
   for (const List::Entry& entry : from.entries) {
     ++statistics_.pairs_tested;
     const bool may_be_behind = body && entry.obstacle.member == member;
     if (may_be_behind && body->extent(entry.obstacle.triangle, cell.behind) <= reach) continue;
     const std::size_t first = into.planes.size();
+    const FatObstacles::Planes planes = planesOf(entry.obstacle);
     bool meets = true;
     for (std::size_t i = entry.first; i < entry.last && meets; ++i) {
-      meets = addPlane(cell.body, from.planes[i], into);
+      const int index = from.planes[i];
+      meets = addPlane(cell.body, entry.obstacle, index, planes[index], into);
     }
     if (!meets) {
       into.planes.resize(first);
@@ -203,7 +205,8 @@ CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
 }
 
 // All obstacles of the list are hulls: no core meets the cell.
-CellCarver::Relation CellCarver::openHulls(const CarvedCell& cell, List& into) {
+CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) {
+  ++bodies_;
   for (const List::Entry& hull : cell.list->entries) {
     for (const int piece : obstacles_.piecesWithin(hull.obstacle.member)) {
       const FatObstacle obstacle{piece, hull.obstacle.triangle};
@@ -211,6 +214,23 @@ CellCarver::Relation CellCarver::openHulls(const CarvedCell& cell, List& into) {
     }
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
+}
+
+// A plane of an obstacle over which the body that is looked at sticks out. False if all of it does:
+// the two are apart.
+bool CellCarver::addPlane(const CellPolytope& body, FatObstacle obstacle, int index,
+                          const ObstaclePlane& plane, List& into) {
+  CellPolytope::Extent extent;
+  if (index < obstacles_.of(obstacle.member).faceCount()) {
+    FaceExtent& known = face_extents_[obstacles_.firstFace(obstacle.member) + index];
+    if (known.asked != bodies_) known = {bodies_, body.along(plane.n)};
+    extent = known.extent;
+  } else {
+    extent = body.along(plane.n);
+  }
+  if (extent.lo > plane.outer) return false;
+  if (extent.hi > plane.inner() - 2 * CellPolytope::kSnap) into.planes.push_back(index);
+  return true;
 }
 
 CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, FatObstacle obstacle,
@@ -221,13 +241,12 @@ CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, FatObstac
   if (isClearOf(around, box.lo.data(), box.hi.data())) return Relation::free;
   ++statistics_.pairs_tested;
   const std::size_t first = into.planes.size();
-  const auto meets = [&](const ObstaclePlane& plane) { return addPlane(body, plane, into); };
-  member.faceOffsets(obstacle.triangle);
-  const std::vector<ObstaclePlane>& others = member.otherPlanes(obstacle.triangle);
+  const auto others = static_cast<int>(member.otherPlanes(obstacle.triangle).size());
   failed_ = failed_ || member.hasFailed(obstacle.triangle);
-  bool may_meet = std::all_of(others.begin(), others.end(), meets);
-  for (int f = 0; f < member.faceCount() && may_meet; ++f) {
-    may_meet = meets(member.facePlane(obstacle.triangle, f));
+  const FatObstacles::Planes planes = member.planesOf(obstacle.triangle);
+  bool may_meet = true;
+  for (int i = member.faceCount() + others; i-- > 0 && may_meet;) {
+    may_meet = addPlane(body, obstacle, i, planes[i], into);
   }
   if (may_meet) return addEntry(obstacle, first, into);
   into.planes.resize(first);

@@ -12,14 +12,11 @@
 namespace fcl_prob::detail {
 namespace {
 
-// Boxes wider than this are halved before obstacles are looked at one by one.
-constexpr double kWidestBox = 1.5;
-
-// For an interval a box with more obstacles than this is halved once more: their lists are what
+// Boxes wider than this are halved before obstacles are looked at one by one: their lists are what
 // takes time. A decision looks closely at few boxes, and was slower with more of them (bench
 // states).
-constexpr double kWidestCrowdedBox = 1.0;
-constexpr std::size_t kCrowd = 64;
+constexpr double kWidestBox = 1.0;
+constexpr double kWidestBoxOfDecision = 1.5;
 
 // Accuracy of the masses of cells that stay open, and of those settled: that as a share of the
 // tolerance.
@@ -41,8 +38,6 @@ double settledAccuracy(const ProbabilityRequest& request) {
   return std::clamp(kSettledShare * request.relative_tolerance, kBestAccuracy, kWorstAccuracy);
 }
 
-double widest(const Cell& box) { return (box.hi - box.lo).maxCoeff(); }
-
 bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {
   for (; layers; layers = layers->before.get()) {
     if (!(layers->n.dot(point) > layers->outer + CellPolytope::kCutLayer)) return false;
@@ -60,27 +55,23 @@ CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
       request_(request),
       list_memory_(list_memory),
       statistics_(statistics),
-      accuracy_(settledAccuracy(request)) {}
+      accuracy_(settledAccuracy(request)),
+      face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
 
 void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into) {
   so_far_ = so_far;
   carving_ = &into;
   failed_ = false;
   ++statistics_.cells;
-  if (cell.box && isTooLarge(cell)) {
+  if (cell.box && isTooLarge(*cell.box)) {
     divideBox(std::move(cell));
   } else {
     resolve(std::move(cell));
   }
 }
 
-bool CellCarver::isTooLarge(const CarvedCell& cell) const {
-  const double width = widest(*cell.box);
-  if (width > kWidestBox) return true;
-  if (request_.threshold || width <= kWidestCrowdedBox) return false;
-  std::vector<FatNode> leaves;
-  gatherNodes(*cell.box, *cell.nodes, true, leaves);
-  return leaves.size() > kCrowd;
+bool CellCarver::isTooLarge(const Cell& box) const {
+  return (box.hi - box.lo).maxCoeff() > (request_.threshold ? kWidestBoxOfDecision : kWidestBox);
 }
 
 // Its memory is counted as long as cells refer to it.
@@ -106,6 +97,8 @@ void CellCarver::resolve(CarvedCell&& cell) {
     return settle(cell.box ? cell.mass : settledMass(cell.body));
   }
   if (relation == Relation::free) return settleFree(cell);
+  if (!cell.box) trim(cell, found_);
+  if (cell.body.empty()) return;
   carve(cell, copied(found_));
 }
 

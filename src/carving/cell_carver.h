@@ -26,11 +26,11 @@ struct ObstacleList {
     std::size_t last;   ///< one behind the last
   };
   std::vector<Entry> entries;
-  std::vector<ObstaclePlane> planes;
+  std::vector<int> planes;  ///< indices into FatObstacles::planesOf()
   std::size_t counted = 0;  ///< bytes, by whoever counts them
 
   std::size_t memory() const {
-    return entries.capacity() * sizeof(Entry) + planes.capacity() * sizeof(ObstaclePlane);
+    return entries.capacity() * sizeof(Entry) + planes.capacity() * sizeof(int);
   }
 };
 
@@ -102,26 +102,31 @@ class CellCarver {
   using List = ObstacleList;
   enum class Relation { covered, free, cut };
 
-  bool isTooLarge(const CarvedCell& cell) const;
+  bool isTooLarge(const Cell& box) const;
   void divideBox(CarvedCell&& cell);
-  void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves,
-                   std::vector<FatNode>& into) const;
+  void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves);
   void resolve(CarvedCell&& cell);
-  Relation listBox(const CarvedCell& cell, const std::vector<FatObstacle>& obstacles, List& into);
+  Relation listBox(const CarvedCell& cell, List& into);
   void rangeFaces(const CellBox& box, int member);
   Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
   Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);
-  Relation openHulls(const CarvedCell& cell, List& into);
+  Relation listPieces(const CarvedCell& cell, List& into);
   Relation addFromBody(const CellPolytope& body, FatObstacle obstacle, List& into);
+  FatObstacles::Planes planesOf(FatObstacle obstacle) const {
+    return obstacles_.of(obstacle.member).planesOf(obstacle.triangle);
+  }
+  bool addPlane(const CellPolytope& body, FatObstacle obstacle, int index,
+                const ObstaclePlane& plane, List& into);
   Relation examine(const CarvedCell& cell, List& into);
   std::size_t bestEntry(const CarvedCell& cell, const List& list);
   std::shared_ptr<List> copied(const List& list);
+  bool mayOpenHulls(const List& list) const;
+  void trim(CarvedCell& cell, const List& list);
   void carve(CarvedCell& cell, const std::shared_ptr<List>& list);
   void carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
                const CellPolytope& inside);
-  void openHull(const CarvedCell& cell, const std::shared_ptr<List>& list,
-                const CellPolytope& inside, double mass);
+  void openHulls(CarvedCell& cell, const std::shared_ptr<List>& list);
   /// What is left of a cell around its best obstacle.
   struct Rest {
     CellPolytope body;
@@ -162,12 +167,26 @@ class CellCarver {
 
   PolytopeCutter cutter_;
   CellPolytope layer_;
+  std::vector<std::pair<double, int>> depths_;  // of a body behind planes, and which
   List found_;
   std::vector<Eigen::Vector3d> samples_;  // of a cell, and what they stand for
   std::vector<double> weights_;
   std::vector<double> face_lo_;  // of a box, along the normals of each P
   std::vector<double> face_hi_;
-  std::vector<bool> ranged_;  // by member: those of its faces are known
+  std::vector<int> cut_faces_;
+  std::vector<bool> ranged_;       // by member: those of its faces are known
+  std::vector<FatNode> gathered_;  // that a box may meet
+  std::vector<FatNode> stack_;
+  std::vector<NodeReach::Heights> lowest_;  // by member, of that box
+  /// How far a body reaches along the normals of faces, as far as that was asked for since the
+  /// body became another one.
+  struct FaceExtent {
+    std::size_t asked = 0;
+    CellPolytope::Extent extent;
+  };
+  std::vector<FaceExtent> face_extents_;  // by face of all members
+  std::size_t bodies_ = 0;                // that were looked at so
+  std::vector<double> supports_;          // by member, along one normal; NaN: not known yet
   std::vector<int> apart_;  // by member: a face that the box was beyond; of the next obstacle, too?
 };
 

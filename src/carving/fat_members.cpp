@@ -19,6 +19,7 @@ FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body, bo
       add(i, part.nearly->hull, true);
     }
   }
+  count_ = static_cast<int>(members_.size());
   within_of_.resize(members_.size());
   for (int member = 0; member < count(); ++member) {
     if (encloses(member)) reserveWithin(member);
@@ -28,6 +29,7 @@ FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body, bo
 void FatMembers::add(std::size_t part, const ConvexFan& fan, bool encloses) {
   members_.push_back(obstaclesOf(part, fan));
   parts_.push_back({part, encloses});
+  reaches_.emplace_back(*members_.back());
   first_faces_.push_back(first_faces_.back() + members_.back()->faceCount());
 }
 
@@ -37,9 +39,11 @@ void FatMembers::reserveWithin(int hull) {
   Within& within = within_.emplace_back();
   within.first = static_cast<int>(members_.size());
   within_of_[hull] = &within;
-  const std::size_t size = members_.size() + body_.tree->parts[part].nearly->pieces.size();
-  members_.resize(size);
-  parts_.resize(size, {part, false});
+  for (const ConvexFan& piece : body_.tree->parts[part].nearly->pieces) {
+    members_.emplace_back();
+    parts_.push_back({part, false});
+    first_faces_.push_back(first_faces_.back() + static_cast<int>(piece.normals.size()));
+  }
 }
 
 std::unique_ptr<FatObstacles> FatMembers::obstaclesOf(std::size_t part,
@@ -85,7 +89,8 @@ void FatMembers::makeWithin(int hull, Within& within) {
 std::size_t FatMembers::leastMemory(const PartitionObject& body, const PartitionObject& mesh) {
   std::size_t members = 0;
   for (const PieceTree::Part& part : body.tree->parts) members += part.fan ? 1 : 2;
-  return members * FatObstacles::leastMemory(mesh.tree->triangles.size());
+  return members * (FatObstacles::leastMemory(mesh.tree->triangles.size()) +
+                    NodeReach::memoryOf(mesh.tree->nodes.size()));
 }
 
 bool FatMembers::usable() const {
@@ -103,7 +108,7 @@ bool FatMembers::failed() const {
 std::size_t FatMembers::memory() const {
   std::size_t bytes = 0;
   visit([&](const FatObstacles& member) { bytes += member.memory(); });
-  return bytes;
+  return bytes + reaches_.size() * NodeReach::memoryOf(mesh().tree->nodes.size());
 }
 
 std::size_t FatMembers::built() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "carving/fat_obstacles.h"
+#include "carving/node_reach.h"
 
 namespace fcl_prob::detail {
 
@@ -48,8 +49,11 @@ class FatMembers {
   FatObstacles& of(int member) { return *members_[member]; }
   const FatObstacles& of(int member) const { return *members_[member]; }
 
+  /// Of a member below count().
+  const NodeReach& reachOf(int member) const { return reaches_[member]; }
+
   /// Without those within hulls, which come behind them.
-  int count() const { return static_cast<int>(first_faces_.size()) - 1; }
+  int count() const { return count_; }
 
   /// The part that it is, or is in, or is around.
   std::size_t partOf(int member) const { return parts_[member].index; }
@@ -65,9 +69,12 @@ class FatMembers {
 
   const WhitenedTree& mesh() const { return members_.front()->mesh(); }
 
-  /// Where the faces of a member below count() begin among those of all.
+  /// Where the faces of a member begin among those of all.
   int firstFace(int member) const { return first_faces_[member]; }
-  int faceCount() const { return first_faces_.back(); }
+  /// Of the members below count().
+  int faceCount() const { return first_faces_[count_]; }
+  int memberCount() const { return static_cast<int>(members_.size()); }
+  int faceCountOfAll() const { return first_faces_.back(); }
 
   bool usable() const;
   bool failed() const;
@@ -101,6 +108,8 @@ class FatMembers {
   bool hulls_stay_closed_ = false;
   std::vector<std::unique_ptr<FatObstacles>> members_;  ///< null: not made yet
   std::vector<OfPart> parts_;                           ///< by member
+  std::vector<NodeReach> reaches_;                      ///< by member below count()
+  int count_ = 0;
   std::vector<int> first_faces_;
   std::deque<Within> within_;
   std::vector<Within*> within_of_;  ///< by member below count(), null for those that are no hulls

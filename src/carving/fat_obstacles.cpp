@@ -74,12 +74,6 @@ const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int triangle) {
   return found.planes;
 }
 
-// Its other planes must have been made: those that are left out move the others.
-ObstaclePlane FatObstacles::facePlane(int triangle, int face) const {
-  const Details& found = known(triangle);
-  return {normals()[face], found.offsets[face] + facePad(face), faceMargin(face) + found.loss};
-}
-
 void FatObstacles::buildPlanes(int triangle, Details& into) {
   const Eigen::Matrix3d t = corners(triangle);
   addTriangleNormal(t, into);

@@ -35,14 +35,18 @@ class FatObstacles : public WhitenedFan {
   /// Of one of so many triangles that has not been asked for anything.
   static std::size_t leastMemory(std::size_t triangles) { return triangles * sizeof(Slot); }
 
-  ObstaclePlane facePlane(int triangle, int face) const;
-
   /// The offsets of the face planes of V_t (see ObstaclePlane::outer), without what is added for
   /// rounding.
   const std::vector<double>& faceOffsets(int triangle);
 
   /// All other planes.
   const std::vector<ObstaclePlane>& otherPlanes(int triangle);
+
+  /// All planes of V_t, by index: the faces', and from faceCount() on the others.
+  class Planes;
+
+  /// The others must have been made: those that are left out move the faces'.
+  Planes planesOf(int triangle) const;
 
   /// Not below the margin of any face plane of V_t.
   double mostMargin(int triangle) const { return largestMargin() + known(triangle).loss; }
@@ -98,5 +102,25 @@ class FatObstacles : public WhitenedFan {
   std::atomic<std::size_t> memory_{0};
   std::atomic<std::size_t> built_{0};
 };
+
+class FatObstacles::Planes {
+ public:
+  ObstaclePlane operator[](int index) const {
+    if (index >= body_.faceCount()) return of_.planes[index - body_.faceCount()];
+    return {body_.faceNormal(index), of_.offsets[index] + body_.facePad(index),
+            body_.faceMargin(index) + of_.loss};
+  }
+
+ private:
+  friend class FatObstacles;
+  Planes(const FatObstacles& body, const Details& of) : body_(body), of_(of) {}
+
+  const FatObstacles& body_;
+  const Details& of_;
+};
+
+inline FatObstacles::Planes FatObstacles::planesOf(int triangle) const {
+  return {*this, known(triangle)};
+}
 
 }  // namespace fcl_prob::detail

@@ -5,41 +5,20 @@
 #include <algorithm>
 
 #include "base/constants.h"
+#include "carving/different_faces.h"
 
 namespace fcl_prob::detail {
-namespace {
-
-// Nor does one face more that is nearly parallel to another one.
-constexpr double kLikeness = 0.999;
-
-}  // namespace
-
 NodeSpans::NodeSpans(const WhitenedFan& fan) : fan_(fan), rounding_(1e-13 * fan.reach()) {
-  first_.faces = differentFaces(1.0, kFirstFaces);
-  last_.faces = differentFaces(-1.0, kLastFaces);
+  first_.faces = facesTowards(1.0, kFirstFaces);
+  last_.faces = facesTowards(-1.0, kLastFaces);
 }
 
-// Those that face the lines in directions as different as possible; the first one faces them most.
-std::vector<int> NodeSpans::differentFaces(double sign, int count) const {
+std::vector<int> NodeSpans::facesTowards(double sign, int count) const {
   std::vector<int> candidates;
   for (int f = 0; f < fan_.faceCount(); ++f) {
     if (sign * fan_.faceNormal(f).x() < -kLeastSlope) candidates.push_back(f);
   }
-  std::vector<double> closeness(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    closeness[i] = sign * fan_.faceNormal(candidates[i]).x() - 1.0;
-  }
-  std::vector<int> faces;
-  while (static_cast<int>(faces.size()) < count && !candidates.empty()) {
-    const auto next = std::min_element(closeness.begin(), closeness.end()) - closeness.begin();
-    if (!(closeness[next] < kLikeness)) break;
-    faces.push_back(candidates[next]);
-    const Eigen::Vector3d& n = fan_.faceNormal(faces.back());
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      closeness[i] = std::max(closeness[i], n.dot(fan_.faceNormal(candidates[i])));
-    }
-  }
-  return faces;
+  return differentFaces(fan_, candidates, {-sign, 0.0, 0.0}, count);
 }
 
 template <int count>

@@ -63,7 +63,7 @@ class NodeSpans {
     Last::Ends last;
   };
 
-  std::vector<int> differentFaces(double sign, int count) const;
+  std::vector<int> facesTowards(double sign, int count) const;
   template <int count>
   void look(const Column& column, Side<count>& side) const;
   template <int count>

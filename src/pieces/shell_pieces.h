@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// What of a mesh the core of a nearly convex one does not hold, as tetrahedra.
+// What of a mesh the core of a nearly convex one does not hold, as small convex bodies.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +13,9 @@
 
 namespace fcl_prob::detail {
 
-/// Of every triangle that has a corner which is none of the core's, a tetrahedron below it, so that
-/// the core and these hold the whole mesh; each with what is told of NearlyConvex::core. Empty
-/// where one of them cannot be found.
+/// Bodies that hold, with the core, the whole mesh: of convex patches of the triangles that have a
+/// corner which is none of the core's, each the hull of a patch and of a point below it, with what
+/// is told of NearlyConvex::core. Empty where a triangle has none, or there would be too many.
 /// \param apex  deep inside
 std::vector<ConvexFan> shellPieces(const MeshView& view,
                                    const std::vector<Eigen::Vector3d>& vertices,

@@ -130,7 +130,7 @@ TEST_CASE("the planes of P ⊕ T hold it, and what is within their margins", "[c
       REQUIRE(obstacles.usable());
       std::vector<ObstaclePlane> planes = obstacles.otherPlanes(0);
       obstacles.faceOffsets(0);
-      for (int f = 0; f < obstacles.faceCount(); ++f) planes.push_back(obstacles.facePlane(0, f));
+      for (int f = 0; f < obstacles.faceCount(); ++f) planes.push_back(obstacles.planesOf(0)[f]);
       REQUIRE_FALSE(obstacles.failed());
       // The middle of A's part is the origin of the whitened frame, which moves both alike.
       std::vector<Eigen::Vector3d> sum;

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "carving/fat_obstacles.h"
+#include "carving/node_reach.h"
 #include "carving/whole_body_tester.h"
 #include "catch.h"
 #include "fcl_prob/convex_polytope.h"
@@ -126,6 +128,48 @@ TEST_CASE("a convex mesh touches a triangle where the hull of their sum says so"
   }
   CHECK(touching > 2000);
   CHECK(apart > 2000);
+}
+
+// Of a node that a box is said to be clear of, no point of any triangle put to a vertex of the body
+// is in the box; told of many boxes, or the test tells nothing.
+TEST_CASE("boxes clear of nodes hold nothing of them", "[whole]") {
+  RandomBodies random(7);
+  int clear = 0;
+  for (int scene = 0; scene < 12; ++scene) {
+    const TriangleMesh body = hullMesh(random.onSphere(random.integer(4, 60), 0.4));
+    const TriangleMesh other = bumpyMesh(0.5, 8, 10, static_cast<std::uint64_t>(scene));
+    const bool body_is_a = scene % 2 == 0;
+    const WhitenedMeshes meshes(body_is_a ? body : other, body_is_a ? other : body);
+    const auto& tree = body_is_a ? meshes.tree_a : meshes.tree_b;
+    const FatObstacles obstacles(meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
+                                 meshes.whitening.matrix());
+    const NodeReach reach(obstacles);
+    const auto& nodes = obstacles.mesh().tree->nodes;
+    for (int i = 0; i < 40; ++i) {
+      const Eigen::Vector3d middle = 0.6 * random.normalVector();
+      const Eigen::Vector3d half = Eigen::Vector3d::Constant(random.logUniform(1e-3, 0.3));
+      const NodeReach::Heights lowest = reach.lowestOf(middle, half);
+      for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+        if (!reach.isClearOf(lowest, node)) continue;
+        ++clear;
+        if (!nodes[node].isLeaf()) {
+          CHECK(reach.isClearOf(lowest, nodes[node].left));
+          CHECK(reach.isClearOf(lowest, nodes[node].right));
+          continue;
+        }
+        const Eigen::Matrix3d corners = obstacles.corners(nodes[node].piece);
+        bool is_apart = false;
+        for (int f = 0; f < obstacles.faceCount(); ++f) {
+          const Eigen::Vector3d& n = obstacles.faceNormal(f);
+          const double below = n.dot(middle) - n.cwiseAbs().dot(half);
+          const double highest = (n.transpose() * corners).maxCoeff() + obstacles.faceOffset(f);
+          is_apart = is_apart || below > highest;
+        }
+        CHECK(is_apart);
+      }
+    }
+  }
+  CHECK(clear > 2'000);
 }
 
 TEST_CASE("convex meshes taken whole touch others where fcl::collide says so", "[whole]") {

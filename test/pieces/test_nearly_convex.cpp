@@ -221,4 +221,5 @@ TEST_CASE("a can is nearly convex", "[nearly_convex][models]") {
   REQUIRE(can);
   CHECK(can->share > 0.97);
   CHECK_FALSE(can->pieces.empty());
+  CHECK(can->pieces.size() < 100);  // patches of its 500 triangles
 }
