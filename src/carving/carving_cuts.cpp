@@ -130,7 +130,7 @@ void CellCarver::trim(CarvedCell& cell, const List& list) {
   if (beyond.body.empty()) return;
   beyond.mass = cell.mass;
   beyond.layers = cell.layers;
-  beyond.dropped = cell.dropped;
+  beyond.rim = cell.rim;
   if (solids_) beyond.mass = openMass(beyond.body, cell.mass.upper);
   settleFree(beyond);
   if (!cell.body.empty()) cell.mass = openMass(cell.body, cell.mass.upper);
@@ -167,7 +167,7 @@ bool CellCarver::mayMeet(const CellPolytope& body, const List& list, std::size_t
 }
 
 // An obstacle that does not meet a cell, or in no more than the layer between its inner and outer
-// planes. Of a cell with such layers no point tells whether the solids overlap.
+// planes.
 void CellCarver::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
   if (!mayMeet(cell.body, list, entry)) {
     list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
@@ -187,8 +187,26 @@ void CellCarver::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
     if (rest.empty()) break;
   }
   carving_->settled.upper += openMass(rest, cell.mass.upper).upper;  // of nothing
-  cell.dropped = true;
+  if (solids_) cell.rim = std::max(cell.rim, rimOf(cell, list, entry));
   list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
+}
+
+// How far an obstacle V that is dropped reaches into a cell. Within its inner planes there is
+// nothing of the cell, so that some plane is between the two; and V is within what is between its
+// inner planes once that is stretched, about a point of it, by as much as the outer planes are
+// farther away.
+double CellCarver::rimOf(const CarvedCell& cell, const List& list, std::size_t entry) const {
+  const auto& [obstacle, first, last] = list.entries[entry];
+  const FatObstacles::Planes planes = planesOf(obstacle);
+  const Eigen::Vector3d within = obstacles_.of(obstacle.member).middle(obstacle.triangle);
+  double stretched = 0.0;
+  for (std::size_t p = first; p < last; ++p) {
+    const ObstaclePlane plane = planes[list.planes[p]];
+    const double depth = plane.inner() - CellPolytope::kCutLayer - plane.n.dot(within);
+    if (!(depth > 0.0)) return kInfinity;
+    stretched = std::max(stretched, (plane.margin + 3 * CellPolytope::kCutLayer) / depth);
+  }
+  return stretched * (cell.body.middle() - within).norm() + CellPolytope::kCutLayer;
 }
 
 void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
@@ -218,7 +236,7 @@ void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, st
       kept.list = list;
       kept.body = std::move(rest.body);
       kept.layers = cell.layers;
-      kept.dropped = cell.dropped;
+      kept.rim = cell.rim;
       return push(std::move(kept));
     }
     cutOff(cell, list, *plane, rest);
@@ -247,7 +265,7 @@ void CellCarver::openHulls(CarvedCell& cell, const std::shared_ptr<List>& list) 
   open.body = std::move(cell.body);
   open.list = list;
   open.layers = cell.layers;
-  open.dropped = cell.dropped;
+  open.rim = cell.rim;
   open.opens_hulls = true;
   push(std::move(open));
 }
@@ -291,7 +309,7 @@ void CellCarver::cutOff(const CarvedCell& cell, const std::shared_ptr<List>& lis
   const double layer = allowLayer(outside, plane);
   outside.layers =
       std::make_shared<const CarvedLayer>(CarvedLayer{plane.n, plane.outer, layer, cell.layers});
-  outside.dropped = cell.dropped;
+  outside.rim = cell.rim;
   if (list->entries.size() == 1) return settleFree(outside);
   outside.list = list;
   outside.behind = plane.n;
@@ -319,7 +337,7 @@ void CellCarver::split(CarvedCell& cell, const std::shared_ptr<List>& list) {
     half.mass = openMass(half.body, cell.mass.upper);
     half.list = list;
     half.layers = cell.layers;
-    half.dropped = cell.dropped;
+    half.rim = cell.rim;
     push(std::move(half));
   }
 }

@@ -33,6 +33,25 @@ constexpr double kSettledFloor = 1e-4;
 constexpr double kLittleShare = 0.1;
 constexpr double kLayerAccuracy = 0.3;
 
+// What the depth of a point in a cell is rounded by, as a share of the cell's diameter: normals of
+// thin faces (CellPolytope::kThinFace) are not known better.
+constexpr double kDepthError = 1e-7;
+
+// Not less than the largest density in a body over the least.
+double unevennessOf(const CellPolytope& body) {
+  const double far = body.nearest() + body.diameter();
+  return std::exp(0.5 * (far * far - body.nearest() * body.nearest()));
+}
+
+// Bound on the mass of what is within the rim of a cell. What is deeper holds the cell shrunk about
+// a point that is d deep by the share rim / d; all of the mass where the point is in the rim.
+double rimMass(const CarvedCell& cell, const Eigen::Vector3d& point) {
+  if (!(cell.rim > 0.0)) return 0.0;
+  const double depth = cell.body.depth(point) - kDepthError * cell.body.diameter();
+  if (!(depth > cell.rim)) return cell.mass.upper;
+  return std::min(1.0, 3 * cell.rim / depth * unevennessOf(cell.body)) * cell.mass.upper;
+}
+
 double settledAccuracy(const ProbabilityRequest& request) {
   if (request.threshold) return kDecisionAccuracy;
   return std::clamp(kSettledShare * request.relative_tolerance, kBestAccuracy, kWorstAccuracy);
@@ -110,12 +129,12 @@ void CellCarver::settle(const Bounds& mass) {
 // Of a few points, as cells of next to no size: near the vertices the claim is boldest. A body that
 // is hardly thicker than those cells is left out, by what its faces tell to 1e-8.
 void CellCarver::claim(const char* method, bool collides, const CellPolytope& body,
-                       const CarvedLayer* layers) const {
+                       const CarvedLayer* layers, double rim) const {
   if (!observer_) return;
   constexpr double kNearVertex = 0.99;
   constexpr double kHalf = 1e-11;
   const Eigen::Vector3d middle = body.middle();
-  if (!((1.0 - kNearVertex) * body.depth(middle) > 1e3 * kHalf)) return;
+  if (!((1.0 - kNearVertex) * body.depth(middle) > 1e3 * kHalf + rim)) return;
   for (const Eigen::Vector3d& v : body.vertices()) {
     const Eigen::Vector3d point = middle + kNearVertex * (v - middle);
     if (!isBeyond(layers, point)) continue;
@@ -123,28 +142,31 @@ void CellCarver::claim(const char* method, bool collides, const CellPolytope& bo
   }
 }
 
-// No surfaces meet anywhere in the cell but in its layers. What is beyond all of them is convex:
-// one point of it tells whether the solids overlap.
+// No surfaces meet anywhere in the cell but in its layers and near its surface. What is beyond all
+// of them is convex: one point of it tells whether the solids overlap.
 void CellCarver::settleFree(const CarvedCell& cell) {
   if (!solids_ || !solids_->possible(cell.body.box())) {
-    return claim("no fat pair", false, cell.body);
+    return claim("no fat pair", false, cell.body, nullptr, cell.rim);
   }
   const Eigen::Vector3d middle = cell.body.middle();
-  const bool tells = !cell.dropped && isBeyond(cell.layers.get(), middle);
+  const double rim_mass = rimMass(cell, middle);
+  const bool tells = rim_mass < cell.mass.upper && isBeyond(cell.layers.get(), middle);
   switch (tells ? solids_->at(middle) : Containment::unknown) {
     case Containment::inside:
-      return settleContained(cell);
+      return settleContained(cell, rim_mass);
     case Containment::outside:
-      return claim("no containment", false, cell.body);
+      carving_->settled.upper += rim_mass;
+      return claim("no containment", false, cell.body, nullptr, cell.rim);
     case Containment::unknown:
       carving_->settled.upper += cell.mass.upper;
   }
 }
 
-// Nothing is said of its layers.
-void CellCarver::settleContained(const CarvedCell& cell) {
-  claim("containment", true, cell.body, cell.layers.get());
+// Nothing is said of its layers and its rim.
+void CellCarver::settleContained(const CarvedCell& cell, double rim_mass) {
+  claim("containment", true, cell.body, cell.layers.get(), cell.rim);
   Bounds mass = cell.box ? cell.mass : settledMass(cell.body);
+  mass.lower -= rim_mass;
   for (const CarvedLayer* layer = cell.layers.get(); layer; layer = layer->before.get()) {
     mass.lower -= layer->mass;
   }
@@ -158,9 +180,7 @@ double CellCarver::allowLayer(const CarvedCell& outside, const ObstaclePlane& pl
   const CellPolytope& body = outside.body;
   if (observer_) observer_->excuse(body.box(), plane.n, plane.inner(), plane.outer);
   const double height = body.along(plane.n).hi - plane.inner();
-  const double far = body.nearest() + body.diameter();
-  const double uneven = std::exp(0.5 * (far * far - body.nearest() * body.nearest()));
-  const double share = height > 0.0 ? 3 * plane.margin / height * uneven : 1.0;
+  const double share = height > 0.0 ? 3 * plane.margin / height * unevennessOf(body) : 1.0;
   double mass = share * outside.mass.upper;
   if (share > kLittleShare * accuracy_) {
     cutter_.cut(body, plane.n, plane.outer, &layer_, nullptr);

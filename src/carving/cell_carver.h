@@ -62,7 +62,8 @@ struct CarvedCell {
   /// Of the list's obstacles of hulls those of what is in the hulls are to be taken instead.
   bool opens_hulls = false;
 
-  bool dropped = false;  ///< it may also meet such obstacles elsewhere
+  /// It may also meet such obstacles elsewhere, no farther than this from its surface.
+  double rim = 0.0;
 
   double inner_error = 0.0;  ///< how much more that part may weigh
 
@@ -140,12 +141,13 @@ class CellCarver {
   bool clip(const CellPolytope& body, const List& list, std::size_t entry, CellPolytope& inside);
   bool mayMeet(const CellPolytope& body, const List& list, std::size_t entry);
   void dropEntry(CarvedCell& cell, List& list, std::size_t entry);
+  double rimOf(const CarvedCell& cell, const List& list, std::size_t entry) const;
   void split(CarvedCell& cell, const std::shared_ptr<List>& list);
   void settle(const Bounds& mass);
   void settleFree(const CarvedCell& cell);
-  void settleContained(const CarvedCell& cell);
+  void settleContained(const CarvedCell& cell, double rim_mass);
   void claim(const char* method, bool collides, const CellPolytope& body,
-             const CarvedLayer* layers = nullptr) const;
+             const CarvedLayer* layers = nullptr, double rim = 0.0) const;
   double allowLayer(const CarvedCell& outside, const ObstaclePlane& plane);
   Bounds settledMass(const CellPolytope& body) const;
   Bounds openMass(const CellPolytope& body, double parent) const;
