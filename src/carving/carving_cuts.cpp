@@ -3,6 +3,7 @@
 // Cutting a cell along the planes of the obstacle that covers most of it.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/constants.h"
 #include "carving/cell_carver.h"
@@ -17,10 +18,7 @@ constexpr double kInnerShare = 0.1;
 constexpr double kInnerAccuracy = 0.02;
 
 // Cutting stops when no more than this share of a cell's gap is left around its best obstacle.
-constexpr double kLazyShare = 0.05;
-
-// Less of a cell than this in its best obstacle is not worth cutting for: the cell is halved.
-constexpr double kLeastInside = 0.01;
+constexpr double kLazyShare = 0.02;
 
 // Obstacles that are tried as the best one of a cell.
 constexpr int kMostCandidates = 6;
@@ -40,11 +38,9 @@ constexpr double kTouching = 2 * CellPolytope::kSnap;
 
 }  // namespace
 
-// By how much of the cell's mass is in it, as far as a few samples tell. Hulls come last: they
-// settle nothing.
-std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
-  const std::vector<Eigen::Vector3d>& vertices = cell.body.vertices();
-  const Eigen::Vector3d middle = cell.body.middle();
+void CellCarver::takeSamples(const CellPolytope& body) {
+  const std::vector<Eigen::Vector3d>& vertices = body.vertices();
+  const Eigen::Vector3d middle = body.middle();
   samples_.assign(1, middle);
   const std::size_t step = 1 + vertices.size() / kSamples;
   for (std::size_t i = 0; i < vertices.size(); i += step) {
@@ -54,6 +50,12 @@ std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
   for (const Eigen::Vector3d& sample : samples_) {
     weights_.push_back(std::exp(0.5 * (middle.squaredNorm() - sample.squaredNorm())));
   }
+}
+
+// By how much of the cell's mass is in it, as far as a few samples tell. Hulls come last: they
+// settle nothing.
+std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
+  takeSamples(cell.body);
   const auto encloses = [this](const List::Entry& entry) {
     return obstacles_.encloses(entry.obstacle.member);
   };
@@ -61,29 +63,44 @@ std::size_t CellCarver::bestEntry(const CarvedCell& cell, const List& list) {
   std::size_t best = 0;
   double most = -kInfinity;
   for (std::size_t e = 0; e < list.entries.size(); ++e) {
-    const List::Entry& entry = list.entries[e];
-    if (!only_hulls && encloses(entry)) continue;
-    const FatObstacles::Planes planes = planesOf(entry.obstacle);
-    double score = 0.0;
-    double nearest = kInfinity;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      // Beyond that it neither counts nor is the nearest.
-      const double enough = most >= 0.0 ? 0.0 : -most;
-      double excess = -kInfinity;
-      for (std::size_t p = entry.first; p < entry.last && !(excess > enough); ++p) {
-        const ObstaclePlane plane = planes[list.planes[p]];
-        excess = std::max(excess, plane.n.dot(samples_[i]) - plane.inner());
-      }
-      if (excess <= 0.0) score += weights_[i];
-      nearest = std::min(nearest, excess);
-    }
-    if (score == 0.0) score = -nearest;
+    if (!only_hulls && encloses(list.entries[e])) continue;
+    const double score = scoreOf(list, list.entries[e], most);
     if (score > most) {
       most = score;
       best = e;
     }
   }
   return best;
+}
+
+// The weight of the samples that are within an obstacle, or else less than 0 by how far the nearest
+// of them is from it. No more than `most` is as good as any: such an obstacle is given up early,
+// and what one sample is beyond the next one probably is, too.
+double CellCarver::scoreOf(const List& list, const List::Entry& entry, double most) const {
+  const FatObstacles::Planes planes = planesOf(entry.obstacle);
+  const double enough = most >= 0.0 ? 0.0 : -most;
+  double score = 0.0;
+  double nearest = kInfinity;
+  double ahead = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+  std::size_t beyond = entry.first;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (most > 0.0 && score + ahead <= most) break;
+    ahead -= weights_[i];
+    const auto excessOver = [&](std::size_t p) {
+      const ObstaclePlane plane = planes[list.planes[p]];
+      return plane.n.dot(samples_[i]) - plane.inner();
+    };
+    double excess = beyond < entry.last ? excessOver(beyond) : -kInfinity;
+    for (std::size_t p = entry.first; p < entry.last && !(excess > enough); ++p) {
+      const double over = excessOver(p);
+      if (!(over > excess)) continue;
+      excess = over;
+      beyond = p;
+    }
+    if (excess <= 0.0) score += weights_[i];
+    nearest = std::min(nearest, excess);
+  }
+  return score > 0.0 ? score : -nearest;
 }
 
 // The part of a body within all planes of an obstacle. Those first that cut off the most: others
@@ -215,9 +232,6 @@ void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, st
   const double accuracy =
       std::clamp(kInnerShare * cell.gap() / cell.mass.upper, accuracy_, kInnerAccuracy);
   const Bounds inner = inside.mass({accuracy, kOpenFloor * accuracy * cell.mass.upper});
-  if (inner.lower < kLeastInside * cell.mass.upper && list->entries.size() > 2) {
-    return split(cell, list);
-  }
   const List::Entry entry = list->entries[best];
   const bool is_hull = obstacles_.encloses(entry.obstacle.member);
   Rest rest{cell.body, {}, cell.mass.upper, entry.obstacle};

@@ -14,20 +14,6 @@ namespace {
 // A node of the mesh's tree is opened in a box if it is this many times larger.
 constexpr double kOpenRatio = 2.0;
 
-// The first face from `from` on whose value is not at most limits[f] + `by`, or `count`. Sixteen
-// are looked at at once, since few are above. (The sign of a difference is exact.)
-int firstAbove(const double* values, const double* limits, double by, int from, int count) {
-  constexpr int kAtOnce = 16;
-  using Values = Eigen::Map<const Eigen::Array<double, kAtOnce, 1>>;
-  int face = from;
-  for (; face + kAtOnce <= count; face += kAtOnce) {
-    const auto above = Values(values + face) - (Values(limits + face) + by);
-    if (!(above.maxCoeff<Eigen::PropagateNaN>() <= 0.0)) break;
-  }
-  while (face < count && values[face] <= limits[face] + by) ++face;
-  return face;
-}
-
 }  // namespace
 
 void CellCarver::divideBox(CarvedCell&& cell) {
@@ -82,19 +68,18 @@ CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
   return cell.box ? listBox(cell, into) : refine(cell, into);
 }
 
-// The most central obstacles first: one of them may cover the box.
+// Those obstacles first that reach over most of the box: one of them may cover it.
 CellCarver::Relation CellCarver::listBox(const CarvedCell& cell, List& into) {
   gatherNodes(*cell.box, *cell.nodes, true);
   const CellBox box = cell.box->box();
-  const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   face_lo_.resize(obstacles_.faceCount());
   face_hi_.resize(obstacles_.faceCount());
   ranged_.assign(obstacles_.count(), false);
   apart_.assign(obstacles_.count(), 0);
-  std::vector<std::tuple<double, int, int>> order;
+  std::vector<std::tuple<float, int, int>> order;
   for (const auto& [member, leaf] : gathered_) {
     const int t = obstacles_.mesh().tree->nodes[leaf].piece;
-    order.emplace_back((obstacles_.of(member).middle(t) - middle).squaredNorm(), member, t);
+    order.emplace_back(-obstacles_.reachOf(member).leastOver(lowest_[member], leaf), member, t);
   }
   std::sort(order.begin(), order.end());
   for (const auto& [unused, member, t] : order) {
@@ -111,13 +96,10 @@ void CellCarver::rangeFaces(const CellBox& box, int member) {
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   const Eigen::Map<const Eigen::Vector3d> half(box.half);
   const int first = obstacles_.firstFace(member);
-  for (int f = 0; f < body.faceCount(); ++f) {
-    const Eigen::Vector3d& n = body.faceNormal(f);
-    const double at = n.dot(middle);
-    const double radius = n.cwiseAbs().dot(half);
-    face_lo_[first + f] = at - radius;
-    face_hi_[first + f] = at + radius;
-  }
+  Eigen::Map<Eigen::VectorXd> lo(&face_lo_[first], body.faceCount());
+  Eigen::Map<Eigen::VectorXd> hi(&face_hi_[first], body.faceCount());
+  lo = body.heightsAlong(middle) - body.radiiOf(half);
+  hi = body.heightsAlong(middle) + body.radiiOf(half);
 }
 
 CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obstacle, List& into) {
@@ -132,9 +114,10 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   int& apart = apart_[obstacle.member];
   const auto isApart = [&](int f) { return face_lo[f] > offsets[f] + padding; };
   if (isApart(apart)) return Relation::free;
-  if (const int f = firstAbove(face_lo, offsets.data(), padding, 0, faces); f < faces) {
-    apart = f;
-    if (isApart(f)) return Relation::free;
+  const int above = kernels_.firstAbove(face_lo, offsets.data(), padding, faces);
+  if (above < faces) {
+    apart = above;
+    if (isApart(above)) return Relation::free;
   }
   const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.triangle);
   const double margin = body.mostMargin(obstacle.triangle);
@@ -153,13 +136,9 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
     if (at + radius > plane.inner()) into.planes.push_back(faces + static_cast<int>(i));
   }
   const FatObstacles::Planes planes = body.planesOf(obstacle.triangle);
-  cut_faces_.resize(static_cast<std::size_t>(faces));
-  std::size_t count = 0;
-  for (int f = 0; f < faces; ++f) {
-    cut_faces_[count] = f;
-    count += face_hi[f] > offsets[f] - margin;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
+  cut_faces_.resize(static_cast<std::size_t>(faces + kFaceLanes));
+  const int count = kernels_.allAbove(face_hi, offsets.data(), -margin, faces, cut_faces_.data());
+  for (int i = 0; i < count; ++i) {
     if (face_hi[cut_faces_[i]] > planes[cut_faces_[i]].inner()) {
       into.planes.push_back(cut_faces_[i]);
     }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "carving/face_kernels.h"
 #include "carving/fat_members.h"
 #include "cells/cell_polytope.h"
 #include "cells/claim_observer.h"
@@ -120,7 +121,9 @@ class CellCarver {
   bool addPlane(const CellPolytope& body, FatObstacle obstacle, int index,
                 const ObstaclePlane& plane, List& into);
   Relation examine(const CarvedCell& cell, List& into);
+  void takeSamples(const CellPolytope& body);
   std::size_t bestEntry(const CarvedCell& cell, const List& list);
+  double scoreOf(const List& list, const List::Entry& entry, double most) const;
   std::shared_ptr<List> copied(const List& list);
   bool mayOpenHulls(const List& list) const;
   void trim(CarvedCell& cell, const List& list);
@@ -167,6 +170,7 @@ class CellCarver {
   Carving* carving_ = nullptr;
   bool failed_ = false;
 
+  const FaceKernels& kernels_ = faceKernels();
   PolytopeCutter cutter_;
   CellPolytope layer_;
   std::vector<std::pair<double, int>> depths_;  // of a body behind planes, and which

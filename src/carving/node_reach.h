@@ -28,6 +28,12 @@ class NodeReach {
     return (lowest - highest_[node]).maxCoeff() > 0.0F;
   }
 
+  /// How far P ⊕ the triangles of a node reaches over what no point of a box is below, at the least
+  /// along those normals, about.
+  float leastOver(const Heights& lowest, int node) const {
+    return (highest_[node] - lowest).minCoeff();
+  }
+
   /// Bytes, of a tree of so many nodes.
   static std::size_t memoryOf(std::size_t nodes) { return nodes * sizeof(Heights); }
 

@@ -39,6 +39,13 @@ class WhitenedFan {
   auto heightsAlong(const Eigen::Vector3d& y) const {
     return coordinates_.col(0) * y.x() + coordinates_.col(1) * y.y() + coordinates_.col(2) * y.z();
   }
+
+  /// The largest n·y for every face in a box around 0 of such half sides.
+  auto radiiOf(const Eigen::Vector3d& half) const {
+    return coordinates_.col(0).cwiseAbs() * half.x() + coordinates_.col(1).cwiseAbs() * half.y() +
+           coordinates_.col(2).cwiseAbs() * half.z();
+  }
+
   double facePad(int face) const { return pads_[face]; }
   double faceMargin(int face) const { return margins_[face]; }
 
