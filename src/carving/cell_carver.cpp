@@ -33,23 +33,18 @@ constexpr double kSettledFloor = 1e-4;
 constexpr double kLittleShare = 0.1;
 constexpr double kLayerAccuracy = 0.3;
 
-// What the depth of a point in a cell is rounded by, as a share of the cell's diameter: normals of
-// thin faces (CellPolytope::kThinFace) are not known better.
-constexpr double kDepthError = 1e-7;
-
 // Not less than the largest density in a body over the least.
 double unevennessOf(const CellPolytope& body) {
   const double far = body.nearest() + body.diameter();
   return std::exp(0.5 * (far * far - body.nearest() * body.nearest()));
 }
 
-// Bound on the mass of what is within the rim of a cell. What is deeper holds the cell shrunk about
-// a point that is d deep by the share rim / d; all of the mass where the point is in the rim.
-double rimMass(const CarvedCell& cell, const Eigen::Vector3d& point) {
-  if (!(cell.rim > 0.0)) return 0.0;
-  const double depth = cell.body.depth(point) - kDepthError * cell.body.diameter();
-  if (!(depth > cell.rim)) return cell.mass.upper;
-  return std::min(1.0, 3 * cell.rim / depth * unevennessOf(cell.body)) * cell.mass.upper;
+// Bound on the mass of what is within the rim of a cell, of which a ball is known. What is deeper
+// holds the cell shrunk about the ball's middle by the share rim / radius.
+double rimMass(const CarvedCell& cell, double radius) {
+  if (cell.rim == 0.0) return 0.0;
+  if (!(cell.rim < radius)) return cell.mass.upper;
+  return std::min(1.0, 3 * cell.rim / radius * unevennessOf(cell.body)) * cell.mass.upper;
 }
 
 double settledAccuracy(const ProbabilityRequest& request) {
@@ -148,9 +143,10 @@ void CellCarver::settleFree(const CarvedCell& cell) {
   if (!solids_ || !solids_->possible(cell.body.box())) {
     return claim("no fat pair", false, cell.body, nullptr, cell.rim);
   }
-  const Eigen::Vector3d middle = cell.body.middle();
-  const double rim_mass = rimMass(cell, middle);
-  const bool tells = rim_mass < cell.mass.upper && isBeyond(cell.layers.get(), middle);
+  const auto [middle, radius] =
+      cell.rim > 0.0 ? cell.body.ballWithin() : CellPolytope::Ball{cell.body.middle(), kInfinity};
+  const double rim_mass = rimMass(cell, radius);
+  const bool tells = cell.rim < radius && isBeyond(cell.layers.get(), middle);
   switch (tells ? solids_->at(middle) : Containment::unknown) {
     case Containment::inside:
       return settleContained(cell, rim_mass);

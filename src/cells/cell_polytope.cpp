@@ -9,6 +9,18 @@
 #include "base/constants.h"
 
 namespace fcl_prob::detail {
+namespace {
+
+// Of a tetrahedron with less volume than this share of that of a cube around it nothing is said;
+// of others rounding moves the ball within, and its radius, by less than that share of the radius.
+constexpr double kFlat = 1e-9;
+constexpr double kBallRounding = 1e-3;
+
+// What depth() is rounded by, as a share of the diameter: normals of faces that are only just wider
+// than kThinFace are not known better.
+constexpr double kDepthRounding = 1e-7;
+
+}  // namespace
 
 CellPolytope::CellPolytope(const Cell& box) {
   for (int i = 0; i < 8; ++i) {
@@ -51,6 +63,32 @@ double CellPolytope::depth(const Eigen::Vector3d& point) const {
     least = std::min(least, normal.dot(apex - point) / size);
   }
   return least;
+}
+
+CellPolytope::Ball CellPolytope::ballWithin() const {
+  const Ball central{middle(), std::max(0.0, depth(middle()) - kDepthRounding * diameter())};
+  const Ball other = ballOfTetrahedron();
+  return other.radius > central.radius ? other : central;
+}
+
+CellPolytope::Ball CellPolytope::ballOfTetrahedron() const {
+  const auto farthest = [this](const auto& measure) {
+    return *std::max_element(vertices_.begin(), vertices_.end(),
+                             [&](const auto& x, const auto& y) { return measure(x) < measure(y); });
+  };
+  const Eigen::Vector3d b =
+      farthest([this](const auto& v) { return (v - vertices_.front()).squaredNorm(); });
+  const Eigen::Vector3d a = farthest([&](const auto& v) { return (v - b).squaredNorm(); });
+  const Eigen::Vector3d c = farthest([&](const auto& v) { return (b - a).cross(v - a).norm(); });
+  const Eigen::Vector3d n = (b - a).cross(c - a);
+  const Eigen::Vector3d d = farthest([&](const auto& v) { return std::fabs(n.dot(v - a)); });
+  const Eigen::Vector4d areas((c - b).cross(d - b).norm(), (c - a).cross(d - a).norm(),
+                              (b - a).cross(d - a).norm(), n.norm());
+  const double volume = std::fabs(n.dot(d - a));
+  const double size = diameter();
+  if (!(volume > kFlat * size * size * size)) return {a, 0.0};
+  return {(areas[0] * a + areas[1] * b + areas[2] * c + areas[3] * d) / areas.sum(),
+          (1.0 - kBallRounding) * volume / areas.sum()};
 }
 
 Cell CellPolytope::box() const {

@@ -46,6 +46,14 @@ class CellPolytope {
   /// face is too thin for its plane to be known.
   double depth(const Eigen::Vector3d& point) const;
 
+  struct Ball {
+    Eigen::Vector3d middle;
+    double radius;  ///< 0 if none was found
+  };
+
+  /// Certainly within it.
+  Ball ballWithin() const;
+
   /// Around it.
   Cell box() const;
 
@@ -66,6 +74,8 @@ class CellPolytope {
 
  private:
   friend class PolytopeCutter;
+  /// In that of four vertices far apart, whatever is known of the faces.
+  Ball ballOfTetrahedron() const;
   int end(std::size_t face) const {
     return face + 1 < first_.size() ? first_[face + 1] : static_cast<int>(corners_.size());
   }

@@ -211,6 +211,42 @@ TEST_CASE("cut polytopes add up, and have the mass of the exact formula", "[carv
   }
 }
 
+// Slivers, too: every other plane cuts hardly more than a vertex or an edge off, or leaves hardly
+// more of it.
+TEST_CASE("the balls of cut polytopes are within all planes", "[carving]") {
+  RandomBodies random(9);
+  PolytopeCutter cutter;
+  int found = 0;
+  for (int scene = 0; scene < 500; ++scene) {
+    const Cell box{random.uniform(0.0, 3.0) * random.normalVector(), {}, 3};
+    CellPolytope body({box.lo, box.lo + random.logUniform(1e-3, 1.0) * Eigen::Vector3d::Ones(), 3});
+    std::vector<std::pair<Eigen::Vector3d, double>> planes;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d n = Eigen::Vector3d::Unit(k);
+      planes.emplace_back(n, body.along(n).hi);
+      planes.emplace_back(-n, body.along(-n).hi);
+    }
+    for (int cut = 0; cut < 8; ++cut) {
+      Eigen::Vector3d n = random.direction();
+      if (cut % 3 == 2) n = (planes.back().first + 1e-6 * n).normalized();
+      const CellPolytope::Extent extent = body.along(n);
+      const double share = random.logUniform(1e-9, 1.0);
+      const double s = extent.hi - (cut % 4 == 3 ? 1.0 - share : share) * (extent.hi - extent.lo);
+      CellPolytope below;
+      cutter.cut(body, n, s, &below, nullptr);
+      if (below.empty()) continue;
+      body = below;
+      planes.emplace_back(n, s);
+      const CellPolytope::Ball ball = body.ballWithin();
+      found += ball.radius > 0.0;
+      for (const auto& [normal, level] : planes) {
+        CHECK(normal.dot(ball.middle) + ball.radius <= level + 1e-12);
+      }
+    }
+  }
+  CHECK(found > 2'000);
+}
+
 namespace {
 
 void checkScenes(int scenes, int samples, unsigned seed) {
