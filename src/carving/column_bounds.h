@@ -14,16 +14,15 @@ struct ColumnBounds {
   Bounds bounds;
   double likely;  ///< P, about
   std::size_t columns;
-  bool only_above = false;  ///< no bound from below can be told, since hulls stand for members
 };
 
-/// Columns across the nearest contact, and what the line in the middle of each tells. No line of a
-/// column meets anything before the boxes of the mesh's tree, and all of them meet the convex mesh
-/// put to one point of the other one.
+/// Columns across the nearest contact, what the line in the middle of each tells, and certified
+/// bounds on the lines in the mean.
 class ColumnLooks {
  public:
   /// Keeps the reference.
-  explicit ColumnLooks(WholeBodyLines& lines);
+  /// \param taken  what members are taken for on the line in the middle
+  ColumnLooks(WholeBodyLines& lines, Taken taken);
 
   /// P, about: by the lines in the middle of the columns as they are.
   double likely();
@@ -43,18 +42,22 @@ class ColumnLooks {
 
   /// Of the lines of the column in the mean: certain.
   double leastOf(int column);
+  double mostOf(int column);
 
  private:
-  /// What is known of one column besides a bound from above.
+  /// What is known of one column besides a bound on each of its lines.
   struct KnownColumn {
     WholeBodyLines::LineContacts middle;  ///< of one line
     double least = 0.0;                   ///< of its lines in the mean, certainly
     bool has_least = false;
+    double most = 1.0;  ///< the same
+    bool has_most = false;
   };
 
   const WholeBodyLines::LineContacts& middleOf(int column);
 
   WholeBodyLines& lines_;
+  Taken taken_;
   LineColumns columns_;
   std::unordered_map<int, KnownColumn> known_;
   Bounds bounds_{0.0, 1.0};

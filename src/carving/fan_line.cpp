@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "carving/node_spans.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -18,46 +19,24 @@ constexpr std::size_t kRememberedFaces = 6;
 // Planes exchanged for one triangle: more than that is the doing of rounding.
 constexpr int kMostExchanges = 64;
 
+// After so many exchanges of planes for the lines of one triangle the search begins anew: each one
+// rounds.
+constexpr int kMostExchangesKept = 256;
+
+// A plane has to change by that share, of the largest one, to be exchanged; where it is less than
+// the second one, what is found is no longer kept, since it is rounded as much more.
+constexpr double kLeastShare = 1e-12;
+constexpr double kLeastShareKept = 1e-4;
+
+// Of the reach: what planes that are added up are rounded by.
+constexpr double kRoundedPlane = 1e-13;
+
 // Of the size of P or T: what is outside by no more is taken to be on the boundary.
 constexpr double kOutside = 1e-11;
 
-/// Three planes g·z = h in the space of z = (t, α, β), by the inverse of the matrix of their g.
-struct Vertex {
-  Eigen::Matrix3d inverse;
-  Eigen::Vector3d h;
-
-  Eigen::Vector3d place() const { return inverse * h; }
-
-  /// Takes in the half-space g·z <= h, which the place is outside of, for that of the three without
-  /// which t stays as small as can be (dual simplex: the first row of the inverse has the
-  /// multipliers, turned over). False: no place is within all four.
-  bool exchange(const Eigen::RowVector3d& g, double bound) {
-    const Eigen::RowVector3d share = g * inverse;
-    int leaving = -1;
-    double least = kInfinity;
-    for (int i = 0; i < 3; ++i) {
-      if (!(share[i] > 0.0)) continue;
-      const double ratio = std::max(-inverse(0, i), 0.0) / share[i];
-      if (ratio < least) {
-        least = ratio;
-        leaving = i;
-      }
-    }
-    if (leaving < 0) return false;
-    const Eigen::Vector3d column = inverse.col(leaving) / share[leaving];
-    for (int i = 0; i < 3; ++i) {
-      if (i != leaving) inverse.col(i) -= share[i] * column;
-    }
-    inverse.col(leaving) = column;
-    h[leaving] = bound;
-    return true;
-  }
-};
-
 }  // namespace
 
-FanLine::FanLine(const WhitenedFan& fan)
-    : fan_(fan), nodes_(fan), touched_(Eigen::Vector3d::Zero()) {
+FanLine::FanLine(const WhitenedFan& fan) : fan_(fan), touched_(Eigen::Vector3d::Zero()) {
   const auto count = static_cast<std::size_t>(fan.faceCount());
   int lowest = 0, highest = 0;
   faces_.reserve(count);
@@ -130,28 +109,70 @@ void FanLine::remember(int face, double sign) {
   starts.oldest = starts.oldest % kRememberedFaces + 1;
 }
 
-// With z = (sign·s, α, β) and T's points c + α p + β q: every face of P asks for
-// n·((s, u) - c - α p - β q) <= offset, and T for α >= 0, β >= 0, α + β <= 1. One face alone has
-// the least t at a corner of T, where it is bounded by two edges of T besides: that is where the
-// search begins, and from then on t only grows.
-std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u,
-                                     double sign, double limit) {
+// Takes in the half-space g·z <= bound, which the place is outside of, for that of the three
+// without which t stays as small as can be (dual simplex: the first row of the inverse has the
+// multipliers, turned over). False: no place is within all four.
+bool FanLine::Vertex::exchange(const Eigen::RowVector3d& g, double bound, int plane) {
+  const Eigen::RowVector3d share = g * inverse;
+  const double largest = share.cwiseAbs().maxCoeff();
+  int leaving = -1;
+  double least = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    if (!(share[i] > kLeastShare * largest)) continue;
+    const double ratio = std::max(-inverse(0, i), 0.0) / share[i];
+    if (ratio < least) {
+      least = ratio;
+      leaving = i;
+    }
+  }
+  if (leaving < 0) return false;
+  const Eigen::Vector3d column = inverse.col(leaving) / share[leaving];
+  for (int i = 0; i < 3; ++i) {
+    if (i != leaving) inverse.col(i) -= share[i] * column;
+  }
+  inverse.col(leaving) = column;
+  h[leaving] = bound;
+  planes[leaving] = plane;
+  exchanges = share[leaving] > kLeastShareKept * largest ? exchanges + 1 : kMostExchangesKept;
+  return true;
+}
+
+// One face alone has the least t at a corner of T, where it is bounded by two edges of T besides.
+bool FanLine::begin(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign,
+                    Vertex& vertex) const {
   const int start = startFor(corners, u, sign);
-  if (start < 0) return std::nullopt;
-  const Eigen::Vector3d n = faces_[start];
+  if (start < 0) return false;
+  const Eigen::Vector3d& n = faces_[start];
   const double slope = sign * n.x();
-  if (!(slope < 0.0)) return std::nullopt;
-  int corner = 0;
-  (n.transpose() * corners).maxCoeff(&corner);
-  const Eigen::Vector3d c = corners.col(corner);
-  const Eigen::Vector3d p = corners.col((corner + 1) % 3) - c;
-  const Eigen::Vector3d q = corners.col((corner + 2) % 3) - c;
-  const Eigen::Vector3d base = Eigen::Vector3d(0.0, u[0], u[1]) - c;
-  Vertex vertex;
-  vertex.inverse << 1.0 / slope, -n.dot(p) / slope, -n.dot(q) / slope,  //
-      0.0, -1.0, 0.0,                                                   //
+  if (!(slope < 0.0)) return false;
+  (n.transpose() * corners).maxCoeff(&vertex.corner);
+  const Sides sides(corners, vertex.corner);
+  vertex.inverse << 1.0 / slope, -n.dot(sides.p) / slope, -n.dot(sides.q) / slope,  //
+      0.0, -1.0, 0.0,                                                               //
       0.0, 0.0, -1.0;
-  vertex.h << 1.0 - n.dot(base), 0.0, 0.0;
+  vertex.planes = {start, kFirstEdge, kFirstEdge + 1};
+  vertex.exchanges = 0;
+  return true;
+}
+
+// With z = (sign·s, α, β) and T's points c + α p + β q: every face of P asks for
+// n·((s, u) - c - α p - β q) <= offset, and T for α >= 0, β >= 0, α + β <= 1. What changes from
+// line to line are the bounds alone: the vertex at which one line's search ended, where t is the
+// least within three planes, is one from which t only grows for the next line, too.
+std::optional<double> FanLine::first(int triangle, const Eigen::Vector2d& u, double sign,
+                                     double limit) {
+  const Eigen::Matrix3d corners = fan_.corners(triangle);
+  Vertex& vertex = vertices_[sign > 0 ? 0 : 1][triangle];
+  const bool is_known = vertex.planes[0] != kNoPlane && vertex.exchanges < kMostExchangesKept;
+  if (!is_known && !begin(corners, u, sign, vertex)) return std::nullopt;
+  const Sides sides(corners, vertex.corner);
+  const auto& [c, p, q] = sides;
+  const Eigen::Vector3d base = Eigen::Vector3d(0.0, u[0], u[1]) - c;
+  for (int i = 0; i < 3; ++i) {
+    const int plane = vertex.planes[i];
+    vertex.h[i] = plane >= 0 ? 1.0 - faces_[plane].dot(base) : plane == kLastEdge ? 1.0 : 0.0;
+    if (plane >= 0) highest_[sign > 0 ? 0 : 1] = plane;
+  }
   for (int exchanges = 0; exchanges < kMostExchanges; ++exchanges) {
     const Eigen::Vector3d z = vertex.place();
     if (z[0] > limit) return std::nullopt;
@@ -161,22 +182,46 @@ std::optional<double> FanLine::first(const Eigen::Matrix3d& corners, const Eigen
     const auto edge = std::max_element(edges, edges + 3) - edges;
     Eigen::RowVector3d g;
     double bound = edge == 2 ? 1.0 : 0.0;
+    int plane = kFirstEdge + static_cast<int>(edge);
     if (edges[edge] > kOutside) {
       g << (edge == 0   ? Eigen::RowVector3d(0, -1, 0)
             : edge == 1 ? Eigen::RowVector3d(0, 0, -1)
                         : Eigen::RowVector3d(0, 1, 1));
     } else {
       const Eigen::Vector3d y = base - z[1] * p - z[2] * q + Eigen::Vector3d(sign * z[0], 0, 0);
-      const int face = highestFace(y, sign);
-      const Eigen::Vector3d& d = faces_[face];
+      plane = highestFace(y, sign);
+      const Eigen::Vector3d& d = faces_[plane];
       if (!(d.dot(y) > 1.0 + kOutside)) return z[0];
-      remember(face, sign);
+      remember(plane, sign);
       g << sign * d.x(), -d.dot(p), -d.dot(q);
       bound = 1.0 - d.dot(base);
     }
-    if (!vertex.exchange(g, bound)) return std::nullopt;
+    if (!vertex.exchange(g, bound, plane)) return std::nullopt;
   }
   return vertex.place()[0];
+}
+
+// The multipliers of the last vertex, whichever they are as long as none is negative, add planes of
+// P up to one of P ⊕ T: on P it is no farther than the sum of theirs, and T is looked at corner by
+// corner.
+std::optional<LinePlane> FanLine::planeBefore(int triangle) const {
+  const auto known = vertices_[0].find(triangle);
+  if (known == vertices_[0].end() || known->second.planes[0] == kNoPlane) return std::nullopt;
+  const Vertex& vertex = known->second;
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  double of_body = 0.0, size = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const int face = vertex.planes[i];
+    const double weight = face >= 0 ? -vertex.inverse(0, i) / fan_.faceOffset(face) : 0.0;
+    if (!(weight > 0.0)) continue;
+    n += weight * fan_.faceNormal(face);
+    of_body += weight * fan_.faceOffset(face);
+    size += weight;
+  }
+  if (!(n.x() < -kLeastSlope * size)) return std::nullopt;
+  const double furthest =
+      of_body + fan_.extent(triangle, n) + fan_.padding(n) + kRoundedPlane * size * fan_.reach();
+  return LinePlane{furthest / n.x(), -n.tail<2>() / n.x()};
 }
 
 // From plane to plane, each of which the line leaves before the last one.

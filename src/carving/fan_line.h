@@ -6,34 +6,36 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
-#include "carving/node_spans.h"
 #include "pieces/whitened_fan.h"
 
 namespace fcl_prob::detail {
 
-/// Lines { (s, u_0, u_1) } against P ⊕ T. Nothing of where they enter and leave it is certified: it
-/// is for estimates. Bounds around whole boxes of the mesh are.
+/// A plane across the lines: the one at u passes it at s = at + slope·u.
+struct LinePlane {
+  double at;
+  Eigen::Vector2d slope;
+
+  double on(const Eigen::Vector2d& u) const { return at + slope.dot(u); }
+};
+
+/// Lines { (s, u_0, u_1) } against P ⊕ T. Nothing of where they enter and leave it is certified.
 class FanLine {
  public:
   /// Keeps a reference to the fan.
   explicit FanLine(const WhitenedFan& fan);
 
-  /// What around() is asked of from now on.
-  void lookAt(const Column& column) { nodes_.lookAt(column); }
-
-  /// Around what the lines of the column have of P ⊕ the triangles of a node: certain. Nothing if
-  /// they miss it.
-  std::optional<LineSpan> around(int node) { return nodes_.around(node); }
-
   /// The least sign·s for which (s, u_0, u_1) is in P ⊕ T; nothing if there is none below a limit.
-  /// \param corners  of T, columns
-  std::optional<double> first(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign,
-                              double limit);
+  std::optional<double> first(int triangle, const Eigen::Vector2d& u, double sign, double limit);
 
   /// After first(): the largest s for which (s, u_0, u_1) is in P put to where T was touched.
   double endBehindFirst();
+
+  /// What all of P ⊕ T is behind: certain, whatever lines first() was asked for before. Nothing
+  /// before it was asked for any, with sign 1.
+  std::optional<LinePlane> planeBefore(int triangle) const;
 
   /// After first(): that point of T.
   Eigen::Vector3d touchedPoint(const Eigen::Vector2d& u) const {
@@ -47,6 +49,35 @@ class FanLine {
     std::size_t oldest = 1;
   };
 
+  // What bounds a vertex: a face of P, or one of three edges of T.
+  static constexpr int kFirstEdge = -3;
+  static constexpr int kLastEdge = -1;
+  static constexpr int kNoPlane = -4;
+
+  /// Three planes g·z = h in the space of z = (t, α, β), by the inverse of the matrix of their g.
+  struct Vertex {
+    Eigen::Matrix3d inverse;
+    Eigen::Vector3d h;
+    std::array<int, 3> planes{kNoPlane, kNoPlane, kNoPlane};
+    int corner = 0;     ///< of T, which α and β are from
+    int exchanges = 0;  ///< that led here
+
+    Eigen::Vector3d place() const { return inverse * h; }
+    bool exchange(const Eigen::RowVector3d& g, double bound, int plane);
+  };
+
+  /// One corner of T, and the ways to the other two.
+  struct Sides {
+    Sides(const Eigen::Matrix3d& corners, int corner)
+        : c(corners.col(corner)),
+          p(corners.col((corner + 1) % 3) - c),
+          q(corners.col((corner + 2) % 3) - c) {}
+
+    Eigen::Vector3d c, p, q;
+  };
+
+  bool begin(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign,
+             Vertex& vertex) const;
   int startFor(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign) const;
   void remember(int face, double sign);
   int highestFace(const Eigen::Vector3d& point, double sign);
@@ -56,7 +87,8 @@ class FanLine {
   std::vector<int> neighbours_;         ///< of all faces
   std::vector<int> neighbours_begin_;   ///< of each of them, and the end
   std::array<Starts, 2> starts_;        ///< for lines from above and from below
-  NodeSpans nodes_;
+  std::array<std::unordered_map<int, Vertex>, 2>
+      vertices_;                  ///< at which searches ended, by triangle
   std::array<int, 2> highest_{};  ///< faces that were found last, from above and from below
   Eigen::Vector3d touched_;       ///< (0, u_0, u_1) less the point of T
 };

@@ -52,7 +52,8 @@ double LineColumns::most() const {
 LineColumns::Node LineColumns::nodeOf(const Column& column, double most) {
   const double measure = normalIntervalMass(column.lo[0], column.hi[0]) *
                          normalIntervalMass(column.lo[1], column.hi[1]);
-  return {column, std::min(most, lines_.mostOn(column)), measure};
+  const std::vector<LineSpan>& spans = lines_.spansOn(column);
+  return {column, spans, std::min(most, WholeBodyLines::mostOn(spans)), measure};
 }
 
 void LineColumns::divideByMass(std::size_t count) {

@@ -17,9 +17,10 @@ class LineColumns {
  public:
   struct Node {
     Column column;
-    double most;          ///< of any line
-    double measure;       ///< of the normal distribution across the lines
-    double weight = 0.0;  ///< how much it should be divided
+    std::vector<LineSpan> spans;  ///< of all collisions in it, apart
+    double most;                  ///< of any line
+    double measure;               ///< of the normal distribution across the lines
+    double weight = 0.0;          ///< how much it should be divided
     int parent = -1;
     int left = -1;  ///< child; the right one is behind it
 

@@ -9,19 +9,15 @@
 #include "base/constants.h"
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/normal_mass.h"
-#include "pieces/nearly_convex.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// Of a bound on a column: what rounding may take from it.
-constexpr double kRoundedLines = 1e-12;
-
 // Of a line that only tells where contact is.
 constexpr LeftOut kRoughly{0.1, 1e-6};
 
-// Nodes that are smaller than this share of a column tell no more of it by being opened.
-constexpr double kFineEnough = 0.5;
+// Triangles of one line that are looked at on the lines beside it.
+constexpr std::size_t kLongestChain = 6;
 
 // Directions in which the width of a member is measured, to both sides.
 constexpr int kWidths = 8;
@@ -32,45 +28,6 @@ double distanceOfTail(double mass) {
   return std::sqrt(std::max(0.0, -2.0 * std::log(std::max(2.0 * mass, 1e-300))));
 }
 
-/// One part of the body in the frame of the lines.
-class WhitenedPart {
- public:
-  WhitenedPart(const WhitenedPair& pair, const WholeBody& whole, const Eigen::Matrix3d& matrix,
-               std::size_t index)
-      : pair_(pair), whole_(whole), index_(index), part_(whole.body.tree->parts[index]) {
-    linear_ = matrix * whole.body.parts[index].pose.linear();
-  }
-
-  bool isConvex() const { return part_.fan != nullptr; }
-
-  /// Nothing if that is not accurate enough, or may hold part of the mesh.
-  std::optional<WhitenedFan> fan(StandIns stand_ins) const {
-    if (isConvex()) return visible(*part_.fan);
-    auto hull = visible(part_.nearly->hull);
-    if (!hull || stand_ins == StandIns::hulls) return hull;
-    return whitened(part_.nearly->core);
-  }
-
- private:
-  std::optional<WhitenedFan> whitened(const ConvexFan& fan) const {
-    WhitenedFan result(pair_, part_, fan, whole_.body_is_a, linear_);
-    if (!result.usable()) return std::nullopt;
-    return result;
-  }
-
-  std::optional<WhitenedFan> visible(const ConvexFan& fan) const {
-    auto result = whitened(fan);
-    if (result && mayHoldPart(whole_, index_, *result)) return std::nullopt;
-    return result;
-  }
-
-  const WhitenedPair& pair_;
-  const WholeBody& whole_;
-  std::size_t index_;
-  const PieceTree::Part& part_;
-  Eigen::Matrix3d linear_;
-};
-
 double nearness(const LineSpan& span) { return std::max({span.lo, -span.hi, 0.0}); }
 
 }  // namespace
@@ -80,27 +37,46 @@ std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const WhitenedPair& pair,
                                                    const PartitionObject& b,
                                                    const GaussianDisplacement& displacement,
                                                    const Eigen::Matrix3d& matrix,
-                                                   const SolidContact* solids, StandIns stand_ins) {
-  const auto whole = wholeBodyOf(
-      a, b, displacement, stand_ins == StandIns::none ? Convexity::exact : Convexity::nearly);
+                                                   const SolidContact* solids) {
+  const auto whole = wholeBodyOf(a, b, displacement, Convexity::nearly);
   if (!whole || pair.band) return nullptr;
   auto lines = std::make_unique<WholeBodyLines>();
+  lines->solids_ = solids;
   for (std::size_t i = 0; i < whole->body.parts.size(); ++i) {
-    const WhitenedPart part(pair, *whole, matrix, i);
-    if (!part.isConvex()) lines->stand_ins_ = stand_ins;
-    auto fan = part.fan(stand_ins);
-    if (!fan) return nullptr;
-    lines->members_.emplace_back(std::move(*fan), static_cast<int>(i));
+    lines->addMember(*whole, i, pair, matrix * whole->body.parts[i].pose.linear());
+    const Member& member = lines->members_.back();
+    const bool usable = member.fan.usable() && member.body().usable();
+    if (!usable || mayHoldPart(*whole, i, member.fan)) return nullptr;
   }
-  if (lines->stand_ins_ != StandIns::cores) lines->solids_ = solids;
   return lines;
+}
+
+void WholeBodyLines::addMember(const WholeBody& whole, std::size_t index, const WhitenedPair& pair,
+                               const Eigen::Matrix3d& linear) {
+  const PieceTree::Part& part = whole.body.tree->parts[index];
+  const bool is_a = whole.body_is_a;
+  const auto fanOf = [&](const ConvexFan& fan) {
+    return WhitenedFan(pair, part, fan, is_a, linear);
+  };
+  if (part.fan) {
+    members_.emplace_back(fanOf(*part.fan), nullptr, static_cast<int>(index));
+    return;
+  }
+  members_.emplace_back(fanOf(part.nearly->hull),
+                        std::make_unique<WhitenedFan>(fanOf(part.nearly->core)),
+                        static_cast<int>(index));
+  Member& member = members_.back();
+  member.hull = std::make_unique<FanLine>(member.fan);
+  member.shell = std::make_unique<ShellLines>(pair, part, is_a, linear, member.body());
+  is_convex_ = false;
+  is_exact_ = is_exact_ && !part.nearly->pieces.empty();
 }
 
 void WholeBodyLines::begin(const Column& column) {
   stack_.clear();
   for (Member& member : members_) {
-    member.line.lookAt(column);
-    if (const auto span = member.line.around(0)) stack_.push_back({{&member, 0}, *span});
+    member.nodes.lookAt(column);
+    if (const auto span = member.nodes.around(0)) stack_.push_back({{&member, 0}, *span});
   }
 }
 
@@ -109,82 +85,43 @@ void WholeBodyLines::pushChildren(const Visit& visit) {
   Member* const member = visit.place.member;
   const PieceTree::Node& node = member->fan.mesh().tree->nodes[visit.place.node];
   const Place left{member, node.left}, right{member, node.right};
-  const auto of_left = member->line.around(left.node);
-  const auto of_right = member->line.around(right.node);
+  const auto of_left = member->nodes.around(left.node);
+  const auto of_right = member->nodes.around(right.node);
   const bool left_first = of_left && of_right && nearness(*of_left) < nearness(*of_right);
   if (of_left && !left_first) stack_.push_back({left, *of_left});
   if (of_right) stack_.push_back({right, *of_right});
   if (of_left && left_first) stack_.push_back({left, *of_left});
 }
 
-// What a column may meet, united: nodes that are fine, and behind them those that stick out.
-void WholeBodyLines::meet(const Column& column) {
-  const Eigen::Vector2d fine = kFineEnough * (column.hi - column.lo);
-  begin(column);
-  met_.clear();
-  while (!stack_.empty()) {
-    const Visit visit = stack_.back();
-    stack_.pop_back();
-    if (isMet(visit.span)) continue;
-    const WhitenedTree& mesh = visit.place.member->fan.mesh();
-    const NodeBox& box = mesh.boxes[visit.place.node];
-    const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
-    if (is_fine || mesh.tree->nodes[visit.place.node].isLeaf()) {
-      addMet(visit.span);
-    } else {
-      pushChildren(visit);
-    }
-  }
-}
-
-bool WholeBodyLines::isMet(const LineSpan& span) const {
-  return std::any_of(met_.begin(), met_.end(), [&span](const LineSpan& known) {
-    return known.lo <= span.lo && span.hi <= known.hi;
-  });
-}
-
-// United with all that it meets.
-void WholeBodyLines::addMet(LineSpan span) {
-  std::size_t kept = 0;
-  for (const LineSpan& known : met_) {
-    if (known.hi < span.lo || span.hi < known.lo) {
-      met_[kept++] = known;
-    } else {
-      span = {std::min(span.lo, known.lo), std::max(span.hi, known.hi)};
-    }
-  }
-  met_.resize(kept);
-  met_.push_back(span);
-}
-
-// Where one solid is in the other, too, their surfaces touch before and behind: far out on the line
-// the objects are apart.
-double WholeBodyLines::mostOn(const Column& column) {
-  meet(column);
-  if (met_.empty()) return 0.0;
-  if (solids_) {
-    LineSpan all = met_.front();
-    for (const LineSpan& span : met_) {
-      all = {std::min(all.lo, span.lo), std::max(all.hi, span.hi)};
-    }
-    met_ = {all};
-  }
-  double mass = 0.0;
-  for (const LineSpan& span : met_) mass += normalIntervalMass(span.lo, span.hi);
-  return std::min(1.0, mass * (1.0 + kRoundedLines));
-}
-
-double WholeBodyLines::leastOn(const Column& column, const Touch& touch) const {
-  const Member& member = members_[static_cast<std::size_t>(touch.member)];
-  return member.inner.of(column, touch.point) * (1.0 - kRoundedLines);
-}
-
-WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u) {
-  LineContacts contacts{massOn(u, kRoughly), {}};
+WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u, Taken taken) {
+  LineContacts contacts{massOn(u, kRoughly, taken), {}, {}};
   for (const Stretch& stretch : stretches_) {
     contacts.touches.push_back({stretch.first.member->index, stretch.point});
   }
+  contacts.chain = chainOf();
   return contacts;
+}
+
+// Triangles that together make most of the stretch with the largest mass, in order.
+std::vector<WholeBodyLines::Touching> WholeBodyLines::chainOf() const {
+  std::vector<Touching> chain;
+  if (stretches_.empty()) return chain;
+  const auto mass = [](const Stretch& s) { return normalIntervalMass(s.span.lo, s.span.hi); };
+  const auto main = std::max_element(
+      stretches_.begin(), stretches_.end(),
+      [&](const Stretch& one, const Stretch& other) { return mass(one) < mass(other); });
+  double end = main->span.lo;
+  while (chain.size() < kLongestChain && end < main->span.hi) {
+    const Stretch* next = nullptr;
+    for (const Stretch& part : parts_) {
+      const bool goes_on = part.span.lo <= end && part.span.hi > end;
+      if (goes_on && (!next || part.span.hi > next->span.hi)) next = &part;
+    }
+    if (!next) break;
+    chain.push_back({next->first.member->index, triangleOf(next->first)});
+    end = next->span.hi;
+  }
+  return chain;
 }
 
 void WholeBodyLines::beginLine(const LeftOut& negligible) {
@@ -194,6 +131,7 @@ void WholeBodyLines::beginLine(const LeftOut& negligible) {
     known_.push_back(stretch.last);
   }
   stretches_.clear();
+  parts_.clear();
   mass_ = 0.0;
   negligible_ = negligible;
   beyond_ = distanceOfTail(negligible.mass);
@@ -203,15 +141,19 @@ void WholeBodyLines::beginLine(const LeftOut& negligible) {
 // Most of a line is like the last one.
 void WholeBodyLines::testKnown(const Eigen::Vector2d& u) {
   for (const Place& place : known_) {
-    const auto span = place.member->line.around(place.node);
+    const auto span = place.member->nodes.around(place.node);
     if (!span) continue;
     Visit visit{place, *span};
-    if (!isSettled(visit.span)) test(visit, u);
+    if (isSettled(visit.span)) continue;
+    if (place.piece != kBody && taken_ == Taken::whole)
+      testPiece(visit, place.piece, visit.span.hi, u);
+    test(visit, u);
   }
 }
 
-double WholeBodyLines::massOn(const Eigen::Vector2d& u, const LeftOut& negligible) {
+double WholeBodyLines::massOn(const Eigen::Vector2d& u, const LeftOut& negligible, Taken taken) {
   beginLine(negligible);
+  taken_ = taken;
   begin({u, u});
   testKnown(u);
   while (!stack_.empty()) {
@@ -224,7 +166,8 @@ double WholeBodyLines::massOn(const Eigen::Vector2d& u, const LeftOut& negligibl
       pushChildren(visit);
     }
   }
-  if (solids_) joinContained(u);
+  // Where the core meets nothing, the surface may.
+  if (solids_ && (is_convex_ || taken != Taken::cores)) joinContained(u);
   return mass_;
 }
 
@@ -248,45 +191,102 @@ bool WholeBodyLines::endsStretch(double s) const {
                      [s](const Stretch& known) { return known.span.hi == s; });
 }
 
-// Most of what is only open behind a known stretch does not stick out of it: that is asked first.
 void WholeBodyLines::test(const Visit& visit, const Eigen::Vector2d& u) {
   Member& member = *visit.place.member;
-  const int piece = member.fan.mesh().tree->nodes[visit.place.node].piece;
-  const Eigen::Matrix3d corners = member.fan.corners(piece);
+  if (!member.hull || taken_ != Taken::whole) {
+    testBody(visit, u);
+    return;
+  }
+  const int triangle = triangleOf(visit.place);
+  Visit rest = visit;
+  const auto from = member.hull->first(triangle, u, 1.0, rest.span.hi);
+  if (!from) return;
+  rest.span.lo = std::max(rest.span.lo, *from);
+  if (isSettled(rest.span)) return;
+  if (const auto last = member.hull->first(triangle, u, -1.0, -*from)) {
+    rest.span.hi = std::min(rest.span.hi, -*last);
+  }
+  if (isSettled(rest.span)) return;
+  testBody(rest, u);
+  testShell(rest, u);
+}
+
+// Parts of a span that are in no known stretch.
+void WholeBodyLines::findGaps(const LineSpan& span) {
+  gaps_.clear();
+  double from = span.lo;
+  for (const Stretch& known : stretches_) {
+    if (known.span.hi <= from) continue;
+    if (known.span.lo >= span.hi) break;
+    if (from < known.span.lo) gaps_.push_back({from, known.span.lo});
+    from = known.span.hi;
+  }
+  if (from < span.hi) gaps_.push_back({from, span.hi});
+}
+
+// What the body does not meet before, the pieces of the shell may.
+void WholeBodyLines::testShell(const Visit& visit, const Eigen::Vector2d& u) {
+  findGaps(visit.span);
+  if (gaps_.empty()) return;
+  ShellLines& shell = *visit.place.member->shell;
+  for (const auto& [piece, span] : shell.near(triangleOf(visit.place), u, gaps_)) {
+    LineSpan open = span;
+    if (!isSettled(open)) testPiece(visit, piece, open.hi, u);
+  }
+}
+
+void WholeBodyLines::testPiece(const Visit& visit, int piece, double limit,
+                               const Eigen::Vector2d& u) {
+  ShellLines& shell = *visit.place.member->shell;
+  FanLine& line = shell.lineOf(piece);
+  const int triangle = triangleOf(visit.place);
+  const auto from = line.first(triangle, u, 1.0, limit);
+  if (!from) return;
+  const Eigen::Vector3d point = line.touchedPoint(u) + shell.shiftOf(piece);
+  const auto last = line.first(triangle, u, -1.0, -*from);
+  const Place place{visit.place.member, visit.place.node, piece};
+  if (last && *from < -*last) add({{*from, -*last}, place, place, point});
+}
+
+// Most of what is only open behind a known stretch does not stick out of it: that is asked first.
+void WholeBodyLines::testBody(const Visit& visit, const Eigen::Vector2d& u) {
+  FanLine& line = visit.place.member->lineOf(taken_);
+  const int triangle = triangleOf(visit.place);
   std::optional<double> to;
   if (endsStretch(visit.span.lo)) {
-    const auto last = member.line.first(corners, u, -1.0, -visit.span.lo);
+    const auto last = line.first(triangle, u, -1.0, -visit.span.lo);
     if (!last) return;
     to = -*last;
   }
-  const auto from = member.line.first(corners, u, 1.0, visit.span.hi);
+  const auto from = line.first(triangle, u, 1.0, visit.span.hi);
   if (!from) return;
-  const Eigen::Vector3d point = member.line.touchedPoint(u);
+  const Eigen::Vector3d point = line.touchedPoint(u);
   if (!to) {
     LineSpan left{std::max(*from, visit.span.lo), visit.span.hi};
     if (isSettled(left)) return;
-    to = endOf({visit.place, left}, corners, u);
+    to = endOf({visit.place, left}, u);
   }
   if (to && *from < *to) add({{*from, *to}, visit.place, visit.place, point});
 }
 
 // Where what is behind the end of the part that is easily known makes no difference, that will do.
-std::optional<double> WholeBodyLines::endOf(const Visit& visit, const Eigen::Matrix3d& corners,
-                                            const Eigen::Vector2d& u) {
-  FanLine& line = visit.place.member->line;
+std::optional<double> WholeBodyLines::endOf(const Visit& visit, const Eigen::Vector2d& u) {
+  FanLine& line = visit.place.member->lineOf(taken_);
+  const int triangle = triangleOf(visit.place);
   double least = visit.span.lo;
   const bool sticks_out = endsStretch(least);
   if (!sticks_out) {
     least = line.endBehindFirst();
     if (least >= visit.span.hi) return least;
   }
-  const auto last = line.first(corners, u, -1.0, -least);
+  const auto last = line.first(triangle, u, -1.0, -least);
   if (last) return -*last;
   return sticks_out ? std::nullopt : std::optional<double>(least);
 }
 
 // United with all that it meets.
 void WholeBodyLines::add(Stretch stretch) {
+  parts_.push_back(stretch);
   const auto first =
       std::find_if(stretches_.begin(), stretches_.end(),
                    [&stretch](const Stretch& known) { return known.span.hi >= stretch.span.lo; });

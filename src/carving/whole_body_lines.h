@@ -5,10 +5,14 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "carving/corner_means.h"
 #include "carving/fan_line.h"
 #include "carving/inner_mass.h"
+#include "carving/node_spans.h"
+#include "carving/shell_lines.h"
 #include "pieces/containment.h"
 #include "pieces/whole_body.h"
 
@@ -26,10 +30,9 @@ struct Silhouette {
   double area;    ///< no less
 };
 
-/// What members that are nearly convex are taken for. With hulls lines have no less than with the
-/// members, and bounds hold from above only; with cores they have no more, and bounds hold from
-/// below only, as of surfaces. None: where there are such members, there are no lines.
-enum class StandIns { none, hulls, cores };
+/// What members that are nearly convex are taken for on a line: themselves, or their hulls, with
+/// which a line has no less, or their cores, with which it has no more, as of surfaces.
+enum class Taken { whole, hulls, cores };
 
 class WholeBodyLines {
  public:
@@ -40,16 +43,22 @@ class WholeBodyLines {
                                             const PartitionObject& b,
                                             const GaussianDisplacement& displacement,
                                             const Eigen::Matrix3d& matrix,
-                                            const SolidContact* solids, StandIns stand_ins);
+                                            const SolidContact* solids);
 
   std::size_t memberCount() const { return members_.size(); }
 
-  /// Whether bounds on one side of what the members have can be told: from below, or above.
-  bool boundsBelow() const { return stand_ins_ != StandIns::hulls; }
-  bool boundsAbove() const { return stand_ins_ != StandIns::cores; }
+  /// Whether all members are convex: then it makes no difference what they are taken for.
+  bool isConvex() const { return is_convex_; }
 
-  /// No less than what any line { (s, u) } of a column has of collisions, under N(0, 1): certain.
-  double mostOn(const Column& column);
+  /// Whether members can be taken whole: not where no pieces make up for what the core of a nearly
+  /// convex mesh does not hold.
+  bool isExact() const { return is_exact_; }
+
+  /// All collisions of any line { (s, u) } of a column are within these: certain. In order, apart.
+  const std::vector<LineSpan>& spansOn(const Column& column);
+
+  /// No less than what such a line has of collisions, under N(0, 1): certain.
+  static double mostOn(const std::vector<LineSpan>& spans);
 
   /// One member where it touches a point of the other mesh.
   struct Touch {
@@ -57,40 +66,78 @@ class WholeBodyLines {
     Eigen::Vector3d point;
   };
 
+  /// A triangle of the other mesh, where a member touches it.
+  struct Touching {
+    int member;
+    int triangle;
+  };
+
   struct LineContacts {
     double mass;  ///< about what the line has of collisions, under N(0, 1)
     std::vector<Touch> touches;
+    std::vector<Touching> chain;  ///< of one stretch of contact, the next where one ends
   };
 
-  LineContacts contactsOn(const Eigen::Vector2d& u);
+  LineContacts contactsOn(const Eigen::Vector2d& u, Taken taken);
 
   /// No more than what the lines of a column have of collisions in the mean, under N(0, 1):
   /// certain. Those with one member there are counted.
   double leastOn(const Column& column, const Touch& touch) const;
 
+  /// The same, for those with the triangles of a chain. Nothing is counted where a line at a corner
+  /// of the column misses one.
+  double leastOn(const Column& column, const std::vector<Touching>& chain);
+
+  /// No less than what the lines of a column have of collisions in the mean, under N(0, 1):
+  /// certain. \param spans  as spansOn() tells them
+  double mostMeanOn(const Column& column, const std::vector<LineSpan>& spans);
+
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
-  double massOn(const Eigen::Vector2d& u, const LeftOut& negligible);
+  double massOn(const Eigen::Vector2d& u, const LeftOut& negligible, Taken taken = Taken::whole);
 
   /// Of what lines can meet of the smallest member in one place: nothing smaller sticks out of the
   /// C-obstacle.
   Silhouette leastSilhouette() const;
 
  private:
+  /// Where it is nearly convex, all of it is within the fan, and the body is its core.
   struct Member {
-    Member(WhitenedFan whitened, int its_index)
-        : fan(std::move(whitened)), line(fan), inner(fan), index(its_index) {}
+    Member(WhitenedFan whitened, std::unique_ptr<WhitenedFan> its_core, int its_index)
+        : fan(std::move(whitened)),
+          core(std::move(its_core)),
+          nodes(fan),
+          line(body()),
+          inner(body()),
+          index(its_index) {}
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
 
+    const WhitenedFan& body() const { return core ? *core : fan; }
+    FanLine& outermost() { return hull ? *hull : line; }
+    FanLine& lineOf(Taken taken) { return taken == Taken::hulls ? outermost() : line; }
+
     WhitenedFan fan;
+    std::unique_ptr<WhitenedFan> core;
+    NodeSpans nodes;
     FanLine line;
+    std::unique_ptr<FanLine> hull;      ///< null where the body is all of it, ...
+    std::unique_ptr<ShellLines> shell;  ///< ... and so is this
     InnerMass inner;
     int index;
+  };
+
+  static constexpr int kBody = -1;
+
+  /// Of lines at the corners of a column.
+  struct CornerSpans {
+    CornerValues from;
+    CornerValues to;
   };
 
   struct Place {
     Member* member;
     int node;
+    int piece = kBody;  ///< of the shell
   };
 
   struct Visit {
@@ -106,30 +153,46 @@ class WholeBodyLines {
     Eigen::Vector3d point;  ///< of the triangle that begins it, where it is touched first
   };
 
+  void addMember(const WholeBody& whole, std::size_t index, const WhitenedPair& pair,
+                 const Eigen::Matrix3d& linear);
+  static int triangleOf(const Place& place) {
+    return place.member->fan.mesh().tree->nodes[place.node].piece;
+  }
   void begin(const Column& column);
-  void meet(const Column& column);
   bool isMet(const LineSpan& span) const;
   void addMet(LineSpan span);
+  CornerValues entriesAt(const CornerMeans& means, const Column& column);
+  void lowerTo(const CornerMeans& means, const Visit& leaf, const Eigen::Vector2d& middle,
+               CornerValues& entries);
+  std::optional<CornerSpans> spansAt(const CornerMeans& means, const Touching& touching);
+  std::vector<Touching> chainOf() const;
   void pushChildren(const Visit& visit);
   bool isSettled(LineSpan& span);
   void beginLine(const LeftOut& negligible);
   void testKnown(const Eigen::Vector2d& u);
   bool endsStretch(double s) const;
   void test(const Visit& visit, const Eigen::Vector2d& u);
-  std::optional<double> endOf(const Visit& visit, const Eigen::Matrix3d& corners,
-                              const Eigen::Vector2d& u);
+  void testBody(const Visit& visit, const Eigen::Vector2d& u);
+  void findGaps(const LineSpan& span);
+  void testPiece(const Visit& visit, int piece, double limit, const Eigen::Vector2d& u);
+  void testShell(const Visit& visit, const Eigen::Vector2d& u);
+  std::optional<double> endOf(const Visit& visit, const Eigen::Vector2d& u);
   void add(Stretch stretch);
   void joinContained(const Eigen::Vector2d& u);
 
   std::deque<Member> members_;
   const SolidContact* solids_ = nullptr;
-  StandIns stand_ins_ = StandIns::none;  ///< none where all members are convex
+  bool is_convex_ = true;
+  bool is_exact_ = true;
 
   std::vector<LineSpan> met_;  ///< by lines of the column that was looked at last, apart
 
   // Of the line that is looked at.
+  Taken taken_ = Taken::whole;
   std::vector<Visit> stack_;
   std::vector<Stretch> stretches_;  ///< in order, none of which meet
+  std::vector<Stretch> parts_;      ///< what they are made of, one triangle each
+  std::vector<LineSpan> gaps_;      ///< of one triangle, between them
   std::vector<Place> known_;        ///< leaves at the ends of those of the last line
   double mass_ = 0.0;
   LeftOut negligible_{0.0, 0.0};

@@ -60,13 +60,10 @@ std::unique_ptr<LineBets> LineBets::of(const PartitionObject& a, const Partition
   if (a.hasSolid() || b.hasSolid()) {
     bets.solids_ = std::make_unique<SolidContact>(a, b, bets.frame_.whitening, bets.frame_.pair);
   }
-  bets.make_lines_ = [&bets, &a, &b, displacement](StandIns stand_ins) {
-    return WholeBodyLines::of(bets.frame_.pair, a, b, displacement, bets.frame_.whitening.matrix(),
-                              bets.solids_.get(), stand_ins);
-  };
-  auto lines = bets.make_lines_(StandIns::hulls);
-  if (!lines) return nullptr;
-  bets.below_.source = std::make_shared<Source>(std::move(lines));
+  bets.lines_ = WholeBodyLines::of(bets.frame_.pair, a, b, displacement,
+                                   bets.frame_.whitening.matrix(), bets.solids_.get());
+  if (!bets.lines_) return nullptr;
+  bets.below_.source = std::make_shared<Source>(*bets.lines_, Taken::hulls);
   bets.look(bets.below_, false);
   return made;
 }
@@ -77,44 +74,40 @@ LineBets::LineBets(QueryFrame frame, const ProbabilityRequest& request, double e
       most_columns_(std::min(kMostBetColumns, request.max_cells)),
       frame_(std::move(frame)) {}
 
-// The lower end is of other lines where hulls stand for members.
-LineBets::End* LineBets::endFor(bool above) {
-  if (!above) return &below_;
-  if (above_.source) return &above_;
-  if (below_.source->lines->boundsBelow()) {
-    above_.source = below_.source;
-  } else if (auto lines = make_lines_(StandIns::cores)) {
-    above_.source = std::make_shared<Source>(std::move(lines));
-  }
-  return above_.source ? &above_ : nullptr;
+// The lower end is of other lines where members are only nearly convex.
+LineBets::End& LineBets::endFor(bool above) {
+  if (!above) return below_;
+  if (above_.source) return above_;
+  above_.source =
+      lines_->isConvex() ? below_.source : std::make_shared<Source>(*lines_, Taken::cores);
+  return above_;
 }
 
 bool LineBets::improve(bool above, double target) {
-  End* const end = endFor(above);
-  if (end == nullptr) return false;
-  Source& source = *end->source;
+  End& end = endFor(above);
+  Source& source = *end.source;
   const std::size_t columns = source.looks.columns().inOrder().size();
-  if (columns > end->looked_at) {
-    look(*end, above);
+  if (columns > end.looked_at) {
+    look(end, above);
     return true;
   }
   const Odds odds = oddsOf(source, above);
   const double sign = above ? -1.0 : 1.0;
   const double most = sign * odds.known + odds.all();
   if (!(odds.all() > 0.0)) return false;
-  if (!end->bets) end->bets.emplace(sign * odds.known, kDeviation * odds.all());
-  const double needed = end->bets->samplesToTell(sign * target, most, 0.5 * error_);
-  likely_ = sign * end->bets->mean();
-  const bool is_known = end->bets->samplesOfKind() >= kFirstSamples;
+  if (!end.bets) end.bets.emplace(sign * odds.known, kDeviation * odds.all());
+  const double needed = end.bets->samplesToTell(sign * target, most, 0.5 * error_);
+  likely_ = sign * end.bets->mean();
+  const bool is_known = end.bets->samplesOfKind() >= kFirstSamples;
   const bool is_cheap = needed < kSamplesOfColumn * static_cast<double>(columns);
   const bool may_be_divided = !is_cheap && (is_known || columns < kFirstBetColumns);
   if (may_be_divided && 2 * columns <= most_columns_ && source.looks.divideTo(2 * columns)) {
-    look(*end, above);
-    end->bets->changeKind();
+    look(end, above);
+    end.bets->changeKind();
     return true;
   }
   if (is_known && !(needed < kMostSamples)) return false;
-  draw(*end, odds, above, target);
+  draw(end, odds, above, target);
   return true;
 }
 
@@ -145,7 +138,7 @@ LineBets::Odds LineBets::oddsOf(Source& source, bool above) const {
 
 double LineBets::massOn(Source& source, const Column& column, const Eigen::Vector2d& uniform) {
   ++drawn_lines_;
-  return source.lines->massOn(pointOf(column, uniform), kLeftOut);
+  return lines_->massOn(pointOf(column, uniform), kLeftOut, source.taken);
 }
 
 // A column is known for what it was at the beginning of the batch.

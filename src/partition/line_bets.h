@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -47,10 +46,9 @@ class LineBets {
   bool improve(bool above, double target);
 
  private:
-  /// Lines, and what is known of their columns.
+  /// Columns, and what is known of their lines.
   struct Source {
-    explicit Source(std::unique_ptr<WholeBodyLines> its_lines)
-        : lines(std::move(its_lines)), looks(*lines) {}
+    Source(WholeBodyLines& lines, Taken its_taken) : taken(its_taken), looks(lines, taken) {}
 
     /// What lines through a column had, the one in its middle first.
     struct Drawn {
@@ -60,7 +58,7 @@ class LineBets {
 
     double meanOf(int column);
 
-    std::unique_ptr<WholeBodyLines> lines;
+    Taken taken;  ///< what members are taken for
     ColumnLooks looks;
     std::unordered_map<int, Drawn> drawn;
   };
@@ -80,7 +78,7 @@ class LineBets {
   };
 
   LineBets(QueryFrame frame, const ProbabilityRequest& request, double error);
-  End* endFor(bool above);
+  End& endFor(bool above);
   void look(End& end, bool above);
   Odds oddsOf(Source& source, bool above) const;
   void draw(End& end, const Odds& odds, bool above, double target);
@@ -92,7 +90,7 @@ class LineBets {
   std::size_t most_columns_;
   QueryFrame frame_;
   std::unique_ptr<SolidContact> solids_;
-  std::function<std::unique_ptr<WholeBodyLines>(StandIns)> make_lines_;
+  std::unique_ptr<WholeBodyLines> lines_;
   End below_;
   End above_;
   std::uint64_t drawn_ = 0;

@@ -184,9 +184,9 @@ bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
                      const SolidContact* solids, const ProbabilityRequest& request,
                      ProbabilityResult& result) {
   if (request.gradient || request.threshold) return false;
-  const auto lines = WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(),
-                                        solids, StandIns::none);
-  if (!lines) return false;
+  const auto lines =
+      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+  if (!lines || !lines->isExact()) return false;
   const EngineLimits limits(request, result.statistics);
   const auto estimate = lineEstimate(
       *lines, request, [&limits](const Bounds& now) { return limits.interruption(now); });
@@ -210,21 +210,10 @@ std::optional<ColumnBounds> lookAtColumns(const PartitionObject& a, const Partit
                                           const QueryFrame& frame, const SolidContact* solids,
                                           const ProbabilityRequest& request, Bounds& known,
                                           ProbabilityResult& result) {
-  const auto boundsBy = [&](StandIns stand_ins) -> std::optional<ColumnBounds> {
-    const auto lines = WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(),
-                                          solids, stand_ins);
-    if (!lines) return std::nullopt;
-    return columnBounds(*lines, *request.threshold);
-  };
-  const auto by_hulls = boundsBy(StandIns::hulls);
-  if (!by_hulls) return std::nullopt;
-  ColumnBounds columns = *by_hulls;
-  if (columns.only_above && columns.likely > *request.threshold) {
-    if (const auto by_cores = boundsBy(StandIns::cores)) {
-      columns.bounds.lower = by_cores->bounds.lower;
-      columns.columns += by_cores->columns;
-    }
-  }
+  const auto lines =
+      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+  if (!lines) return std::nullopt;
+  const ColumnBounds columns = columnBounds(*lines, *request.threshold);
   known = columns.bounds;
   result.lower = known.lower;
   result.upper = known.upper;

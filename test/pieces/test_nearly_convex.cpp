@@ -194,6 +194,41 @@ TEST_CASE("a dented body has the interval that its triangles give", "[nearly_con
   }
 }
 
+// Columns decide where they can, and lines estimate.
+TEST_CASE("decisions and estimates of dented bodies agree with their intervals",
+          "[nearly_convex]") {
+  RandomBodies random(9);
+  int by_columns = 0, by_lines = 0;
+  for (int i = 0; i < 10; ++i) {
+    TriangleMesh body = hullMesh(random.onSphere(random.integer(12, 60), 0.3));
+    body = withDents(body, random.integer(1, 6), random.logUniform(1e-4, 3e-2), random);
+    const TriangleMesh other = bumpyMesh(0.4, 10, 14, static_cast<std::uint64_t>(i));
+    PartitionQuery query(i % 2 ? other : body, i % 2 ? body : other);
+    if (i % 3 == 0) query.makeSolid();
+    query.pose_b.linear() = random.rotation();
+    query.pose_b.translation() = random.uniform(0.6, 0.9) * random.direction();
+    const auto displacement = fcl_prob_test::obliqueDisplacement(0.05, 0.2, random);
+    const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(3e-3));
+    CAPTURE(i, *truth.lower, *truth.upper);
+    for (const double factor : {0.3, 0.8, 0.95, 1.05, 1.3, 3.0}) {
+      auto request = fcl_prob_test::intervalRequest(1e-9);
+      request.threshold = std::min(0.999, factor * truth.probability());
+      const ProbabilityResult result = query.run(displacement, request);
+      CAPTURE(factor, *result.lower, *result.upper);
+      CHECK(*result.lower <= *truth.upper);
+      CHECK(*result.upper >= *truth.lower);
+      by_columns += fcl_prob_test::planMentions(result, "columns");
+    }
+    auto request = fcl_prob_test::intervalRequest(0.01);
+    request.method = fcl_prob::ProbabilityMethod::estimate;
+    const ProbabilityResult estimate = query.run(displacement, request);
+    CHECK(std::fabs(*estimate.estimate - truth.probability()) < 5 * *estimate.standard_error);
+    by_lines += fcl_prob_test::planMentions(estimate, "parallel lines");
+  }
+  CHECK(by_columns > 30);
+  CHECK(by_lines > 3);
+}
+
 TEST_CASE("pieces that would not fit into the memory that is allowed are not made",
           "[nearly_convex]") {
   RandomBodies random(6);
