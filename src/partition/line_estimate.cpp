@@ -17,11 +17,12 @@
 namespace fcl_prob::detail {
 namespace {
 
-// Columns before the first lines, by how many times more there are at the next look, and how many
-// there may be.
+// Columns before the first lines, by how many times more there are at the next look (in steps of so
+// much), and how many there may be.
 constexpr std::size_t kFirstColumns = 24;
-constexpr double kLeastGrowth = 1.3;
+constexpr double kLeastGrowth = 1.05;
 constexpr double kMostGrowth = 8.0;
+constexpr double kStepOfGrowth = 1.05;
 constexpr double kReserve = 1.1;
 
 constexpr std::size_t kMostColumns = 1 << 16;
@@ -160,9 +161,26 @@ struct Look {
     return std::max(own, std::sqrt(square));
   }
 
+  double weight() const { return std::pow(static_cast<double>(columns), 2.0 * kConvergence); }
+
   bool isFarFrom(const Look& other) const {
     return std::fabs(mass - other.mass) >
            kFarApart * std::hypot(standardError(), other.standardError());
+  }
+};
+
+/// Looks together. Their weights follow from their numbers of columns alone: by their own errors
+/// those would count more that happen to have seen little.
+struct Looks {
+  double weight = 0.0;
+  double mass = 0.0;
+  double square = 0.0;  ///< of the standard error
+
+  void add(const Look& look, double error) {
+    const double share = look.weight() / (weight + look.weight());
+    mass += share * (look.mass - mass);
+    square = (1.0 - share) * (1.0 - share) * square + share * share * error * error;
+    weight += look.weight();
   }
 };
 
@@ -181,20 +199,23 @@ class LineEstimation {
   std::optional<LineEstimate> run() {
     LineEstimate result;
     std::optional<Look> before;
+    Looks together;
     for (;;) {
       if (!(columns_.most() > std::numeric_limits<double>::min())) return std::nullopt;
       result.upper = std::min(result.upper, columns_.most());
       const Look look = lookAt(result.upper);
+      const bool is_confirmed = before && !look.isFarFrom(*before);
+      if (!is_confirmed) together = {};
+      together.add(look, before ? look.standardErrorAfter(*before) : look.standardError());
       result.columns = look.columns;
       result.lines += kLines * look.columns;
-      result.value = std::min(look.mass, result.upper);
-      const double error = before ? look.standardErrorAfter(*before) : look.standardError();
+      result.value = std::min(together.mass, result.upper);
       result.status = look.interrupted.value_or(ProbabilityStatus::converged);
       const double target = request_.toleranceAt(result.value);
-      result.standard_error = std::hypot(error, leastError(look.columns) * target);
-      const bool is_confirmed = before && !look.isFarFrom(*before);
+      const double least = leastError(look.columns) * target;
+      result.standard_error = std::sqrt(together.square + least * least);
       if (look.interrupted || (is_confirmed && result.standard_error <= target)) return result;
-      if (!divide(look.spread, target)) return std::nullopt;
+      if (!divide(look, together, target)) return std::nullopt;
       before = look;
     }
   }
@@ -262,20 +283,29 @@ class LineEstimation {
         unit * unit * (0.5 * sum_squares + jump * jump + of_range * of_range + of_most * of_most);
   }
 
-  // What may be unseen of the error falls with the square of the number of columns. False where
-  // that would be too many.
-  bool divide(const SampledVariance& spread, double target) {
-    SampledVariance seen = spread;
+  // So many that with the next look the error is likely small enough. What may be unseen of it
+  // falls with the square of the number of columns. False where that would be too many.
+  bool divide(const Look& look, const Looks& together, double target) {
+    SampledVariance seen = look.spread;
     seen.jumps = 0.0;
     const double of_seen = seen.standardError(kDeviations);
-    const double of_all = spread.standardError(kDeviations);
+    const double of_all = look.spread.standardError(kDeviations);
     const double unseen = std::sqrt(std::max(0.0, of_all * of_all - of_seen * of_seen));
-    const double growth = kReserve * std::max(std::pow(of_seen / target, 1.0 / kConvergence),
-                                              std::sqrt(unseen / target));
-    const auto now = static_cast<double>(columns_.inOrder().size());
+    const auto errorWith = [&](double growth) {
+      Look next = look;
+      next.columns = static_cast<std::size_t>(growth * static_cast<double>(look.columns));
+      Looks all = together;
+      all.add(next, std::hypot(of_seen / std::pow(growth, kConvergence), unseen / growth / growth));
+      return std::sqrt(all.square);
+    };
+    const auto now = static_cast<double>(look.columns);
     const auto most = static_cast<double>(most_columns_);
-    if (!(growth * now <= most) || kLeastGrowth * now > most) return false;
-    const double count = std::ceil(std::clamp(growth, kLeastGrowth, kMostGrowth) * now);
+    double growth = kLeastGrowth;
+    while (growth * now <= most && !(kReserve * errorWith(growth) <= target)) {
+      growth *= kStepOfGrowth;
+    }
+    if (growth * now > most) return false;
+    const double count = std::ceil(std::min(growth, kMostGrowth) * now);
     columns_.divide(static_cast<std::size_t>(count), kVarianceOfHalf);
     return true;
   }
