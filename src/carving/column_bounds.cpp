@@ -88,8 +88,9 @@ const WholeBodyLines::LineContacts& ColumnLooks::middleOf(int column) {
   const auto [at, is_new] = known_.try_emplace(column);
   KnownColumn& known = at->second;
   if (!is_new) return known.middle;
-  known.middle = lines_.contactsOn(detail::middleOf(columns_[column].column), taken_);
-  const auto parent = known_.find(columns_[column].parent);
+  const LineColumns::Node& node = columns_[column];
+  known.middle = lines_.contactsOn(detail::middleOf(node.column), node.met, taken_);
+  const auto parent = known_.find(node.parent);
   if (parent == known_.end()) return known.middle;
   // The parent's best touch is its first one.
   auto& touches = known.middle.touches;
@@ -102,7 +103,7 @@ double ColumnLooks::mostOf(int column) {
   KnownColumn& known = known_.at(column);
   if (std::exchange(known.has_most, true)) return known.most;
   const LineColumns::Node& node = columns_[column];
-  known.most = std::min(node.most, lines_.mostMeanOn(node.column, node.spans));
+  known.most = std::min(node.most, lines_.mostMeanOn(node.column, node.met));
   return known.most;
 }
 

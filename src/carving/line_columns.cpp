@@ -39,7 +39,7 @@ Eigen::Vector2d middleOf(const Column& column) {
 
 LineColumns::LineColumns(WholeBodyLines& lines) : lines_(lines) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kReach);
-  nodes_.push_back(nodeOf({-reach, reach}, 1.0));
+  nodes_.push_back(nodeOf({-reach, reach}, lines.everything(), 1.0));
   putInOrder();
 }
 
@@ -49,11 +49,13 @@ double LineColumns::most() const {
   return sum * (1.0 + kRoundedColumns) + kUnderflow;
 }
 
-LineColumns::Node LineColumns::nodeOf(const Column& column, double most) {
+LineColumns::Node LineColumns::nodeOf(const Column& column, const WholeBodyLines::Met& among,
+                                      double most) {
   const double measure = normalIntervalMass(column.lo[0], column.hi[0]) *
                          normalIntervalMass(column.lo[1], column.hi[1]);
-  const std::vector<LineSpan>& spans = lines_.spansOn(column);
-  return {column, spans, std::min(most, WholeBodyLines::mostOn(spans)), measure};
+  WholeBodyLines::Met met = lines_.meet(column, among);
+  const double of_met = WholeBodyLines::mostOn(met);
+  return {column, std::move(met), std::min(most, of_met), measure};
 }
 
 void LineColumns::divideByMass(std::size_t count) {
@@ -81,6 +83,7 @@ void LineColumns::divide(std::size_t count, double rest) {
 void LineColumns::divideOne(int node, double rest) {
   const Column whole = nodes_[node].column;
   const double most = nodes_[node].most;
+  const WholeBodyLines::Met met = std::move(nodes_[node].met);
   const double weight = rest * nodes_[node].weight;
   const auto width = [&whole](int k) { return widthOf(whole.lo[k], whole.hi[k]); };
   const int axis = width(0) >= width(1) ? 0 : 1;
@@ -88,7 +91,7 @@ void LineColumns::divideOne(int node, double rest) {
   low.hi[axis] = high.lo[axis] = within(whole.lo[axis], whole.hi[axis], kStep);
   nodes_[node].left = static_cast<int>(nodes_.size());
   for (const Column& half : {low, high}) {
-    nodes_.push_back(nodeOf(half, most));
+    nodes_.push_back(nodeOf(half, met, most));
     Node& child = nodes_.back();
     child.parent = node;
     child.weight = by_mass_ ? child.mass() : child.most > 0.0 ? weight : 0.0;

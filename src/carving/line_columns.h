@@ -17,10 +17,10 @@ class LineColumns {
  public:
   struct Node {
     Column column;
-    std::vector<LineSpan> spans;  ///< of all collisions in it, apart
-    double most;                  ///< of any line
-    double measure;               ///< of the normal distribution across the lines
-    double weight = 0.0;          ///< how much it should be divided
+    WholeBodyLines::Met met;
+    double most;          ///< of any line
+    double measure;       ///< of the normal distribution across the lines
+    double weight = 0.0;  ///< how much it should be divided
     int parent = -1;
     int left = -1;  ///< child; the right one is behind it
 
@@ -47,7 +47,7 @@ class LineColumns {
   void divideByMass(std::size_t count);
 
  private:
-  Node nodeOf(const Column& column, double most);
+  Node nodeOf(const Column& column, const WholeBodyLines::Met& among, double most);
   void divideOne(int node, double rest);
   void putInOrder();
 

@@ -3,90 +3,106 @@
 #include "carving/node_spans.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/constants.h"
 #include "carving/different_faces.h"
 
 namespace fcl_prob::detail {
-NodeSpans::NodeSpans(const WhitenedFan& fan) : fan_(fan), rounding_(1e-13 * fan.reach()) {
-  first_.faces = facesTowards(1.0, kFirstFaces);
-  last_.faces = facesTowards(-1.0, kLastFaces);
+namespace {
+
+// Of the reach.
+constexpr double kRoundedPlaneEnds = 1e-13;
+
+// Three times half of what neighbouring floats differ by, and once: a float, and a difference.
+constexpr float kRoundedFloat = 1.8e-7F;
+constexpr double kRoundedDifference = 6e-8;
+
+template <typename Values>
+auto floatsBelow(const Values& values) {
+  const auto nearest = values.template cast<float>().eval();
+  return (nearest - kRoundedFloat * nearest.abs() - 1e-37F).eval();
 }
 
-std::vector<int> NodeSpans::facesTowards(double sign, int count) const {
+double below(float difference) {
+  return difference - kRoundedDifference * std::fabs(static_cast<double>(difference));
+}
+
+}  // namespace
+
+NodeSpans::NodeSpans(const WhitenedFan& fan) : fan_(fan) {
+  slopes_.setZero();
+  places_.setConstant(-kInfinity);
+  rounding_.setZero();
+  addFaces(1.0, kFirstFaces, 0);
+  addFaces(-1.0, kLastFaces, kFirstFaces);
+}
+
+// Of P put to t: n·y <= offset + n·t, which is where a line ends that goes along the first axis,
+// divided by n_0; what is rounded moves it outwards. Places without a face tell nothing.
+void NodeSpans::addFaces(double sign, int count, int place) {
   std::vector<int> candidates;
   for (int f = 0; f < fan_.faceCount(); ++f) {
     if (sign * fan_.faceNormal(f).x() < -kLeastSlope) candidates.push_back(f);
   }
-  return differentFaces(fan_, candidates, {-sign, 0.0, 0.0}, count);
-}
-
-template <int count>
-void NodeSpans::look(const Column& column, Side<count>& side) const {
-  const Eigen::Vector2d middle = 0.5 * (column.lo + column.hi);
-  const Eigen::Vector2d half = 0.5 * (column.hi - column.lo);
-  side.shifts.setZero();
-  for (std::size_t k = 0; k < side.faces.size(); ++k) {
-    const Eigen::Vector3d& n = fan_.faceNormal(side.faces[k]);
-    const double least = n.tail<2>().dot(middle) - n.tail<2>().cwiseAbs().dot(half);
-    side.shifts[static_cast<int>(k)] = (least - rounding_) / n.x();
+  const double rounding = kRoundedPlaneEnds * fan_.reach();
+  for (const int f : differentFaces(fan_, candidates, {-sign, 0.0, 0.0}, count)) {
+    const Eigen::Vector3d& n = fan_.faceNormal(f);
+    const double slope = std::fabs(n.x());
+    slopes_.row(place) = -n.transpose() / slope;
+    places_[place] = -(fan_.faceOffset(f) + fan_.padding(n) + rounding) / slope;
+    rounding_[place] = rounding / slope;
+    ++place;
   }
 }
 
 void NodeSpans::lookAt(const Column& column) {
   column_ = column;
-  look(column, first_);
-  look(column, last_);
+  const Eigen::Vector2d middle = 0.5 * (column.lo + column.hi);
+  const Eigen::Vector2d half = 0.5 * (column.hi - column.lo);
+  const auto& first = slopes_.col(1).array();
+  const auto& second = slopes_.col(2).array();
+  Places most = rounding_ + middle[0] * first + middle[1] * second;
+  if (!half.isZero()) most += half[0] * first.abs() + half[1] * second.abs();
+  shifts_ = -floatsBelow(-most);
 }
 
 std::optional<LineSpan> NodeSpans::around(int node) {
-  if (nodes_.empty()) boundNodes();
-  const NodeEnds& known = nodes_[node];
-  const NodeBox& box = known.box;
+  if (ends_.empty()) boundNodes();
+  const NodeBox& box = boxes_[node];
   if (column_.lo[0] > box.hi[1] || column_.hi[0] < box.lo[1] || column_.lo[1] > box.hi[2] ||
       column_.hi[1] < box.lo[2]) {
     return std::nullopt;
   }
-  const LineSpan span{std::max(box.lo[0], (known.first - first_.shifts).maxCoeff()),
-                      std::min(box.hi[0], (known.last - last_.shifts).minCoeff())};
+  const Ends ends = ends_[node] - shifts_;
+  const LineSpan span{std::max(box.lo[0], below(ends.head<kFirstFaces>().maxCoeff())),
+                      std::min(box.hi[0], -below(ends.tail<kLastFaces>().maxCoeff()))};
   if (!(span.lo <= span.hi)) return std::nullopt;
   return span;
 }
 
-// Of P put to a vertex t: n·y <= offset + n·t, which is where a line ends that goes along the first
-// axis, divided by n_0; what is rounded moves it outwards. Places without a face tell nothing.
-template <int count>
-std::vector<Eigen::Array<double, count, 1>> NodeSpans::endsAtVertices(const Side<count>& side,
-                                                                      double nothing) const {
-  const auto vertices = static_cast<int>(fan_.mesh().vertices.size());
-  using Ends = typename Side<count>::Ends;
-  std::vector<Ends> ends(static_cast<std::size_t>(vertices), Ends::Constant(nothing));
-  for (std::size_t k = 0; k < side.faces.size(); ++k) {
-    const Eigen::Vector3d& n = fan_.faceNormal(side.faces[k]);
-    const double offset = fan_.faceOffset(side.faces[k]) + fan_.padding(n) + rounding_;
-    for (int v = 0; v < vertices; ++v) {
-      ends[v][static_cast<int>(k)] = (offset + n.dot(fan_.corner(v))) / n.x();
-    }
-  }
-  return ends;
+NodeSpans::Ends NodeSpans::endsAt(const Eigen::Vector3d& vertex) const {
+  return floatsBelow((slopes_ * vertex).array() + places_);
 }
 
 // P ⊕ the hull of some points ends where the last one of P put to those does.
 void NodeSpans::boundNodes() {
   const WhitenedTree& mesh = fan_.mesh();
-  const auto first = endsAtVertices(first_, -kInfinity);
-  const auto last = endsAtVertices(last_, kInfinity);
-  nodes_.resize(mesh.boxes.size());
-  for (std::size_t i = nodes_.size(); i-- > 0;) {
+  std::vector<Ends> at_vertices;
+  at_vertices.reserve(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    at_vertices.push_back(endsAt(fan_.corner(static_cast<int>(v))));
+  }
+  ends_.resize(mesh.boxes.size());
+  boxes_.resize(mesh.boxes.size());
+  for (std::size_t i = ends_.size(); i-- > 0;) {
     const PieceTree::Node& node = mesh.tree->nodes[i];
-    nodes_[i].box = fan_.obstacleBox(static_cast<int>(i));
+    boxes_[i] = fan_.obstacleBox(static_cast<int>(i));
     if (node.isLeaf()) {
       const Eigen::Vector3i& t = mesh.tree->triangles[node.piece];
-      nodes_[i].first = first[t[0]].min(first[t[1]]).min(first[t[2]]);
-      nodes_[i].last = last[t[0]].max(last[t[1]]).max(last[t[2]]);
+      ends_[i] = at_vertices[t[0]].min(at_vertices[t[1]]).min(at_vertices[t[2]]);
     } else {
-      nodes_[i].first = nodes_[node.left].first.min(nodes_[node.right].first);
-      nodes_[i].last = nodes_[node.left].last.max(nodes_[node.right].last);
+      ends_[i] = ends_[node.left].min(ends_[node.right]);
     }
   }
 }

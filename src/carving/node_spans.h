@@ -43,40 +43,26 @@ class NodeSpans {
   // Measured on robot parts beside an arm. What is behind is mostly known from elsewhere.
   static constexpr int kFirstFaces = 24;
   static constexpr int kLastFaces = 8;
+  static constexpr int kFaces = kFirstFaces + kLastFaces;
 
-  /// The planes that lines enter by (sign 1), or leave by (-1): of either kind sign·y_0 is the
-  /// larger, the later they do.
-  template <int count>
-  struct Side {
-    using Ends = Eigen::Array<double, count, 1>;
+  /// By plane: those that lines enter by, where they do (y_0), then those that they leave by
+  /// (-y_0). The larger, the more is told of a line.
+  using Ends = Eigen::Array<float, kFaces, 1>;
+  using Places = Eigen::Array<double, kFaces, 1>;
 
-    std::vector<int> faces;
-    Ends shifts;  ///< of the ends, in the column
-  };
-
-  using First = Side<kFirstFaces>;
-  using Last = Side<kLastFaces>;
-
-  struct NodeEnds {
-    NodeBox box;
-    First::Ends first;  ///< where the line through the origin passes the planes
-    Last::Ends last;
-  };
-
-  std::vector<int> facesTowards(double sign, int count) const;
-  template <int count>
-  void look(const Column& column, Side<count>& side) const;
-  template <int count>
-  std::vector<Eigen::Array<double, count, 1>> endsAtVertices(const Side<count>& side,
-                                                             double nothing) const;
+  void addFaces(double sign, int count, int place);
+  Ends endsAt(const Eigen::Vector3d& vertex) const;
   void boundNodes();
 
   const WhitenedFan& fan_;
-  double rounding_;
-  First first_;
-  Last last_;
+  // With P put to t, lines end at or after places_ + slopes_·t, less slopes_·(0, u_0, u_1).
+  Eigen::Matrix<double, kFaces, 3> slopes_;
+  Places places_;
+  Places rounding_;  ///< of the lines
   Column column_;
-  std::vector<NodeEnds> nodes_;  ///< all, or none yet
+  Ends shifts_;                 ///< of the ends, in the column
+  std::vector<NodeBox> boxes_;  ///< around P ⊕ the triangles of all nodes, or none yet
+  std::vector<Ends> ends_;      ///< of P put to those
 };
 
 }  // namespace fcl_prob::detail

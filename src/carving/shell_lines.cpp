@@ -43,7 +43,7 @@ BoxTree::Box ShellLines::addShape(const ConvexFan& piece) {
 LineSpan ShellLines::spanOf(const Shape& shape, const Eigen::Matrix3d& corners,
                             const Eigen::Vector2d& u) const {
   LineSpan span{-kInfinity, kInfinity};
-  for (std::size_t f = 0; f < shape.normals.size(); ++f) {
+  for (std::size_t f = 0; f < shape.normals.size() && span.lo < span.hi; ++f) {
     const Eigen::Vector3d& n = shape.normals[f];
     const double left =
         shape.offsets[f] + (n.transpose() * corners).maxCoeff() - n.tail<2>().dot(u);

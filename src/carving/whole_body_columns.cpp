@@ -27,55 +27,59 @@ constexpr double kTooLate = 40.0;
 
 CornerValues all(double value) { return {value, value, value, value}; }
 
-}  // namespace
-
-// Nodes that are fine, and behind them those that stick out, united. Where one solid is in the
-// other, too, their surfaces touch before and behind: far out on the line the objects are apart.
-const std::vector<LineSpan>& WholeBodyLines::spansOn(const Column& column) {
-  const Eigen::Vector2d fine = kFineEnough * (column.hi - column.lo);
-  begin(column);
-  met_.clear();
-  while (!stack_.empty()) {
-    const Visit visit = stack_.back();
-    stack_.pop_back();
-    if (isMet(visit.span)) continue;
-    const WhitenedTree& mesh = visit.place.member->fan.mesh();
-    const NodeBox& box = mesh.boxes[visit.place.node];
-    const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
-    if (is_fine || mesh.tree->nodes[visit.place.node].isLeaf()) {
-      addMet(visit.span);
-    } else {
-      pushChildren(visit);
-    }
-  }
-  std::sort(met_.begin(), met_.end(),
-            [](const LineSpan& one, const LineSpan& other) { return one.lo < other.lo; });
-  if (solids_ && !met_.empty()) met_ = {{met_.front().lo, met_.back().hi}};
-  return met_;
-}
-
-bool WholeBodyLines::isMet(const LineSpan& span) const {
-  return std::any_of(met_.begin(), met_.end(), [&span](const LineSpan& known) {
+bool isWithin(const LineSpan& span, const std::vector<LineSpan>& spans) {
+  return std::any_of(spans.begin(), spans.end(), [&span](const LineSpan& known) {
     return known.lo <= span.lo && span.hi <= known.hi;
   });
 }
 
-void WholeBodyLines::addMet(LineSpan span) {
+// Adds it, united with all that it meets.
+void unite(LineSpan span, std::vector<LineSpan>& spans) {
   std::size_t kept = 0;
-  for (const LineSpan& known : met_) {
+  for (const LineSpan& known : spans) {
     if (known.hi < span.lo || span.hi < known.lo) {
-      met_[kept++] = known;
+      spans[kept++] = known;
     } else {
       span = {std::min(span.lo, known.lo), std::max(span.hi, known.hi)};
     }
   }
-  met_.resize(kept);
-  met_.push_back(span);
+  spans.resize(kept);
+  spans.push_back(span);
 }
 
-double WholeBodyLines::mostOn(const std::vector<LineSpan>& spans) {
+}  // namespace
+
+// Nodes that are fine, and behind them those that stick out, united. Where one solid is in the
+// other, too, their surfaces touch before and behind: far out on the line the objects are apart.
+WholeBodyLines::Met WholeBodyLines::meet(const Column& column, const Met& among) {
+  const Eigen::Vector2d fine = kFineEnough * (column.hi - column.lo);
+  Met met;
+  std::vector<LineSpan>& spans = met.spans;
+  begin(column, among);
+  while (!stack_.empty()) {
+    const Visit visit = stack_.back();
+    stack_.pop_back();
+    const WhitenedTree& mesh = visit.place.member->fan.mesh();
+    const NodeBox& box = mesh.boxes[visit.place.node];
+    const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
+    if (isWithin(visit.span, spans)) {
+      met.places.push_back(visit.place);
+    } else if (is_fine || mesh.tree->nodes[visit.place.node].isLeaf()) {
+      met.places.push_back(visit.place);
+      unite(visit.span, spans);
+    } else {
+      pushChildren(visit);
+    }
+  }
+  std::sort(spans.begin(), spans.end(),
+            [](const LineSpan& one, const LineSpan& other) { return one.lo < other.lo; });
+  if (solids_ && !spans.empty()) spans = {{spans.front().lo, spans.back().hi}};
+  return met;
+}
+
+double WholeBodyLines::mostOn(const Met& met) {
   double mass = 0.0;
-  for (const LineSpan& span : spans) mass += normalIntervalMass(span.lo, span.hi);
+  for (const LineSpan& span : met.spans) mass += normalIntervalMass(span.lo, span.hi);
   return std::min(1.0, mass * (1.0 + kRoundedLines));
 }
 
@@ -85,13 +89,14 @@ double WholeBodyLines::leastOn(const Column& column, const Touch& touch) const {
 }
 
 // In order of where the column may first meet them, until no other one can be met before those.
-CornerValues WholeBodyLines::entriesAt(const CornerMeans& means, const Column& column) {
+CornerValues WholeBodyLines::entriesAt(const CornerMeans& means, const Column& column,
+                                       const Met& met) {
   const auto later = [](const Visit& one, const Visit& other) {
     return one.span.lo > other.span.lo;
   };
   const Eigen::Vector2d middle = 0.5 * (column.lo + column.hi);
   CornerValues entries = all(kTooLate);
-  begin(column);
+  begin(column, met);
   std::make_heap(stack_.begin(), stack_.end(), later);
   for (int leaves = 0; !stack_.empty();) {
     std::pop_heap(stack_.begin(), stack_.end(), later);
@@ -139,10 +144,11 @@ void WholeBodyLines::lowerTo(const CornerMeans& means, const Visit& leaf,
 
 // No line has anything before what is linear between the entries at the corners, which is not
 // behind the last one of those; what is free behind that is free on all lines.
-double WholeBodyLines::mostMeanOn(const Column& column, const std::vector<LineSpan>& spans) {
+double WholeBodyLines::mostMeanOn(const Column& column, const Met& met) {
   const auto means = CornerMeans::of(column);
-  if (!means || spans.empty()) return mostOn(spans);
-  const CornerValues entries = entriesAt(*means, column);
+  const std::vector<LineSpan>& spans = met.spans;
+  if (!means || spans.empty()) return mostOn(met);
+  const CornerValues entries = entriesAt(*means, column, met);
   const double last = *std::max_element(entries.begin(), entries.end());
   CornerValues tails;
   for (std::size_t k = 0; k < 4; ++k) tails[k] = normalTailMass(entries[k]);
@@ -152,7 +158,7 @@ double WholeBodyLines::mostMeanOn(const Column& column, const std::vector<LineSp
     if (from >= last) free += normalIntervalMass(from, to);
   }
   const double most = means->most(tails) * (1.0 + kRoundedLines) - free * (1.0 - kRoundedLines);
-  return std::clamp(most, 0.0, mostOn(spans));
+  return std::clamp(most, 0.0, mostOn(met));
 }
 
 // Of the lines at the corners what is certainly within P ⊕ T, which is convex.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/quantiles.h"
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/normal_mass.h"
 
@@ -22,10 +23,11 @@ constexpr std::size_t kLongestChain = 6;
 // Directions in which the width of a member is measured, to both sides.
 constexpr int kWidths = 8;
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kSqrt2 = 1.41421356237309504880;
 
-// Tails beyond this distance have at most this mass: Φ(-d) <= exp(-d²/2) / 2.
+// Tails beyond this distance have this mass.
 double distanceOfTail(double mass) {
-  return std::sqrt(std::max(0.0, -2.0 * std::log(std::max(2.0 * mass, 1e-300))));
+  return mass < 0.5 ? kSqrt2 * erfcInverseInDouble(2.0 * std::max(mass, 1e-300)) : 0.0;
 }
 
 double nearness(const LineSpan& span) { return std::max({span.lo, -span.hi, 0.0}); }
@@ -72,11 +74,19 @@ void WholeBodyLines::addMember(const WholeBody& whole, std::size_t index, const 
   is_exact_ = is_exact_ && !part.nearly->pieces.empty();
 }
 
-void WholeBodyLines::begin(const Column& column) {
+WholeBodyLines::Met WholeBodyLines::everything() {
+  Met met{{{-kInfinity, kInfinity}}, {}};
+  for (Member& member : members_) met.places.push_back({&member, 0});
+  return met;
+}
+
+void WholeBodyLines::begin(const Column& column, const Met& among) {
   stack_.clear();
-  for (Member& member : members_) {
-    member.nodes.lookAt(column);
-    if (const auto span = member.nodes.around(0)) stack_.push_back({{&member, 0}, *span});
+  for (Member& member : members_) member.nodes.lookAt(column);
+  for (auto place = among.places.rbegin(); place != among.places.rend(); ++place) {
+    if (const auto span = place->member->nodes.around(place->node)) {
+      stack_.push_back({*place, *span});
+    }
   }
 }
 
@@ -93,8 +103,9 @@ void WholeBodyLines::pushChildren(const Visit& visit) {
   if (of_left && left_first) stack_.push_back({left, *of_left});
 }
 
-WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u, Taken taken) {
-  LineContacts contacts{massOn(u, kRoughly, taken), {}, {}};
+WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u, const Met& met,
+                                                        Taken taken) {
+  LineContacts contacts{massOn(u, met, kRoughly, taken), {}, {}};
   for (const Stretch& stretch : stretches_) {
     contacts.touches.push_back({stretch.first.member->index, stretch.point});
   }
@@ -151,10 +162,11 @@ void WholeBodyLines::testKnown(const Eigen::Vector2d& u) {
   }
 }
 
-double WholeBodyLines::massOn(const Eigen::Vector2d& u, const LeftOut& negligible, Taken taken) {
+double WholeBodyLines::massOn(const Eigen::Vector2d& u, const Met& met, const LeftOut& negligible,
+                              Taken taken) {
   beginLine(negligible);
   taken_ = taken;
-  begin({u, u});
+  begin({u, u}, met);
   testKnown(u);
   while (!stack_.empty()) {
     Visit visit = stack_.back();

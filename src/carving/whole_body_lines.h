@@ -35,6 +35,9 @@ struct Silhouette {
 enum class Taken { whole, hulls, cores };
 
 class WholeBodyLines {
+  struct Member;
+  static constexpr int kBody = -1;
+
  public:
   /// Null where no object can be taken whole. Keeps references to the pair and the solids.
   /// \param matrix  that of the whitening by which the pair was moved
@@ -54,11 +57,27 @@ class WholeBodyLines {
   /// convex mesh does not hold.
   bool isExact() const { return is_exact_; }
 
-  /// All collisions of any line { (s, u) } of a column are within these: certain. In order, apart.
-  const std::vector<LineSpan>& spansOn(const Column& column);
+  /// A member, and a node of the other mesh.
+  struct Place {
+    Member* member;
+    int node;
+    int piece = kBody;  ///< of the shell
+  };
 
-  /// No less than what such a line has of collisions, under N(0, 1): certain.
-  static double mostOn(const std::vector<LineSpan>& spans);
+  /// What the lines { (s, u) } of a column may meet: certain.
+  struct Met {
+    std::vector<LineSpan> spans;  ///< all collisions, in order, apart
+    std::vector<Place> places;    ///< where all of them are, nearer ones before others
+  };
+
+  /// Of all lines.
+  Met everything();
+
+  /// \param among  of a column around this one
+  Met meet(const Column& column, const Met& among);
+
+  /// No less than what a line has of collisions, under N(0, 1): certain.
+  static double mostOn(const Met& met);
 
   /// One member where it touches a point of the other mesh.
   struct Touch {
@@ -78,7 +97,8 @@ class WholeBodyLines {
     std::vector<Touching> chain;  ///< of one stretch of contact, the next where one ends
   };
 
-  LineContacts contactsOn(const Eigen::Vector2d& u, Taken taken);
+  /// \param met  of a column around the line, here and below
+  LineContacts contactsOn(const Eigen::Vector2d& u, const Met& met, Taken taken);
 
   /// No more than what the lines of a column have of collisions in the mean, under N(0, 1):
   /// certain. Those with one member there are counted.
@@ -89,11 +109,12 @@ class WholeBodyLines {
   double leastOn(const Column& column, const std::vector<Touching>& chain);
 
   /// No less than what the lines of a column have of collisions in the mean, under N(0, 1):
-  /// certain. \param spans  as spansOn() tells them
-  double mostMeanOn(const Column& column, const std::vector<LineSpan>& spans);
+  /// certain. \param met  of that column
+  double mostMeanOn(const Column& column, const Met& met);
 
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
-  double massOn(const Eigen::Vector2d& u, const LeftOut& negligible, Taken taken = Taken::whole);
+  double massOn(const Eigen::Vector2d& u, const Met& met, const LeftOut& negligible,
+                Taken taken = Taken::whole);
 
   /// Of what lines can meet of the smallest member in one place: nothing smaller sticks out of the
   /// C-obstacle.
@@ -126,18 +147,10 @@ class WholeBodyLines {
     int index;
   };
 
-  static constexpr int kBody = -1;
-
   /// Of lines at the corners of a column.
   struct CornerSpans {
     CornerValues from;
     CornerValues to;
-  };
-
-  struct Place {
-    Member* member;
-    int node;
-    int piece = kBody;  ///< of the shell
   };
 
   struct Visit {
@@ -158,10 +171,8 @@ class WholeBodyLines {
   static int triangleOf(const Place& place) {
     return place.member->fan.mesh().tree->nodes[place.node].piece;
   }
-  void begin(const Column& column);
-  bool isMet(const LineSpan& span) const;
-  void addMet(LineSpan span);
-  CornerValues entriesAt(const CornerMeans& means, const Column& column);
+  void begin(const Column& column, const Met& among);
+  CornerValues entriesAt(const CornerMeans& means, const Column& column, const Met& met);
   void lowerTo(const CornerMeans& means, const Visit& leaf, const Eigen::Vector2d& middle,
                CornerValues& entries);
   std::optional<CornerSpans> spansAt(const CornerMeans& means, const Touching& touching);
@@ -184,8 +195,6 @@ class WholeBodyLines {
   const SolidContact* solids_ = nullptr;
   bool is_convex_ = true;
   bool is_exact_ = true;
-
-  std::vector<LineSpan> met_;  ///< by lines of the column that was looked at last, apart
 
   // Of the line that is looked at.
   Taken taken_ = Taken::whole;

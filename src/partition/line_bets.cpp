@@ -33,7 +33,7 @@ constexpr double kDeviation = 0.1;
 
 // What may be left out of a line, and what its mass is rounded by, with much to spare.
 constexpr LeftOut kLeftOut{1e-5, 1e-8};
-constexpr double kDoubt = 2e-8;
+constexpr double kDoubt = 4e-8;
 
 // Of sums of masses.
 constexpr double kRounded = 1e-9;
@@ -136,9 +136,10 @@ LineBets::Odds LineBets::oddsOf(Source& source, bool above) const {
   return odds;
 }
 
-double LineBets::massOn(Source& source, const Column& column, const Eigen::Vector2d& uniform) {
+double LineBets::massOn(const Source& source, const LineColumns::Node& node,
+                        const Eigen::Vector2d& uniform) {
   ++drawn_lines_;
-  return lines_->massOn(pointOf(column, uniform), kLeftOut, source.taken);
+  return lines_->massOn(pointOf(node.column, uniform), node.met, kLeftOut, source.taken);
 }
 
 // A column is known for what it was at the beginning of the batch.
@@ -167,8 +168,8 @@ void LineBets::draw(End& end, const Odds& odds, bool above, double target) {
     const int column = columns.inOrder()[one.at];
     const LineColumns::Node& node = columns[column];
     const double weight = odds.so_far[one.at] - (one.at > 0 ? odds.so_far[one.at - 1] : 0.0);
-    const double mass = 0.5 * (massOn(source, node.column, one.uniform) +
-                               massOn(source, node.column, Eigen::Vector2d::Ones() - one.uniform));
+    const double mass = 0.5 * (massOn(source, node, one.uniform) +
+                               massOn(source, node, Eigen::Vector2d::Ones() - one.uniform));
     const double mean = std::min(source.meanOf(column), node.most);
     const double bounded = above ? lessThan(mass) : std::min(moreThan(mass), node.most);
     const double x = odds.known + node.measure * (bounded - mean) * (odds.all() / weight);

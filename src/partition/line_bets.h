@@ -82,7 +82,8 @@ class LineBets {
   void look(End& end, bool above);
   Odds oddsOf(Source& source, bool above) const;
   void draw(End& end, const Odds& odds, bool above, double target);
-  double massOn(Source& source, const Column& column, const Eigen::Vector2d& uniform);
+  double massOn(const Source& source, const LineColumns::Node& node,
+                const Eigen::Vector2d& uniform);
   void narrow(const Bounds& bounds);
 
   double error_;

@@ -78,7 +78,7 @@ double leastError(std::size_t columns) {
 }
 
 // Of the standard error asked for, what may be left out of lines; and of the bound on P.
-constexpr double kLeftOutOfError = 0.05;
+constexpr double kLeftOutOfError = 0.1;
 constexpr double kLeftOutOfBound = 1e-6;
 
 /// Of the lines through one column.
@@ -119,7 +119,7 @@ class ColumnSampler {
   double massAt(const LineColumns::Node& node, const Eigen::Vector2d& x, PairsOfColumn& drawn) {
     const Eigen::Vector2d u = pointOf(node.column, x);
     const double mass = lines_.massOn(
-        u, {kLeftOutOfError * request_.relative_tolerance, kLeftOutOfBound * node.most});
+        u, node.met, {kLeftOutOfError * request_.relative_tolerance, kLeftOutOfBound * node.most});
     drawn.lowest = std::min(drawn.lowest, mass);
     drawn.highest = std::max(drawn.highest, mass);
     countUnseen(node, u, drawn);

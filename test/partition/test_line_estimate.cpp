@@ -57,6 +57,7 @@ double massByPoints(WholeBodyTester& tester, const Eigen::Vector2d& u, int steps
 
 /// Over lines of a column, in the middle of steps.
 double meanOnLines(WholeBodyLines& lines, const Column& column) {
+  const auto all = lines.everything();
   constexpr int kSteps = 12;
   const Eigen::Vector2d step = (column.hi - column.lo) / kSteps;
   double sum = 0.0, measure = 0.0;
@@ -65,7 +66,7 @@ double meanOnLines(WholeBodyLines& lines, const Column& column) {
         column.lo + step.cwiseProduct(Eigen::Vector2d(i / kSteps, i % kSteps));
     const double of_step =
         normalIntervalMass(lo[0], lo[0] + step[0]) * normalIntervalMass(lo[1], lo[1] + step[1]);
-    sum += of_step * lines.massOn(lo + 0.5 * step, {0.0, 1e-12});
+    sum += of_step * lines.massOn(lo + 0.5 * step, all, {0.0, 1e-12});
     measure += of_step;
   }
   return sum / measure;
@@ -145,11 +146,12 @@ TEST_CASE("lines along faces of boxes have what the boxes tell", "[lines]") {
     const WhitenedMeshes meshes(turned(half, Eigen::Vector3d::Zero()), turned(of_mesh, at));
     const auto lines = contactsOf<WholeBodyLines>(meshes);
     REQUIRE(lines);
+    const auto all = lines->everything();
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector2d u(random.uniform(-4, 4), random.uniform(-4, 4));
       const double truth = massInBox(of_mesh + half, at, u) - massInBox(of_mesh - half, at, u);
       CAPTURE(scene, i, half.transpose(), of_mesh.transpose(), at.transpose(), u.transpose());
-      CHECK(std::fabs(lines->massOn(u, {0.0, 1e-12}) - truth) < 1e-6);
+      CHECK(std::fabs(lines->massOn(u, all, {0.0, 1e-12}) - truth) < 1e-6);
       met += truth > 1e-3;
     }
   }
@@ -170,16 +172,17 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
     const auto lines = contactsOf<WholeBodyLines>(meshes);
     const auto tester = contactsOf<WholeBodyTester>(meshes);
     REQUIRE(lines);
+    const auto all = lines->everything();
     for (int i = 0; i < 30; ++i) {
       const Eigen::Vector2d u(random.normal(), random.normal());
       constexpr int kSteps = 600;
-      const double mass = lines->massOn(u, {0.0, 1e-12});
+      const double mass = lines->massOn(u, all, {0.0, 1e-12});
       // At most some ends, each within half a step.
       CHECK(std::fabs(mass - massByPoints(*tester, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
       const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
-      CHECK(lines->mostOn(lines->spansOn({u - width, u + width})) >= mass);
+      CHECK(lines->mostOn(lines->meet({u - width, u + width}, all)) >= mass);
       const Column around{u - 0.2 * width, u + 0.2 * width};
-      const auto middle = lines->contactsOn(u, Taken::whole);
+      const auto middle = lines->contactsOn(u, all, Taken::whole);
       CHECK(std::fabs(middle.mass - mass) <= 0.1 * mass + 2e-6);
       const double mean = meanOnLines(*lines, around);
       for (const auto& touch : middle.touches) {
@@ -190,8 +193,8 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       const double of_chain = lines->leastOn(around, middle.chain);
       CHECK(of_chain <= mean + 1e-3);
       followed += of_chain > 0.8 * mean;
-      CHECK(lines->mostMeanOn(around, lines->spansOn(around)) >= mean - 1e-3);
-      CHECK(std::fabs(lines->massOn(u, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
+      CHECK(lines->mostMeanOn(around, lines->meet(around, all)) >= mean - 1e-3);
+      CHECK(std::fabs(lines->massOn(u, all, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
       met += mass > 0.0;
     }
   }
