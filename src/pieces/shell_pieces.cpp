@@ -36,6 +36,12 @@ constexpr double kConvex = 1e-9;
 
 std::array<double, 3> key(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+void keepEachOnce(std::vector<Eigen::Vector3d>& points) {
+  std::sort(points.begin(), points.end(),
+            [](const auto& x, const auto& y) { return key(x) < key(y); });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+}
+
 class PatchSearch {
  public:
   PatchSearch(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
@@ -143,6 +149,7 @@ class PatchSearch {
     }
     const double size = std::sqrt(across.norm());
     if (!(size > 0.0)) return nullptr;
+    keepEachOnce(points);
     points.push_back(middle);
     for (std::size_t at = place; at < std::min(place + places, kPlaces); ++at) {
       const Eigen::Vector3d inwards =
