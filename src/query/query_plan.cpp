@@ -158,10 +158,11 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
   const bool exact = pair.haveExactMass(displacement);
-  const bool has_gradient = displacement.rank() == 3 && pair.areRounded();
+  const bool has_gradient =
+      displacement.rank() == 3 && (pair.areFlat() || pair.areRounded());
   if (exact && (has_gradient || !request.gradient)) {
     QueryPlan plan = planExact(pair, displacement, request);
-    plan.partition_if_unresolved = !pair.areFlat() && (request.gradient || !pair.areSpheres());
+    plan.partition_if_unresolved = request.gradient || (!pair.areFlat() && !pair.areSpheres());
     // Quadrature over a boundary takes milliseconds, a bound microseconds.
     plan.try_root_bound = !pair.areFlat() && !pair.areRounded() && displacement.rank() > 1;
     return plan;
@@ -169,7 +170,7 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
   QueryPlan plan = planPartition(pair, displacement, request);
   if (exact) {
     plan.notes.push_back(
-        "a gradient is asked for: the partition instead of the exact mass, which has none");
+        "a gradient is asked for: the partition instead of the exact mass, which has none here");
   }
   return plan;
 }
