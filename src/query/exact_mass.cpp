@@ -8,6 +8,8 @@
 #include "base/decision.h"
 #include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
+#include "narrowphase/curved_pair.h"
+#include "narrowphase/ellipsoid_polytope.h"
 #include "narrowphase/polytope_pair.h"
 #include "narrowphase/rounded_pair.h"
 #include "query/request_limits.h"
@@ -97,14 +99,25 @@ class ExactMass {
     gradient_ = both->gradient;
   }
 
-  /// Of spheres, capsules and what is flat beside them.
+  /// Of curved shapes.
   void findGradient() {
-    const ConvexBody &a = pair_.a.rootBody(), &b = pair_.b.rootBody();
-    if (displacement_.rank() < 3 || !isRoundedPair(a, b)) return;
-    const PairMass both = roundedPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
-                                          {true, limits_.interruption()});
+    if (displacement_.rank() < 3) return;
+    const PairMass both = massAndGradient(pair_.a.rootBody(), pair_.b.rootBody());
     gradient_ = both.gradient;
     if (gradient_) narrow(both.mass);
+  }
+
+  PairMass massAndGradient(const ConvexBody& a, const ConvexBody& b) {
+    const RoundedEffort effort{true, limits_.interruption()};
+    if (isRoundedPair(a, b)) {
+      return roundedPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_, effort);
+    }
+    if (isEllipsoidWithPolytope(a, b)) {
+      return ellipsoidPolytopeMass(a, pair_.pose_a, b, pair_.pose_b, displacement_, effort);
+    }
+    if (!isCurvedPair(a, b)) return {};
+    return curvedPairMassAndGradient(a, pair_.pose_a, b, pair_.pose_b, displacement_, true,
+                                     limits_.interruption());
   }
 
   /// By support values, where the polytope around a curved body sticks out of it.

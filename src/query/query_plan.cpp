@@ -158,8 +158,7 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
   const bool exact = pair.haveExactMass(displacement);
-  const bool has_gradient =
-      displacement.rank() == 3 && (pair.areFlat() || pair.areRounded());
+  const bool has_gradient = displacement.rank() == 3;
   if (exact && (has_gradient || !request.gradient)) {
     QueryPlan plan = planExact(pair, displacement, request);
     plan.partition_if_unresolved = request.gradient || (!pair.areFlat() && !pair.areSpheres());

@@ -224,11 +224,12 @@ TEST_CASE("the exact method integrates over the boundaries of curved shapes") {
       answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
   CHECK(*with_box.lower <= *interval.upper);
   CHECK(*with_box.upper >= *interval.lower);
-  // The quadrature has no gradient.
   request.method = ProbabilityMethod::automatic;
   request.gradient = true;
-  CHECK(answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request).method ==
-        ProbabilityMethod::interval);
+  const auto with_gradient =
+      answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  CHECK(with_gradient.method == ProbabilityMethod::exact);
+  CHECK(with_gradient.gradient);
 }
 
 TEST_CASE("asked for by name, the exact method has sections of curved shapes to six digits") {
