@@ -110,6 +110,7 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   // A bound from above has no gradient, and an estimate was asked for by name.
   plan.try_root_bound =
       pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
+  plan.exact_if_unresolved = pair.haveExactMass(displacement);
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }

@@ -232,6 +232,31 @@ TEST_CASE("the exact method integrates over the boundaries of curved shapes") {
   CHECK(with_gradient.gradient);
 }
 
+TEST_CASE("what cells leave open of two convex shapes their exact mass closes") {
+  const fcl::Sphered sphere(3.0), other(2.0);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.3, 0.3, 0.3});
+  // Five deviations out.
+  const Eigen::Vector3d place(4.0, 5.0, 1.2);
+  const fcl::Transform3d pose = at(place);
+  const double truth = fcl_prob::normalBallMass(place.norm() / 0.3, 5.0 / 0.3).lower;
+  for (const auto method : {ProbabilityMethod::interval, ProbabilityMethod::estimate}) {
+    ProbabilityRequest request;
+    request.method = method;
+    request.relative_tolerance = 1e-4;
+    request.absolute_tolerance = 0.0;
+    request.max_cells = 20;
+    const auto result = answer(sphere, kIdentity, other, pose, displacement, request);
+    CHECK(result.method == method);
+    CHECK(result.status == ProbabilityStatus::exact);
+    CHECK(planMentions(result, "the cells left too much open"));
+    CHECK(result.probability() == Approx(truth).epsilon(1e-9));
+    request.max_cells = 20'000;
+    request.relative_tolerance = 0.1;
+    CHECK_FALSE(planMentions(answer(sphere, kIdentity, other, pose, displacement, request),
+                             "the cells left too much open"));
+  }
+}
+
 TEST_CASE("asked for by name, the exact method has sections of curved shapes to six digits") {
   const fcl::Coned cone(0.3, 0.5), other(0.3, 0.4);
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.0});
