@@ -24,6 +24,10 @@ namespace {
 /// Of the mass of the box around a body.
 constexpr double kGuess = 0.05;
 
+/// Beyond a reach of sqrt(kBeyondReach - 2 log P) there is less than this share of P.
+constexpr double kBeyondReach = 80.0;
+constexpr double kShareBeyond = 1e-15;
+
 /// By support functions, for GJK to propose directions.
 class ShapeObstacle final : public CObstacle {
  public:
@@ -83,10 +87,18 @@ double farRounding(const CurvedSum& sum) {
 
 /// With V' within δ of a convex V, and V' holding a ball of radius ϱ about c: c + λ(V' - c) is in V
 /// for λ = 1 - δ/ϱ, and V in the same for 1/λ. Masses of these are at least λ³ exp(-(1 - λ)|c|²/2)
-/// of each other, |·|² being convex. Nothing if that is no use.
-std::optional<double> shareBetween(double error, double inradius, double centre) {
+/// of each other, |·|² being convex; and, but for what is beyond R, which weighs no more than
+/// (1 + R) exp(-R²/2), λ³ exp(-(1 - λ) R|c| - (1 - λ)² (R + |c|)²/2). Nothing if that is no use.
+/// \param least  the mass may weigh
+std::optional<double> shareBetween(double error, double inradius, double centre, double least) {
   if (!(error < 1e-3 * inradius)) return std::nullopt;
-  const double share = 1.01 * error / inradius * (3.0 + 0.5 * centre * centre);
+  const double gap = error / inradius;
+  double slope = 0.5 * centre * centre;
+  if (least > 0.0) {
+    const double reach = std::sqrt(kBeyondReach - 2.0 * std::log(least));
+    slope = std::min(slope, reach * centre + 0.5 * gap * (reach + centre) * (reach + centre));
+  }
+  const double share = 1.01 * gap * (3.0 + slope) + kShareBeyond;
   return share < 0.1 ? std::optional<double>(share) : std::nullopt;
 }
 
@@ -179,8 +191,9 @@ PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& 
     const double inradius = parts->inradius / displacement.standardDeviations().maxCoeff();
     const LongVector3 middle =
         parts->sum.centre + map * (parts->sum.frame * parts->middle.cast<long double>());
-    const auto share = shareBetween(surface->error, inradius * (1.0 - 8.0 * kEpsilon),
-                                    static_cast<double>(middle.norm()) * (1.0 + kEpsilon));
+    const auto share =
+        shareBetween(surface->error, inradius * (1.0 - 8.0 * kEpsilon),
+                     static_cast<double>(middle.norm()) * (1.0 + kEpsilon), mass.mass.lower);
     return share ? widened(mass, *share, map) : PairMass{};
   }
   return {};
