@@ -23,20 +23,20 @@ is used for it. `exact` is asked for 1e-10 of P; interval and estimate for 1 % o
 tolerance of the family, with at most 20,000 cells. `answered` is the share that came that near.
 `worst error`: for an interval that of its middle, for an estimate its own, relative to P (or to what
 the tolerance allows of it); for an upper bound the largest excess over P, which is no error.
-`violated`: intervals and bounds that do not hold P. `failed`: exceptions, NaN, or an interval that is
-none. Poses turned in space are rounded, which moves P a little: there, P is an interval too.
+`untold`: cases that are not answered to the tolerance, and of which P changes by more than that when
+the boxes grow or shrink by one ε of their sizes and positions: two truths of 100 digits, on either side,
+are the proof that the inputs, as doubles, do not tell. `violated`: intervals and bounds that do not hold P.
+`failed`: exceptions, NaN, or an interval that is none. Boxes that are turned have the axes that the
+displacement reports.
 
-What falls short does so for one of these reasons. Where σ is many orders below sizes or positions,
-rounding of those is no longer small beside σ. Where nothing moves along an axis and faces touch to
-the last bit, contact cannot be told from none within rounding: the interval holds both, and the
-standard error of an estimate says so. Far out in the tail a slanted or curved surface takes more
-cells than the limit. An estimate's standard error
-comes from few samples a cell, and is too small where all of them happen to agree: such an estimate
-can be off by more than that, though never by more than its interval.
+What is listed below falls short for another reason. Far out in the tail a slanted or curved surface takes
+more cells than the limit; where σ is far below sizes or positions, boxes of the partition are widened by
+more ε than one. An estimate's standard error comes from few samples a cell, and is too small where all of
+them happen to agree: such an estimate can be off by more than that, though never by more than its interval.
 )";
 
 struct MethodRow {
-  std::size_t cases = 0, answered = 0, violated = 0, failed = 0;
+  std::size_t cases = 0, answered = 0, untold = 0, violated = 0, failed = 0;
   double worst = 0.0;
   double slowest_ms = 0.0;
   std::size_t worst_case = 0;
@@ -78,31 +78,48 @@ bool isSound(const ProbabilityResult& result) {
          (!result.standard_error || *result.standard_error >= 0.0);
 }
 
-void judge(const Truth& truth, ProbabilityMethod method, double absolute_tolerance,
+/// Whether P changes by more than the tolerance when all inputs move by one ε.
+bool isUntold(const StabilityCase& scene, double tolerance, double absolute_tolerance) {
+  if (!scene.nearby) return false;
+  const Precise allowed = std::max(tolerance * scene.truth.upper, Precise(absolute_tolerance));
+  return scene.nearby->upper - scene.nearby->lower > allowed;
+}
+
+/// An answer's distance from the truth next to what the tolerance is a share of; and whether it is
+/// as near as was asked for.
+struct AnswerError {
+  double error;
+  bool near;
+};
+
+AnswerError errorOf(const Truth& truth, ProbabilityMethod method, double absolute_tolerance,
+                    const ProbabilityResult& result) {
+  const double lower = result.lower.value_or(0.0), upper = *result.upper;
+  if (isBound(method)) return {(Precise(upper) - truth.upper).convert_to<double>(), true};
+  const double tolerance = toleranceOf(method);
+  const Precise scale = std::max(truth.upper, Precise(absolute_tolerance / tolerance));
+  const double value = result.estimate.value_or(0.5 * lower + 0.5 * upper);
+  const double error = Precise(distanceFrom(truth, value) / scale).convert_to<double>();
+  // Of an estimate, the standard error is what is asked for.
+  const double spread = result.standard_error.value_or(0.5 * (upper - lower));
+  const bool narrow = method == ProbabilityMethod::exact ||
+                      spread <= std::max(absolute_tolerance, tolerance * upper);
+  return {error, narrow && error <= (result.standard_error ? 6 * tolerance : tolerance)};
+}
+
+void judge(const StabilityCase& scene, ProbabilityMethod method, double absolute_tolerance,
            const ProbabilityResult& result, std::size_t index, MethodRow& row) {
   if (!isSound(result)) {
     ++row.failed;
     return;
   }
-  const double lower = result.lower.value_or(0.0), upper = *result.upper;
-  row.violated += truth.upper < lower || truth.lower > upper;
-  const double tolerance = toleranceOf(method);
-  double error;
-  if (isBound(method)) {
-    error = (Precise(upper) - truth.upper).convert_to<double>();
-    ++row.answered;
-  } else {
-    const Precise scale = std::max(truth.upper, Precise(absolute_tolerance / tolerance));
-    const double value = result.estimate.value_or(0.5 * lower + 0.5 * upper);
-    error = Precise(distanceFrom(truth, value) / scale).convert_to<double>();
-    // Of an estimate, the standard error is what is asked for.
-    const double spread = result.standard_error.value_or(0.5 * (upper - lower));
-    const bool narrow = method == ProbabilityMethod::exact ||
-                        spread <= std::max(absolute_tolerance, tolerance * upper);
-    row.answered += narrow && error <= (result.standard_error ? 6 * tolerance : tolerance);
-  }
-  if (!(error <= row.worst)) {
-    row.worst = error;
+  const Truth& truth = scene.truth;
+  row.violated += truth.upper < result.lower.value_or(0.0) || truth.lower > *result.upper;
+  const AnswerError answer = errorOf(truth, method, absolute_tolerance, result);
+  row.answered += answer.near;
+  row.untold += !answer.near && isUntold(scene, toleranceOf(method), absolute_tolerance);
+  if (!(answer.error <= row.worst)) {
+    row.worst = answer.error;
     row.worst_case = index;
   }
 }
@@ -114,7 +131,7 @@ void runCase(const StabilityCase& scene, const StabilityFamily& family,
   try {
     const ProbabilityResult result = ask(scene, request);
     row.slowest_ms = std::max(row.slowest_ms, watch.milliseconds());
-    judge(scene.truth, request.method, family.absolute_tolerance, result, index, row);
+    judge(scene, request.method, family.absolute_tolerance, result, index, row);
   } catch (const std::exception& exception) {
     ++row.failed;
     if (row.first_failure.empty()) row.first_failure = exception.what();
@@ -146,31 +163,32 @@ class StabilityTable {
  public:
   StabilityTable() {
     report_.title = "Stiff and extreme scenes";
-    report_.table = TextTable({"family", "objects", "method", "cases", "answered", "worst error",
-                               "violated", "failed", "slowest / ms"});
+    report_.table = TextTable({"family", "objects", "method", "cases", "answered", "untold",
+                               "worst error", "violated", "failed", "slowest / ms"});
   }
 
   void add(const StabilityFamily& family, ProbabilityMethod method, const MethodRow& row) {
     const double share = static_cast<double>(row.answered) / static_cast<double>(row.cases);
     report_.table.add({family.name, family.objects, toString(method), std::to_string(row.cases),
-                       numberText(100 * share, 4) + " %", numberText(row.worst, 2),
-                       std::to_string(row.violated), std::to_string(row.failed),
-                       numberText(row.slowest_ms, 3)});
+                       numberText(100 * share, 4) + " %", std::to_string(row.untold),
+                       numberText(row.worst, 2), std::to_string(row.violated),
+                       std::to_string(row.failed), numberText(row.slowest_ms, 3)});
     report_.records.push_back({{"family", family.name},
                                {"objects", family.objects},
                                {"method", toString(method)},
                                {"cases", row.cases},
                                {"answered", row.answered},
+                               {"untold", row.untold},
                                {"worst_error", row.worst},
                                {"worst_case", row.worst_case},
                                {"violated", row.violated},
                                {"failed", row.failed},
                                {"first_failure", row.first_failure},
                                {"slowest_ms", row.slowest_ms}});
-    if (row.answered == row.cases && row.violated == 0) return;
+    if (row.answered + row.untold == row.cases && row.violated == 0) return;
     short_ += "- " + family.name + ", " + family.objects + ", " + toString(method) + ": " +
-              std::to_string(row.cases - row.answered) + " of " + std::to_string(row.cases) +
-              " not to tolerance";
+              std::to_string(row.cases - row.answered - row.untold) + " of " +
+              std::to_string(row.cases) + " not to tolerance";
     if (row.violated > 0) short_ += ", " + std::to_string(row.violated) + " violated";
     if (row.failed > 0) {
       short_ += ", " + std::to_string(row.failed) + " failed (" + row.first_failure + ")";

@@ -17,21 +17,27 @@ TriangleMesh boxMesh(const Eigen::Vector3d& sides) {
           {model.tri_indices, model.tri_indices + model.num_tris}};
 }
 
-// How far a pose's rounded matrix moves the faces of the boxes, less what is rounded to nearest in
-// the truth: 8 roundings of the extent.
-double poseRounding(const BoxScene& scene) {
-  if (!scene.isTurned()) return 0.0;
-  return 8 * std::numeric_limits<double>::epsilon() * (scene.half_a.norm() + scene.half_b.norm());
+/// The columns of the axes of a displacement in the order, and with the signs, of a rotation that
+/// they are but for rounding.
+Eigen::Matrix3d inOrderOf(const Eigen::Matrix3d& rotation, const Eigen::Matrix3d& axes) {
+  Eigen::Matrix3d result;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::Vector3d shares = axes.transpose() * rotation.col(k);
+    Eigen::Index same = 0;
+    shares.cwiseAbs().maxCoeff(&same);
+    result.col(k) = std::copysign(1.0, shares[same]) * axes.col(same);
+  }
+  return result;
 }
 
 using Ranges = std::array<AxisRange, 3>;
 
 // Where |centre - x| <= extent + slack.
 Ranges rangesAround(const std::array<Precise, 3>& centre, const std::array<Precise, 3>& extent,
-                    const std::array<Precise, 3>& sigma, const Precise& slack) {
+                    const std::array<Precise, 3>& sigma, const std::array<Precise, 3>& slack) {
   Ranges ranges;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Precise reach = extent[k] + slack;
+    const Precise reach = extent[k] + slack[k];
     ranges[k] = {centre[k] - reach, centre[k] + reach, sigma[k]};
   }
   return ranges;
@@ -39,9 +45,9 @@ Ranges rangesAround(const std::array<Precise, 3>& centre, const std::array<Preci
 
 // Strictly inside, one way or the other; nothing if a box is not larger along every axis.
 Precise containedMass(const std::array<Precise, 3>& centre, const std::array<Precise, 3>& room,
-                      const std::array<Precise, 3>& sigma, const Precise& slack) {
-  for (const Precise& side : room) {
-    if (side + slack <= 0) return 0;
+                      const std::array<Precise, 3>& sigma, const std::array<Precise, 3>& slack) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (room[k] + slack[k] <= 0) return 0;
   }
   return preciseBoxMass(rangesAround(centre, room, sigma, slack), true);
 }
@@ -82,8 +88,27 @@ GaussianDisplacement BoxScene::displacement() const {
   return GaussianDisplacement(mean, sigma.cwiseAbs2().asDiagonal());
 }
 
-Truth BoxScene::truth(bool solid) const {
-  std::array<Precise, 3> centre, sum, a_in_b, b_in_a, deviation;
+Eigen::Matrix3d BoxScene::frame() const {
+  if (!isTurned()) return Eigen::Matrix3d::Identity();
+  return inOrderOf(turn.toRotationMatrix(), displacement().axes());
+}
+
+Truth BoxScene::truth(bool solid) const { return truthWithin(solid, {0, 0, 0}); }
+
+Truth BoxScene::nearby(bool solid) const {
+  constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  std::array<Precise, 3> slack;
+  const Eigen::Vector3d places = at_a.cwiseAbs() + at_b.cwiseAbs() + mean.cwiseAbs();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    const double place = isTurned() ? places.norm() : places[axis];
+    slack[k] = kUlp * (half_a[axis] + half_b[axis] + place);
+  }
+  return truthWithin(solid, slack);
+}
+
+Truth BoxScene::truthWithin(bool solid, const std::array<Precise, 3>& slack) const {
+  std::array<Precise, 3> centre, sum, a_in_b, b_in_a, deviation, less;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
     centre[k] = Precise(at_b[axis]) - at_a[axis] - mean[axis];
@@ -92,16 +117,16 @@ Truth BoxScene::truth(bool solid) const {
     b_in_a[k] = -a_in_b[k];
     const double variance = sigma[axis] * sigma[axis];
     deviation[k] = covariance_matrix ? Precise(sqrt(Precise(variance))) : Precise(sigma[axis]);
+    less[k] = -slack[k];
   }
-  if (isTurned()) centre = preciseCoordinates(turn, centre);
-  const Precise slack = poseRounding(*this);
-  Truth truth{preciseBoxMass(rangesAround(centre, sum, deviation, -slack)),
+  if (isTurned()) centre = preciseCoordinates(frame(), centre);
+  Truth truth{preciseBoxMass(rangesAround(centre, sum, deviation, less)),
               preciseBoxMass(rangesAround(centre, sum, deviation, slack))};
   if (solid) return truth;
   truth.lower -= containedMass(centre, a_in_b, deviation, slack) +
                  containedMass(centre, b_in_a, deviation, slack);
-  truth.upper -= containedMass(centre, a_in_b, deviation, -slack) +
-                 containedMass(centre, b_in_a, deviation, -slack);
+  truth.upper -= containedMass(centre, a_in_b, deviation, less) +
+                 containedMass(centre, b_in_a, deviation, less);
   if (truth.lower < 0) truth.lower = 0;
   return truth;
 }
@@ -118,12 +143,13 @@ StabilityCase boxCase(const BoxScene& scene, BoxForm form, StabilityRandom& rand
   StabilityCase result;
   result.a = geometry(scene.half_a);
   result.b = geometry(scene.half_b);
-  result.pose_a.linear() = result.pose_b.linear() = scene.turn.toRotationMatrix();
+  result.pose_a.linear() = result.pose_b.linear() = scene.frame();
   result.pose_a.translation() = scene.at_a;
   result.pose_b.translation() = scene.at_b;
   result.displacement = {{1.0, scene.displacement()}};
   result.contact = form == BoxForm::solids ? ContactMeaning::solid : ContactMeaning::fcl;
   result.truth = scene.truth(form != BoxForm::surfaces);
+  result.nearby = scene.nearby(form != BoxForm::surfaces);
   return result;
 }
 

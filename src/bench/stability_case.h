@@ -6,6 +6,7 @@
 #include <fcl/geometry/collision_geometry.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct StabilityCase {
   std::vector<GaussianMixture::Component> displacement;  ///< one, or a mixture
   ContactMeaning contact = ContactMeaning::fcl;
   Truth truth;
+  std::optional<Truth> nearby;  ///< of P with all inputs moved by one ε, where that is known
 };
 
 /// Scenes of one kind.
@@ -78,6 +80,15 @@ struct BoxScene {
 
   /// Of the boxes as solids or, if not `solid`, as surfaces: then one inside the other is free.
   Truth truth(bool solid) const;
+
+  /// The least and the largest that P may be with lengths and positions moved by one ε each.
+  Truth nearby(bool solid) const;
+
+  /// What the boxes are turned by: the axes that the displacement reports, in the order of sigma.
+  Eigen::Matrix3d frame() const;
+
+ private:
+  Truth truthWithin(bool solid, const std::array<Precise, 3>& slack) const;
 };
 
 /// How the boxes of a scene are made.

@@ -74,17 +74,24 @@ Precise SlantedStrip::mass() const {
   return sum;
 }
 
-std::array<Precise, 3> preciseCoordinates(const Eigen::Quaterniond& axes,
+std::array<Precise, 3> preciseCoordinates(const Eigen::Matrix3d& axes,
                                           const std::array<Precise, 3>& world) {
-  const Precise w = axes.w(), x = axes.x(), y = axes.y(), z = axes.z();
-  const Precise scale = 2 / (w * w + x * x + y * y + z * z);
-  const Precise rotation[3][3] = {
-      {1 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y)},
-      {scale * (x * y + w * z), 1 - scale * (x * x + z * z), scale * (y * z - w * x)},
-      {scale * (x * z - w * y), scale * (y * z + w * x), 1 - scale * (x * x + y * y)}};
-  std::array<Precise, 3> local;
+  using Vector = std::array<Precise, 3>;
+  const auto cross = [](const Vector& p, const Vector& q) {
+    return Vector{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+  };
+  const auto dot = [](const Vector& p, const Vector& q) {
+    return Precise(p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+  };
+  std::array<Vector, 3> column;
   for (std::size_t k = 0; k < 3; ++k) {
-    local[k] = rotation[0][k] * world[0] + rotation[1][k] * world[1] + rotation[2][k] * world[2];
+    const Eigen::Vector3d axis = axes.col(static_cast<Eigen::Index>(k));
+    column[k] = {axis.x(), axis.y(), axis.z()};
+  }
+  Vector local;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector across = cross(column[(k + 1) % 3], column[(k + 2) % 3]);
+    local[k] = dot(across, world) / dot(across, column[k]);
   }
   return local;
 }

@@ -50,9 +50,9 @@ struct SlantedStrip {
   Precise mass() const;
 };
 
-/// The coordinates of a sum of world vectors along the axes of a rotation, without rounding: the
-/// quaternion is normalised in high precision.
-std::array<Precise, 3> preciseCoordinates(const Eigen::Quaterniond& axes,
+/// What a world vector has as coordinates along the columns of a matrix, without rounding: by
+/// Cramer's rule, as the matrix is a rotation only to rounding.
+std::array<Precise, 3> preciseCoordinates(const Eigen::Matrix3d& axes,
                                           const std::array<Precise, 3>& world);
 
 }  // namespace fcl_prob::cli

@@ -239,4 +239,15 @@ int MinkowskiSum::vertex(int i, int j, FaceSet& sum) {
   return vertex_index_[key];
 }
 
+std::vector<std::array<int, 2>> MinkowskiSum::vertexPairs(const FaceSet& sum) const {
+  std::vector<std::array<int, 2>> pairs(sum.vertices().size());
+  const std::size_t of_q = q_->vertices.size();
+  for (std::size_t key = 0; key < p_->vertices.size() * of_q; ++key) {
+    if (vertex_stamp_[key] != stamp_) continue;
+    pairs[static_cast<std::size_t>(vertex_index_[key])] = {static_cast<int>(key / of_q),
+                                                           static_cast<int>(key % of_q)};
+  }
+  return pairs;
+}
+
 }  // namespace fcl_prob::detail

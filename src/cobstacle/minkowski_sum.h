@@ -3,6 +3,7 @@
 // The Minkowski sum of two convex polytopes by merging their faces.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,6 +30,9 @@ class MinkowskiSum {
   /// of facets of the sum is its whole boundary.
   std::optional<double> compute(const ConvexMesh& p, const ConvexMesh& q, FaceSet& sum,
                                 const Interruption& interruption = {});
+
+  /// Of the sum computed last: the vertices of P and Q that each of its vertices is the sum of.
+  std::vector<std::array<int, 2>> vertexPairs(const FaceSet& sum) const;
 
  private:
   /// How the vertices of one polytope lie along the face normals of the other.

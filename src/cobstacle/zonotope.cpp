@@ -42,16 +42,17 @@ bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 }  // namespace
 
-void Zonotope::addGenerator(const Eigen::Vector3d& generator) {
-  if (generator.isZero(0.0)) return;
+Zonotope::Place Zonotope::addGenerator(const Eigen::Vector3d& generator) {
+  if (generator.isZero(0.0)) return {};
   for (int i = 0; i < count_; ++i) {
     if (!parallel(generators_[i], generator)) continue;
-    generators_[i] +=
-        generators_[i].dot(generator) >= 0.0 ? generator : Eigen::Vector3d(-generator);
-    return;
+    const double sign = generators_[i].dot(generator) >= 0.0 ? 1.0 : -1.0;
+    generators_[i] += sign * generator;
+    return {i, sign};
   }
   assert(count_ < kMaxGenerators);
-  generators_[count_++] = generator;
+  generators_[count_] = generator;
+  return {count_++, 1.0};
 }
 
 std::vector<Eigen::Vector3d> Zonotope::corners() const {
@@ -89,9 +90,10 @@ Eigen::Vector3d Zonotope::supportPoint(const Eigen::Vector3d& direction) const {
 }
 
 int Zonotope::vertexIndex(unsigned signs, std::array<int, 1u << kMaxGenerators>& indices,
-                          FaceSet& faces) const {
+                          FaceSet& faces, std::vector<unsigned>* signs_of_all) const {
   int& index = indices[signs];
   if (index >= 0) return index;
+  if (signs_of_all) signs_of_all->push_back(signs);
   Eigen::Vector3d point = centre_;
   for (int i = 0; i < count_; ++i) {
     point += (signs >> i) & 1u ? generators_[i] : Eigen::Vector3d(-generators_[i]);
@@ -99,15 +101,17 @@ int Zonotope::vertexIndex(unsigned signs, std::array<int, 1u << kMaxGenerators>&
   return index = faces.addVertex(point);
 }
 
-std::optional<double> Zonotope::faces(FaceSet& faces) const {
+std::optional<double> Zonotope::faces(FaceSet& faces, std::vector<unsigned>* signs) const {
   for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
-    if (const auto defect = facesPerturbed(attempt, faces)) return defect;
+    if (const auto defect = facesPerturbed(attempt, faces, signs)) return defect;
   }
   return std::nullopt;
 }
 
-std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) const {
+std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces,
+                                               std::vector<unsigned>* signs_of_all) const {
   faces.clear();
+  if (signs_of_all) signs_of_all->clear();
   const double unit = lengthUnit();
   Generators scaled;
   Generators moved;
@@ -137,7 +141,9 @@ std::optional<double> Zonotope::facesPerturbed(int attempt, FaceSet& faces) cons
       const unsigned gi = 1u << i;
       const unsigned gj = 1u << j;
       const unsigned lower = all & ~upper & ~gi & ~gj;
-      const auto vertex = [&](unsigned signs) { return vertexIndex(signs, indices, faces); };
+      const auto vertex = [&](unsigned signs) {
+        return vertexIndex(signs, indices, faces, signs_of_all);
+      };
       faces.addFace(
           {vertex(upper), vertex(upper | gi), vertex(upper | gi | gj), vertex(upper | gj)});
       faces.addFace(

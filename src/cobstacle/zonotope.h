@@ -25,9 +25,16 @@ class Zonotope {
   Zonotope() = default;
   explicit Zonotope(const Eigen::Vector3d& centre) : centre_(centre) {}
 
+  /// Which generator a segment has become part of, and whether as it is (1) or turned around (-1);
+  /// none (-1) of a segment without length.
+  struct Place {
+    int generator = -1;
+    double sign = 1.0;
+  };
+
   /// Adds a segment [-generator, generator]; one parallel to an earlier one (to 1e-14) is merged
   /// with it.
-  void addGenerator(const Eigen::Vector3d& generator);
+  Place addGenerator(const Eigen::Vector3d& generator);
 
   const Eigen::Vector3d& centre() const { return centre_; }
   void translate(const Eigen::Vector3d& by) { centre_ += by; }
@@ -47,14 +54,17 @@ class Zonotope {
   /// Writes the 2·n(n−1)/2 parallelograms of the boundary; coplanar ones tile their face. Returns
   /// how far the zonotope may reach out of them because of ties (beyond rounding; nearly always 0),
   /// or nothing if rounding spoilt the surface (which has not been seen; `faces` is then unusable).
-  std::optional<double> faces(FaceSet& faces) const;
+  /// \param signs  if given, set to what each vertex is a sum of: bit i for the generator i as it
+  /// is
+  std::optional<double> faces(FaceSet& faces, std::vector<unsigned>* signs = nullptr) const;
 
  private:
   using Generators = std::array<Eigen::Vector3d, kMaxGenerators>;
 
-  int vertexIndex(unsigned signs, std::array<int, 1u << kMaxGenerators>& indices,
-                  FaceSet& faces) const;
-  std::optional<double> facesPerturbed(int attempt, FaceSet& faces) const;
+  int vertexIndex(unsigned signs, std::array<int, 1u << kMaxGenerators>& indices, FaceSet& faces,
+                  std::vector<unsigned>* signs_of_all) const;
+  std::optional<double> facesPerturbed(int attempt, FaceSet& faces,
+                                       std::vector<unsigned>* signs) const;
   static double defectOf(const Generators& generators, int count, int i, int j, unsigned upper);
   double lengthUnit() const;
 

@@ -16,6 +16,10 @@ namespace {
 // Rounding of the heights and rectangles of the slabs.
 constexpr double kSlabRounding = 1 + 1e-9;
 
+// Thinner layers are as heavy as their density tells, which is a normal double up to this height.
+constexpr double kThinLayer = 1e-8;
+constexpr double kFarthestLayer = 37.5;
+
 // The parts sgn(h) erfc(|h|/√2) ω of the tail form.
 void addFullAngles(const PolytopeBoundary& boundary, EdgeSum& sum) {
   for (const FaceFrame& face : boundary.faces) {
@@ -44,6 +48,18 @@ double areaMass(const FaceFrame& face, double reach) {
   return std::min(rectangle, normalTailMass(face.contour_distance - 2 * reach));
 }
 
+// Beyond a height and before it, in one dimension.
+SlabMass layerMass(double height, double depth) {
+  const double farthest = std::abs(height) + depth;
+  if (depth < kThinLayer && farthest < kFarthestLayer) {
+    // An interval of doubles would be no thinner than they are spaced there.
+    const double most = depth * normalDensity(height) * std::exp(farthest * depth);
+    return {most, most};
+  }
+  const double spaced = depth + kEpsilon * std::abs(height);
+  return {normalIntervalMass(height, height + spaced), normalIntervalMass(height - spaced, height)};
+}
+
 }  // namespace
 
 std::optional<MassWithError> boundaryMass(const PolytopeBoundary& boundary,
@@ -68,13 +84,12 @@ SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*di
                          double extra) {
   SlabMass sum;
   for (const FaceFrame& face : boundary.faces) {
-    const double reach = face.*distance + extra;
+    const double reach = face.*distance + extra + face.displacement;
     if (reach == 0) continue;
-    const double area = kSlabRounding * areaMass(face, reach + face.deviation);
-    // A reach below the spacing of doubles there would be rounded away.
-    const double depth = reach + kEpsilon * std::abs(face.height);
-    sum.gain += area * normalIntervalMass(face.height, face.height + depth);
-    sum.loss += area * normalIntervalMass(face.height - depth, face.height);
+    const double area = kSlabRounding * areaMass(face, reach + face.deviation + boundary.shift);
+    const SlabMass layer = layerMass(face.height, reach);
+    sum.gain += area * layer.gain;
+    sum.loss += area * layer.loss;
   }
   return sum;
 }

@@ -9,6 +9,7 @@
 #include "gaussian/boundary_mass.h"
 #include "gaussian/face_mass.h"
 #include "gaussian/normal_density.h"
+#include "gaussian/polytope_effort.h"
 
 namespace fcl_prob {
 namespace {
@@ -33,7 +34,7 @@ double surfaceError(const ConvexPolytope& polytope, const PolytopeBoundary& boun
                     double vertex_error) {
   const detail::SlabMass slabs =
       detail::surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error);
-  return std::min(farthestVertex(polytope) + vertex_error, kFarthestMass) *
+  return std::min(farthestVertex(polytope) + vertex_error + boundary.shift, kFarthestMass) *
          (slabs.gain + slabs.loss);
 }
 
@@ -55,14 +56,8 @@ VectorBounds around(const Eigen::Vector3d& middle, double error) {
   return {middle.array() - error, middle.array() + error};
 }
 
-}  // namespace
-
-VectorBounds polytopeMoment(const ConvexPolytope& polytope, double vertex_error) {
-  if (polytope.faces.empty()) {
-    const double most = std::min(farthestVertex(polytope) + vertex_error, kFarthestMass);
-    return around(Eigen::Vector3d::Zero(), most * polytopeMass(polytope, vertex_error).upper);
-  }
-  const PolytopeBoundary boundary = detail::polytopeBoundary(polytope);
+VectorBounds momentOf(const ConvexPolytope& polytope, const PolytopeBoundary& boundary,
+                      double vertex_error) {
   const std::vector<detail::MassWithError> masses = detail::faceMasses(boundary);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double error = kUnderflow;
@@ -73,6 +68,28 @@ VectorBounds polytopeMoment(const ConvexPolytope& polytope, double vertex_error)
   }
   return around(moment,
                 error + gapError(boundary) + surfaceError(polytope, boundary, vertex_error));
+}
+
+}  // namespace
+
+VectorBounds polytopeMoment(const ConvexPolytope& polytope, double vertex_error) {
+  if (polytope.faces.empty()) {
+    const double most = std::min(farthestVertex(polytope) + vertex_error, kFarthestMass);
+    return around(Eigen::Vector3d::Zero(), most * polytopeMass(polytope, vertex_error).upper);
+  }
+  return momentOf(polytope, detail::polytopeBoundary(polytope), vertex_error);
+}
+
+VectorBounds detail::polytopeMoment(const HeavyPart& heavy, const Eigen::Vector3d& vertex_error) {
+  const ConvexPolytope rounded = heavy.polytope.seenFrom(LongVector3::Zero());
+  PolytopeBoundary boundary = polytopeBoundary(rounded);
+  displaceFaces(vertex_error + heavy.cut_error, boundary);
+  VectorBounds moment = momentOf(rounded, boundary, kEpsilon * farthestVertex(rounded));
+  // ∫ |y| φ over what is beyond reach along an axis, by Mills' ratio.
+  const double left_out = heavy.reach < kInfinity ? 12.0 * normalDensity(heavy.reach) : 0.0;
+  moment.lower.array() -= left_out;
+  moment.upper.array() += left_out;
+  return moment;
 }
 
 }  // namespace fcl_prob

@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "fcl_prob/convex_polytope.h"
+#include "gaussian/long_vector.h"
 #include "gaussian/solid_part.h"
 
 namespace fcl_prob::detail {
-
-using LongVector3 = Eigen::Matrix<long double, 3, 1>;
-using LongMatrix3 = Eigen::Matrix<long double, 3, 3>;
 
 /// The parts around a polytope K. They are computed from normals that are rounded, but neighbours
 /// share theirs, so that the parts of up to a radius r, added to K, make a region V' with

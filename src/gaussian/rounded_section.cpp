@@ -17,6 +17,9 @@ using Vector = Eigen::Vector3d;
 /// Normals that are less apart turn by less than rounding off a chord.
 constexpr long double kShortTurn = 1e-8L;
 
+/// Slopes and heights of unit arcs that rounding tells nothing of.
+constexpr long double kLevelSlope = 1e-14L;
+
 /// Arcs are no longer than this.
 constexpr double kLongestArc = 1.6;
 
@@ -151,18 +154,19 @@ class SectionBuilder {
     std::vector<SectionCrossing> crossings;
     const LongVector3 first = wedge.first.cast<long double>(),
                       last = wedge.last.cast<long double>();
-    const long double turn = std::atan2(first.cross(last).norm(), first.dot(last));
     // Anticlockwise, seen from outside: up the arc at `from`, along, down the arc at `to`, back.
     addArcCrossings(wedge, wedge.from, true, crossings);
     if (isAbove(wedge.from, wedge.last) != isAbove(wedge.to, wedge.last)) {
       crossings.push_back({isAbove(wedge.from, wedge.last),
-                           crossingOf(wedge.from, wedge.to, wedge.last), last, turn});
+                           crossingOf(wedge.from, wedge.to, wedge.last), last,
+                           turnOf(first, last)});
     }
     addArcCrossings(wedge, wedge.to, false, crossings);
     if (isAbove(wedge.from, wedge.first) != isAbove(wedge.to, wedge.first)) {
       crossings.push_back({isAbove(wedge.to, wedge.first),
                            crossingOf(wedge.from, wedge.to, wedge.first), first, 0.0L});
     }
+    if (crossings.empty()) return true;
     std::sort(crossings.begin(), crossings.end(),
               [](const SectionCrossing& x, const SectionCrossing& y) { return x.angle < y.angle; });
     std::vector<SectionCrossing> entries, exits;
@@ -174,6 +178,10 @@ class SectionBuilder {
     return true;
   }
 
+  static long double turnOf(const LongVector3& first, const LongVector3& last) {
+    return std::atan2(first.cross(last).norm(), first.dot(last));
+  }
+
   /// Where a corner moved along the arc of normals crosses the plane: the height is that of the
   /// corner and radius (a cos θ + b sin θ).
   void addArcCrossings(const EdgeWedge& wedge, int corner, bool upwards,
@@ -181,11 +189,14 @@ class SectionBuilder {
     const LongVector3 first = wedge.first.cast<long double>(),
                       last = wedge.last.cast<long double>();
     const LongVector3 aside = (last - first * first.dot(last) / first.squaredNorm()).normalized();
-    const long double turn = std::atan2(first.cross(last).norm(), first.dot(last));
     const long double a = plane_.normal.dot(first), b = plane_.normal.dot(aside);
-    const long double most = std::hypot(a, b), top = std::atan2(b, a);
     const bool above = isAbove(corner, wedge.first), ends_above = isAbove(corner, wedge.last);
     const long double level = -heights_[static_cast<std::size_t>(corner)] / radius_;
+    const long double side = above ? -1.0L : 1.0L;
+    const bool turns_back = mayTurnBack(first, last, side * a, side * b, side * level);
+    if (above == ends_above && !turns_back) return;
+    const long double turn = turnOf(first, last);
+    const long double most = std::hypot(a, b), top = std::atan2(b, a);
     std::vector<long double> angles;
     const auto within = [&](long double angle) { return angle > 0.0L && angle < turn; };
     const long double away = std::acos(std::clamp(level / most, -1.0L, 1.0L));
@@ -209,6 +220,15 @@ class SectionBuilder {
       corners_[static_cast<std::size_t>(corner)].push_back({!enters, point, normal, 0.0L});
       is_above = !is_above;
     }
+  }
+
+  /// Whether a cos θ + b sin θ may be largest between two normals, and above a level there: most
+  /// arcs are known by that not to cross the plane.
+  static bool mayTurnBack(const LongVector3& first, const LongVector3& last, long double a,
+                          long double b, long double level) {
+    const long double slope_at_last = b * first.dot(last) - a * first.cross(last).norm();
+    return b > -kLevelSlope && slope_at_last < kLevelSlope &&
+           level < std::abs(a) + std::abs(b) + kLevelSlope;
   }
 
   /// Of two angles, up to whole turns, that which is nearest to what is within.

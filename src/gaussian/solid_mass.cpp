@@ -81,17 +81,14 @@ HalfSpace middlePlane(const Vector3d& anchor, const ConvexPolytope& body) {
 
 class SolidIntegral {
  public:
-  SolidIntegral(const ConvexPolytope& polytope, double lower_bound, const MassEffort& effort)
-      : anchor_(polytope.vertices.front()),
+  SolidIntegral(const Vector3d& anchor, const ConvexPolytope& body, double lower_bound,
+                const MassEffort& effort)
+      : anchor_(anchor),
         piece_tolerance_(std::max(kPieceTolerance, kPieceShareOfEnough * effort.enough)),
         negligible_(std::max(kNegligible, kNegligibleShareOfEnough * effort.enough)),
         interruption_(effort.interruption) {
-    ConvexPolytope body = polytope;
-    for (Vector3d& vertex : body.vertices) {
-      vertex -= anchor_;
-      size_ = std::max(size_, vertex.norm());
-    }
-    open_.emplace_back(anchor_, std::move(body));
+    for (const Vector3d& vertex : body.vertices) size_ = std::max(size_, vertex.norm());
+    open_.emplace_back(anchor_, body);
     known_ = std::max(lower_bound, open_.back().volume * open_.back().density_lower);
   }
 
@@ -178,7 +175,16 @@ class SolidIntegral {
 
 std::optional<SolidMass> solidMass(const ConvexPolytope& polytope, double lower_bound,
                                    int max_pieces, const MassEffort& effort) {
-  return SolidIntegral(polytope, lower_bound, effort).integrate(max_pieces);
+  const Vector3d anchor = polytope.vertices.front();
+  ConvexPolytope body = polytope;
+  for (Vector3d& vertex : body.vertices) vertex -= anchor;
+  return solidMassAround(anchor, body, lower_bound, max_pieces, effort);
+}
+
+std::optional<SolidMass> solidMassAround(const Vector3d& point, const ConvexPolytope& polytope,
+                                         double lower_bound, int max_pieces,
+                                         const MassEffort& effort) {
+  return SolidIntegral(point, polytope, lower_bound, effort).integrate(max_pieces);
 }
 
 }  // namespace fcl_prob::detail

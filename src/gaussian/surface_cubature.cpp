@@ -98,6 +98,32 @@ struct FluxSums {
   }
 };
 
+/// Sums of (2π)^(3/2) φ times the area, and of what their rounding is told from.
+struct MomentSums {
+  Eigen::Vector3d flux = Eigen::Vector3d::Zero();
+  double magnitude = 0.0, density = 0.0;
+
+  void add(const PatchPoints& points, double weight, const Lanes& weights) {
+    const Lanes square = points.value[0] * points.value[0] + points.value[1] * points.value[1] +
+                         points.value[2] * points.value[2];
+    Lanes field(0.0);
+    for (std::size_t k = 0; k < Lanes::kCount; ++k) {
+      if (!(weights[k] > 0.0)) continue;
+      field[k] = weight * weights[k] * std::exp(-0.5 * square[k]);
+      density += field[k];
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t i = (c + 1) % 3, j = (c + 2) % 3;
+      const Lanes area = points.first[i] * points.second[j] - points.first[j] * points.second[i];
+      for (std::size_t k = 0; k < Lanes::kCount; ++k) {
+        if (!(weights[k] > 0.0)) continue;
+        flux[static_cast<Eigen::Index>(c)] -= field[k] * area[k];
+        magnitude += field[k] * std::abs(area[k]);
+      }
+    }
+  }
+};
+
 PartPlan planPatch(const PatchCell& cell, const ParameterBox& box, double target,
                    EllipseGuess& guess) {
   PartPlan plan;
@@ -132,11 +158,12 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
     divideWhereBent(patch, box, changes, depth);
     return;
   }
-  const PatchCell cell(patch, box, farNormal(patch, box));
+  const PatchCell cell(patch, box, farNormal(patch, box), components_);
   const PartBound real = cell.bound(ComplexBox(box));
   const double all = volumeOf(box) * supremumOf(real) * kBoundSlack;
   if (all <= target || is_last) {
     sum_.error += kInverseTwoPi * all + kFluxUnderflow;
+    sum_.moment_error += kDensityScale * all + kFluxUnderflow;
     if (displacement_ > 0.0) sum_.error += kInverseTwoPi * layerOver(cell, box, real);
     if (!(all < kInfinity)) sum_.error = kInfinity;
     return;
@@ -149,6 +176,7 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
     for (const ParameterBox& half : halves(box, plan)) addBox(patch, half, depth + 1);
   } else {
     sum_.error += kInverseTwoPi * plan.error * kBoundSlack;
+    sum_.moment_error += kDensityScale * plan.error * kBoundSlack;
     evaluate(patch, cell, box, plan.points);
   }
 }
@@ -186,10 +214,13 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
   const PartRule& first = partRule(points[0]);
   const LaneRule second(partRule(points[1]), box);
   FluxSums sums;
+  MomentSums moments;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     const PatchLine line(patch, box.centre[0] + box.half[0] * first.nodes[i]);
     for (std::size_t j = 0; j < second.count; ++j) {
-      sums.add(line.at(second.nodes[j]), first.weights[i], second.weights[j]);
+      const PatchPoints at = line.at(second.nodes[j]);
+      sums.add(at, first.weights[i], second.weights[j]);
+      if (withMoment()) moments.add(at, first.weights[i], second.weights[j]);
     }
   }
   const double scale = kInverseTwoPi * box.half[0] * box.half[1];
@@ -203,17 +234,25 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
       (kFluxRounding + layerAt(reach)) * rounding.first_length * rounding.second_length;
   sum_.mass += scale * sums.flux;
   sum_.error += scale * (sums.magnitude * relative + sums.density * of_area) + kFluxUnderflow;
+  const double moment_scale = kDensityScale * box.half[0] * box.half[1];
+  sum_.moment += moment_scale * moments.flux;
+  sum_.moment_error +=
+      moment_scale * (moments.magnitude * relative + moments.density * of_area) + kFluxUnderflow;
   if (!(rounding.position < 1e-3)) sum_.error = kInfinity;
 }
 
-Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
-                  const Interruption& interruption, const SurfaceAccuracy& accuracy) {
+namespace {
+
+/// The best of some attempts.
+SurfaceSum sumOver(const std::vector<SurfacePatch>& surface, double guess,
+                   const Interruption& interruption, const SurfaceAccuracy& accuracy,
+                   AreaComponents components) {
   const double count = static_cast<double>(surface.size()) + 30.0;
   SurfaceSum best{0.0, kInfinity};
   double about = std::clamp(guess, kUnderflow, 0.1);
   for (int attempt = 0; attempt < kSurfaceAttempts; ++attempt) {
     SurfaceCubature cubature({accuracy.target * about / count, kMostSurfaceBoxes}, interruption,
-                             accuracy.displacement);
+                             accuracy.displacement, components);
     for (const SurfacePatch& patch : surface) cubature.add(patch);
     // Rounding stays, whatever rules leave.
     const bool stays = cubature.sum().error > 0.5 * best.error;
@@ -225,9 +264,30 @@ Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
     if (isDue(interruption)) break;
     about = std::max(std::min(next, 0.3 * about), kUnderflow);
   }
-  if (!(best.error < kInfinity)) return {0.0, 1.0};
-  const double error = best.error * (1.0 + 1e-9) + kUnderflow;
-  return {best.mass - error, best.mass + error};
+  return best;
+}
+
+Bounds boundsOf(const SurfaceSum& sum) {
+  if (!(sum.error < kInfinity)) return {0.0, 1.0};
+  const double error = sum.error * (1.0 + 1e-9) + kUnderflow;
+  return {sum.mass - error, sum.mass + error};
+}
+
+}  // namespace
+
+Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
+                  const Interruption& interruption, const SurfaceAccuracy& accuracy) {
+  return boundsOf(sumOver(surface, guess, interruption, accuracy, AreaComponents::along_z));
+}
+
+SurfaceMass massAndMomentWithin(const std::vector<SurfacePatch>& surface, double guess,
+                                const Interruption& interruption, const SurfaceAccuracy& accuracy) {
+  const SurfaceSum sum = sumOver(surface, guess, interruption, accuracy, AreaComponents::all);
+  SurfaceMass result{boundsOf(sum), std::nullopt};
+  const double error = sum.moment_error * (1.0 + 1e-9) + kUnderflow;
+  if (!(sum.error < kInfinity && error < kInfinity)) return result;
+  result.moment = {sum.moment.array() - error, sum.moment.array() + error};
+  return result;
 }
 
 }  // namespace fcl_prob::detail

@@ -6,19 +6,23 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/interruption.h"
 #include "fcl_prob/bounds.h"
+#include "fcl_prob/polytope_mass.h"
 #include "gaussian/part_cubature.h"
 #include "gaussian/part_rules.h"
 #include "gaussian/surface_patch.h"
 
 namespace fcl_prob::detail {
 
-/// A sum over patches and a bound on its error.
+/// A sum over patches and a bound on its error (the moment's: of each component).
 struct SurfaceSum {
   double mass = 0.0, error = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double moment_error = 0.0;
 };
 
 /// Adds up the flux of F = -e_z φ(x) φ(y) Q(z), Q(z) = erfc(z/√2)/2, which has the divergence
@@ -29,13 +33,20 @@ struct SurfaceSum {
 /// |F| <= exp((|Im x|² - d²)/2) / 2π.
 ///
 /// Rules and their errors are as in PartCubature, of two parameters.
+///
+/// The moment ∫ y φ(y) dy within is the flux of -φ e_x, -φ e_y and -φ e_z, whose bound is that of
+/// 2π F over (2π)^(3/2): the same rules serve, chosen for the largest component of the area.
 class SurfaceCubature {
  public:
   /// \param interruption  outlives this; once it is due, nothing is known of what is left
   /// \param displacement    how far the patches may be from the true surface
+  /// \param components  all: the moment is found besides, of the surface as it is
   SurfaceCubature(const CubatureLimits& limits, const Interruption& interruption,
-                  double displacement = 0.0)
-      : limits_(limits), interruption_(interruption), displacement_(displacement) {}
+                  double displacement = 0.0, AreaComponents components = AreaComponents::along_z)
+      : limits_(limits),
+        interruption_(interruption),
+        displacement_(displacement),
+        components_(components) {}
 
   void add(const SurfacePatch& patch);
 
@@ -50,10 +61,12 @@ class SurfaceCubature {
   double layerAt(double reach) const;
   void evaluate(const SurfacePatch& patch, const PatchCell& cell, const ParameterBox& box,
                 const std::array<double, 3>& points);
+  bool withMoment() const { return components_ == AreaComponents::all; }
 
   CubatureLimits limits_;
   const Interruption& interruption_;
   double displacement_;
+  AreaComponents components_;
   std::size_t cells_ = 0;
   std::array<std::size_t, 3> guess_{5, 5, 5};
   SurfaceSum sum_;
@@ -66,10 +79,20 @@ struct SurfaceAccuracy {
   double displacement = 0.0;
 };
 
+struct SurfaceMass {
+  Bounds mass{0.0, 1.0};
+  std::optional<VectorBounds> moment;
+};
+
 /// The mass within a closed surface that goes once around what it encloses, as far as cubature and
 /// the rounding of its terms tell: lower may be negative.
 /// \param guess  of the mass; not too small. What it is wrong by costs time only.
 Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
                   const Interruption& interruption, const SurfaceAccuracy& accuracy = {});
+
+/// With the moment ∫ y φ(y) dy, which takes somewhat more points.
+SurfaceMass massAndMomentWithin(const std::vector<SurfacePatch>& surface, double guess,
+                                const Interruption& interruption,
+                                const SurfaceAccuracy& accuracy = {});
 
 }  // namespace fcl_prob::detail

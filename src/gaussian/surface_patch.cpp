@@ -308,8 +308,8 @@ NormalChanges normalChanges(const SurfacePatch& patch, const ParameterBox& box) 
 }
 
 PatchCell::PatchCell(const SurfacePatch& patch, const ParameterBox& box,
-                     const Eigen::Vector3d& normal)
-    : patch_(patch), normal_(normal) {
+                     const Eigen::Vector3d& normal, AreaComponents components)
+    : patch_(patch), normal_(normal), components_(components) {
   const auto [s, t, none] = parameters(box);
   const Jet<TaylorModel> jet = evaluate(patch, s, t);
   double middle = 0.0, square = 0.0;
@@ -337,16 +337,23 @@ PartBound PatchCell::bound(const ComplexBox& box) const {
 }
 
 PartBound PatchCell::boundOf(const PatchModel& jet, const ComplexBox& box) const {
-  const TaylorModel area = jet.first[0] * jet.second[1] - jet.first[1] * jet.second[0];
+  double area = 0.0;
+  for (const std::size_t k : {2, 0, 1}) {
+    if (k != 2 && components_ == AreaComponents::along_z) break;
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const TaylorModel component = jet.first[i] * jet.second[j] - jet.first[j] * jet.second[i];
+    if (!(component.radius < kInfinity)) return kUnboundedPatch;
+    area = std::max(area, component.most());
+  }
   const double fall = mostMean(normal_, jet.first) * box.real.half[0] +
                       mostMean(normal_, jet.second) * box.real.half[1];
   const double first = mostLength(jet.first), second = mostLength(jet.second);
   const double reach = reach_ + first * box.real.half[0] + second * box.real.half[1];
   const double imaginary =
       box.parameter < 0 ? 0.0 : box.imaginary * (box.parameter == 0 ? first : second);
-  if (!(area.radius < kInfinity && fall < kInfinity && reach < kInfinity)) return kUnboundedPatch;
+  if (!(fall < kInfinity && reach < kInfinity)) return kUnboundedPatch;
   // Differences of corners are rounded, too.
-  const double weight = area.most() + kSlopeRounding * first * second;
+  const double weight = area + kSlopeRounding * first * second;
   return {weight * kPatchSlack, height_ - fall, imaginary * imaginary, reach};
 }
 

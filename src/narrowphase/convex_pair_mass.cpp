@@ -66,7 +66,8 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   if (frame.rank >= 2 && isEllipsoidWithPolytope(a, b)) {
-    known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, interruption));
+    const RoundedEffort effort{false, interruption};
+    known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, effort).mass);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   if (frame.rank == 3 && isCurvedPair(a, b)) {

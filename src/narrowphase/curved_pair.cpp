@@ -24,6 +24,10 @@ namespace {
 /// Of the mass of the box around a body.
 constexpr double kGuess = 0.05;
 
+/// Beyond a reach of sqrt(kBeyondReach - 2 log P) there is less than this share of P.
+constexpr double kBeyondReach = 80.0;
+constexpr double kShareBeyond = 1e-15;
+
 /// By support functions, for GJK to propose directions.
 class ShapeObstacle final : public CObstacle {
  public:
@@ -83,12 +87,31 @@ double farRounding(const CurvedSum& sum) {
 
 /// With V' within δ of a convex V, and V' holding a ball of radius ϱ about c: c + λ(V' - c) is in V
 /// for λ = 1 - δ/ϱ, and V in the same for 1/λ. Masses of these are at least λ³ exp(-(1 - λ)|c|²/2)
-/// of each other, |·|² being convex.
-Bounds widened(const Bounds& mass, double error, double inradius, double centre) {
-  if (!(error < 1e-3 * inradius)) return {0.0, 1.0};
-  const double share = 1.01 * error / inradius * (3.0 + 0.5 * centre * centre);
-  if (!(share < 0.1)) return {0.0, 1.0};
-  return {mass.lower * (1.0 - share), mass.upper * (1.0 + 1.1 * share)};
+/// of each other, |·|² being convex; and, but for what is beyond R, which weighs no more than
+/// (1 + R) exp(-R²/2), λ³ exp(-(1 - λ) R|c| - (1 - λ)² (R + |c|)²/2). Nothing if that is no use.
+/// \param least  the mass may weigh
+std::optional<double> shareBetween(double error, double inradius, double centre, double least) {
+  if (!(error < 1e-3 * inradius)) return std::nullopt;
+  const double gap = error / inradius;
+  double slope = 0.5 * centre * centre;
+  if (least > 0.0) {
+    const double reach = std::sqrt(kBeyondReach - 2.0 * std::log(least));
+    slope = std::min(slope, reach * centre + 0.5 * gap * (reach + centre) * (reach + centre));
+  }
+  const double share = 1.01 * gap * (3.0 + slope) + kShareBeyond;
+  return share < 0.1 ? std::optional<double>(share) : std::nullopt;
+}
+
+/// What is in one of the two bodies only weighs at most share and share / (1 - share) of V.
+PairMass widened(const SurfaceMass& found, double share, const LongMatrix3& map) {
+  PairMass result{{found.mass.lower * (1.0 - share), found.mass.upper * (1.0 + 1.1 * share)}, {}};
+  if (!found.moment) return result;
+  VectorBounds moment = *found.moment;
+  const double between = kOutermostMoment * 2.2 * share * std::max(result.mass.upper, 0.0);
+  moment.lower.array() -= between;
+  moment.upper.array() += between;
+  result.gradient = gradientOf(moment, map.cast<double>());
+  return result;
 }
 
 /// The difference of the points that the bodies are seen from, less the mean.
@@ -137,8 +160,15 @@ bool isCurvedPair(const ConvexBody& a, const ConvexBody& b) { return haveCurvedP
 Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                       const Interruption& interruption) {
+  return curvedPairMassAndGradient(a, pose_a, b, pose_b, displacement, false, interruption).mass;
+}
+
+PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                                   const ConvexBody& b, const fcl::Transform3d& pose_b,
+                                   const GaussianDisplacement& displacement, bool with_gradient,
+                                   const Interruption& interruption) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 3) return {0.0, 1.0};
+  if (!frame.fits || frame.rank < 3) return {};
   const LongVector3 offset = offsetOf(a, pose_a, b, pose_b, displacement.mean());
   const LongMatrix3 whitening = longWhitening(displacement);
   const ShapeObstacle obstacle(frame, shapeOf(a), shapeOf(b));
@@ -148,20 +178,25 @@ Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const
   if (map.determinant() < 0.0L) map.row(0) *= -1.0L;
   for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
     auto parts = curvedParts(a, frame.rotation_a, b, frame.rotation_b, attempt);
-    if (!parts) return {0.0, 1.0};
+    if (!parts) return {};
     parts->sum.map = map;
     parts->sum.centre = map * offset;
     const auto surface = placedSurface(*parts);
     if (!surface) continue;
     const double guess = guessOf(obstacle, direction);
-    const Bounds mass = massWithin(surface->patches, guess, interruption);
+    const SurfaceMass mass =
+        with_gradient
+            ? massAndMomentWithin(surface->patches, guess, interruption)
+            : SurfaceMass{massWithin(surface->patches, guess, interruption), std::nullopt};
     const double inradius = parts->inradius / displacement.standardDeviations().maxCoeff();
     const LongVector3 middle =
         parts->sum.centre + map * (parts->sum.frame * parts->middle.cast<long double>());
-    return widened(mass, surface->error, inradius * (1.0 - 8.0 * kEpsilon),
-                   static_cast<double>(middle.norm()) * (1.0 + kEpsilon));
+    const auto share =
+        shareBetween(surface->error, inradius * (1.0 - 8.0 * kEpsilon),
+                     static_cast<double>(middle.norm()) * (1.0 + kEpsilon), mass.mass.lower);
+    return share ? widened(mass, *share, map) : PairMass{};
   }
-  return {0.0, 1.0};
+  return {};
 }
 
 }  // namespace fcl_prob::detail

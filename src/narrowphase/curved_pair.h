@@ -6,6 +6,7 @@
 #include "base/interruption.h"
 #include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/bounds.h"
+#include "narrowphase/moment_gradient.h"
 
 namespace fcl_prob::detail {
 
@@ -18,5 +19,12 @@ bool isCurvedPair(const ConvexBody& a, const ConvexBody& b);
 Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                       const Interruption& interruption);
+
+/// The same and, if asked for, the gradient: its error is about that of the mass times how far the
+/// body is from the mean, in deviations.
+PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                                   const ConvexBody& b, const fcl::Transform3d& pose_b,
+                                   const GaussianDisplacement& displacement, bool with_gradient,
+                                   const Interruption& interruption);
 
 }  // namespace fcl_prob::detail

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "base/constants.h"
-#include "gaussian/rounded_polytope_mass.h"
 #include "gaussian/rounded_section_mass.h"
 #include "geometry/exact_sum.h"
 #include "narrowphase/long_whitening.h"
@@ -48,12 +47,12 @@ bool isEllipsoidWithPolytope(const ConvexBody& a, const ConvexBody& b) {
   return (ellipsoidOf(a) && b.isPolytope()) || (a.isPolytope() && ellipsoidOf(b));
 }
 
-Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                             const ConvexBody& b, const fcl::Transform3d& pose_b,
-                             const GaussianDisplacement& displacement,
-                             const Interruption& interruption) {
+PairMass ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                               const ConvexBody& b, const fcl::Transform3d& pose_b,
+                               const GaussianDisplacement& displacement,
+                               const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 2) return {0.0, 1.0};
+  if (!frame.fits || frame.rank < 2) return {};
   const bool first = ellipsoidOf(a) != nullptr;
   const SupportShape& ellipsoid = first ? *ellipsoidOf(a) : *ellipsoidOf(b);
   const LongVector3 semi_axes = ellipsoid.semi_axes.diagonal().cast<long double>();
@@ -81,10 +80,13 @@ Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a
   if (frame.rank == 2) {
     const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
     const MovingAxes axes{longInverseAxes(displacement) * from_ball, deviations};
-    return roundedSectionMass(body, axes, interruption);
+    return {roundedSectionMass(body, axes, effort.interruption), std::nullopt};
   }
-  const LongMatrix3 whitening = longWhitening(displacement) * from_ball;
-  return roundedPolytopeMass(body, whitening, {false, interruption}).mass;
+  const LongMatrix3 whitening = longWhitening(displacement);
+  const RoundedMass mass = roundedPolytopeMass(body, whitening * from_ball, effort);
+  PairMass result{mass.mass, std::nullopt};
+  if (mass.moment) result.gradient = gradientOf(*mass.moment, whitening.cast<double>());
+  return result;
 }
 
 }  // namespace fcl_prob::detail

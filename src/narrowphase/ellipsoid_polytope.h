@@ -3,21 +3,22 @@
 // An ellipsoid beside a polytope: where it is a ball, the polytope is swept by a ball.
 #pragma once
 
-#include "base/interruption.h"
 #include "cobstacle/pair_obstacle.h"
-#include "fcl_prob/bounds.h"
+#include "gaussian/rounded_polytope_mass.h"
+#include "narrowphase/moment_gradient.h"
 
 namespace fcl_prob::detail {
 
 /// Whether one body is an ellipsoid and the other one a polytope.
 bool isEllipsoidWithPolytope(const ConvexBody& a, const ConvexBody& b);
 
-/// Mass of such a pair under a displacement of rank 2 or 3; as roundedSectionMass() and
+/// Mass of such a pair under a displacement of rank 2 or 3, under rank 3 with its gradient if the
+/// moment is asked for; as roundedSectionMass() and
 /// roundedPolytopeMass() have it, in the linear image of the world in which the ellipsoid is the
 /// unit ball. \throws as pairFrame() does
-Bounds ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                             const ConvexBody& b, const fcl::Transform3d& pose_b,
-                             const GaussianDisplacement& displacement,
-                             const Interruption& interruption);
+PairMass ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                               const ConvexBody& b, const fcl::Transform3d& pose_b,
+                               const GaussianDisplacement& displacement,
+                               const RoundedEffort& effort);
 
 }  // namespace fcl_prob::detail

@@ -89,16 +89,6 @@ std::optional<CoreFaces> sumOfMeshes(const PairFrame& frame, const ConvexBody& a
   return result;
 }
 
-/// A mean that moves by d moves the whitened body by -W d, and the mass changes by moment·W d.
-VectorBounds gradientOf(const VectorBounds& moment, const Eigen::Matrix3d& whitening) {
-  const Eigen::Vector3d middle = moment.middle();
-  const Eigen::Vector3d half =
-      0.5 * (moment.upper - moment.lower) + 4.0 * kEpsilon * middle.cwiseAbs();
-  const Eigen::Vector3d gradient = whitening.transpose() * middle;
-  const Eigen::Vector3d error = whitening.transpose().cwiseAbs() * (1.001 * half);
-  return {gradient - error, gradient + error};
-}
-
 Eigen::Vector3d centreOf(const ConvexBody& body, bool by_centre) {
   return by_centre ? body.set().rounded()->core.centre() : Eigen::Vector3d::Zero();
 }
@@ -109,10 +99,9 @@ bool isRoundedPair(const ConvexBody& a, const ConvexBody& b) {
   return ballRadius(a) + ballRadius(b) > 0.0 && isCoreWithBall(a) && isCoreWithBall(b);
 }
 
-RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                                const ConvexBody& b, const fcl::Transform3d& pose_b,
-                                const GaussianDisplacement& displacement,
-                                const RoundedEffort& effort) {
+PairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                         const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
+                         const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   if (!frame.fits || frame.rank < 2) return {};
   const bool by_centre = a.set().rounded() && b.set().rounded();
@@ -142,7 +131,7 @@ RoundedPairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pos
   }
   const LongMatrix3 whitening = unit * longWhitening(displacement);
   const RoundedMass mass = roundedPolytopeMass(body, whitening, effort);
-  RoundedPairMass result{mass.mass, std::nullopt};
+  PairMass result{mass.mass, std::nullopt};
   if (mass.moment) result.gradient = gradientOf(*mass.moment, whitening.cast<double>() / unit);
   return result;
 }

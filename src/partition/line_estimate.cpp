@@ -83,8 +83,8 @@ constexpr double kLeftOutOfBound = 1e-6;
 
 /// Of the lines through one column.
 struct PairsOfColumn {
-  double mean = 0.0;    ///< of their masses
-  double spread = 0.0;  ///< squares of what the means of pairs are off that
+  double mean = 0.0;  ///< of their masses
+  double off = 0.0;   ///< between the means of the two pairs
   double lowest = 1.0;
   double highest = 0.0;
   double segment = 0.0;  ///< share of a line that reaches between two of them, at most
@@ -106,9 +106,8 @@ class ColumnSampler {
       means[pair] = 0.5 * (massAt(node, x, drawn) +  //
                            massAt(node, Eigen::Vector2d::Ones() - x, drawn));
     }
-    const double off = means[0] - means[1];
     drawn.mean = 0.5 * (means[0] + means[1]);
-    drawn.spread = 0.5 * off * off;
+    drawn.off = means[0] - means[1];
     return drawn;
   }
 
@@ -271,7 +270,9 @@ class LineEstimation {
     const double unit = look.spread.unit;
     const double share = node.measure / unit;
     const double jump = share * unseen / kLines;
-    const double sum_squares = share * share * pairs.spread;
+    // In units, since far out squares of masses vanish.
+    const double off = share * pairs.off;
+    const double sum_squares = 0.5 * off * off;
     // A variance that is known with ν degrees of freedom has the mean square (1 + 2/ν) of its own.
     constexpr double kFreedom = kPairs - 1 + 2;
     addSets(sum_squares, kPairs, kFreedom, jump, look.spread);
@@ -279,8 +280,7 @@ class LineEstimation {
     const double of_range = kDeviationOfRange * share * (pairs.highest - pairs.lowest);
     const double of_most =
         kDeviationOfMost * share * std::min(node.most, 2.0 * pairs.highest + 0.1 * node.most);
-    node.weight =
-        unit * unit * (0.5 * sum_squares + jump * jump + of_range * of_range + of_most * of_most);
+    node.weight = 0.5 * sum_squares + jump * jump + of_range * of_range + of_most * of_most;
   }
 
   // So many that with the next look the error is likely small enough. What may be unseen of it
@@ -307,7 +307,7 @@ class LineEstimation {
     if (growth * now > most) return false;
     const double count = std::ceil(std::min(growth, kMostGrowth) * now);
     columns_.divide(static_cast<std::size_t>(count), kVarianceOfHalf);
-    return true;
+    return columns_.inOrder().size() > static_cast<std::size_t>(now);
   }
 
   const ProbabilityRequest& request_;

@@ -8,6 +8,9 @@
 #include "base/decision.h"
 #include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
+#include "narrowphase/curved_pair.h"
+#include "narrowphase/ellipsoid_polytope.h"
+#include "narrowphase/polytope_pair.h"
 #include "narrowphase/rounded_pair.h"
 #include "query/request_limits.h"
 
@@ -24,6 +27,9 @@ constexpr double kQuadratureWidth = 1e-4;
 /// What rounding leaves of the mass of a polytope.
 constexpr double kRoundingWidth = 1e-9;
 
+/// What is below cannot be told from nothing.
+constexpr double kNothing = 1e-300;
+
 class ExactMass {
  public:
   ExactMass(const PlacedPair& pair, const GaussianDisplacement& displacement,
@@ -35,8 +41,12 @@ class ExactMass {
         flat_(pair.a.rootBody().isPolytope() && pair.b.rootBody().isPolytope()) {}
 
   ProbabilityResult answer() {
-    if (request_.gradient) findGradient();
-    if (!gradient_ || status() == ProbabilityStatus::resolution_limit) {
+    if (flat_) {
+      findFlatMass();
+    } else if (request_.gradient) {
+      findGradient();
+    }
+    if (!isSettled()) {
       narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
     }
     if (isOpenBetweenPolytopes()) {
@@ -72,14 +82,42 @@ class ExactMass {
                                   limits_.interruption());
   }
 
-  /// Of spheres, capsules and what is flat beside them.
-  void findGradient() {
+  /// Whether what is known spares the bodies as they are enclosed elsewhere.
+  bool isSettled() const {
+    if (flat_) return mass_.width() <= std::max(kRoundingWidth * mass_.upper, kNothing);
+    return gradient_ && status() != ProbabilityStatus::resolution_limit;
+  }
+
+  /// With corners to more digits than the bodies have that others are bounded with.
+  void findFlatMass() {
+    if (displacement_.rank() < 3) return;
     const ConvexBody &a = pair_.a.rootBody(), &b = pair_.b.rootBody();
-    if (displacement_.rank() < 3 || !isRoundedPair(a, b)) return;
-    const RoundedPairMass both = roundedPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
-                                                 {true, limits_.interruption()});
+    const auto both = polytopePairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
+                                       request_.gradient, limits_.interruption());
+    if (!both) return;
+    narrow(both->mass);
+    gradient_ = both->gradient;
+  }
+
+  /// Of curved shapes.
+  void findGradient() {
+    if (displacement_.rank() < 3) return;
+    const PairMass both = massAndGradient(pair_.a.rootBody(), pair_.b.rootBody());
     gradient_ = both.gradient;
     if (gradient_) narrow(both.mass);
+  }
+
+  PairMass massAndGradient(const ConvexBody& a, const ConvexBody& b) {
+    const RoundedEffort effort{true, limits_.interruption()};
+    if (isRoundedPair(a, b)) {
+      return roundedPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_, effort);
+    }
+    if (isEllipsoidWithPolytope(a, b)) {
+      return ellipsoidPolytopeMass(a, pair_.pose_a, b, pair_.pose_b, displacement_, effort);
+    }
+    if (!isCurvedPair(a, b)) return {};
+    return curvedPairMassAndGradient(a, pair_.pose_a, b, pair_.pose_b, displacement_, true,
+                                     limits_.interruption());
   }
 
   /// By support values, where the polytope around a curved body sticks out of it.

@@ -23,6 +23,7 @@
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
 #include "query/truncation.h"
+#include "query/union_of_pairs.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -156,6 +157,7 @@ ProbabilityResult GroupsQuery::answerOfGaussian(const Poses& poses_a, const Pose
   // Those bounds are of contact, not of contact within an ellipsoid.
   if (!ball && !request.hasBand()) {
     if (auto decided = decidedByPairs(poses_a, poses_b, displacement, request)) return *decided;
+    if (auto sum = unionOfPairs(a_, poses_a, b_, poses_b, displacement, request)) return *sum;
   }
   // At most one of the two has unbounded members.
   placed_a.boundBy(placed_b.object(), displacement);

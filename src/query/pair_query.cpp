@@ -5,6 +5,7 @@
 #include "base/decision.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
+#include "gaussian/agreed_bounds.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "partition/partition.h"
@@ -23,6 +24,23 @@ namespace {
 /// Whether fcl::collide itself is asked at random displacements.
 bool samples(const QueryPlan& plan) {
   return plan.route == Route::monte_carlo || plan.route == Route::rare_event;
+}
+
+/// Both are bounds of the same probability. An estimate becomes the middle of what is left.
+void takeCertified(const ProbabilityResult& other, ProbabilityResult& result) {
+  const Bounds both = agreed({*result.lower, *result.upper}, {*other.lower, *other.upper});
+  result.lower = both.lower;
+  result.upper = both.upper;
+  result.status = other.status;
+  result.decision = other.decision;
+  if (result.estimate) {
+    result.estimate = both.middle();
+    result.standard_error = 0.5 * both.width();
+  }
+  if (!other.gradient) return;
+  result.gradient = other.gradient;
+  result.gradient_lower = other.gradient_lower;
+  result.gradient_upper = other.gradient_upper;
 }
 
 }  // namespace
@@ -76,7 +94,7 @@ ProbabilityResult PairQuery::follow(const QueryPlan& plan, const PlacedPair& pai
       return singleCollide(a_->geometry(), pair.pose_a, b_->geometry(), pair.pose_b,
                            displacement.mean(), request);
     case Route::partition:
-      return partition(plan, pair, displacement, request);
+      return partitionOrExact(plan, pair, displacement, request);
     case Route::unbounded_pair:
       return unboundedPairProbability(pair, displacement, request);
     case Route::exact_mass:
@@ -130,6 +148,24 @@ ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& 
   const PartitionObject b{&b_->pieces(), {{pair.pose_b, solid_b}}};
   if (!request.time_limit) return partitionProbability(a, b, displacement, request);
   return partitionProbability(a, b, displacement, withTimeLeft(request, budget));
+}
+
+/// Far out in the tail a curved surface takes more cells than the limit; of two convex shapes it
+/// takes none.
+ProbabilityResult PairQuery::partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
+                                              const GaussianDisplacement& displacement,
+                                              const ProbabilityRequest& request) const {
+  const CallBudget budget(request);
+  ProbabilityResult result = partition(plan, pair, displacement, request);
+  const bool unresolved = result.status == ProbabilityStatus::cell_limit ||
+                          result.status == ProbabilityStatus::resolution_limit;
+  if (!unresolved || !plan.exact_if_unresolved) return result;
+  const ProbabilityResult exact =
+      exactMass(pair, displacement, request.time_limit ? withTimeLeft(request, budget) : request);
+  if (!isAnswered(exact.status) || (request.gradient && !exact.gradient)) return result;
+  takeCertified(exact, result);
+  result.plan.push_back("the cells left too much open: the exact mass of the C-obstacle instead");
+  return result;
 }
 
 }  // namespace fcl_prob::detail

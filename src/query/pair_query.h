@@ -46,6 +46,9 @@ class PairQuery {
   ProbabilityResult partition(const QueryPlan& plan, const PlacedPair& pair,
                               const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request) const;
+  ProbabilityResult partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
+                                     const GaussianDisplacement& displacement,
+                                     const ProbabilityRequest& request) const;
 
   std::shared_ptr<const PreparedGeometry> a_;
   std::shared_ptr<const PreparedGeometry> b_;

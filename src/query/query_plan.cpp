@@ -110,6 +110,7 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   // A bound from above has no gradient, and an estimate was asked for by name.
   plan.try_root_bound =
       pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
+  plan.exact_if_unresolved = pair.haveExactMass(displacement);
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
@@ -158,10 +159,10 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
 QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
   const bool exact = pair.haveExactMass(displacement);
-  const bool has_gradient = displacement.rank() == 3 && pair.areRounded();
+  const bool has_gradient = displacement.rank() == 3;
   if (exact && (has_gradient || !request.gradient)) {
     QueryPlan plan = planExact(pair, displacement, request);
-    plan.partition_if_unresolved = !pair.areFlat() && (request.gradient || !pair.areSpheres());
+    plan.partition_if_unresolved = request.gradient || (!pair.areFlat() && !pair.areSpheres());
     // Quadrature over a boundary takes milliseconds, a bound microseconds.
     plan.try_root_bound = !pair.areFlat() && !pair.areRounded() && displacement.rank() > 1;
     return plan;
@@ -169,7 +170,7 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
   QueryPlan plan = planPartition(pair, displacement, request);
   if (exact) {
     plan.notes.push_back(
-        "a gradient is asked for: the partition instead of the exact mass, which has none");
+        "a gradient is asked for: the partition instead of the exact mass, which has none here");
   }
   return plan;
 }

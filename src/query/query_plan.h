@@ -37,6 +37,9 @@ struct QueryPlan {
   /// Whether the partition is asked where the exact mass leaves more open than the tolerance, or
   /// has no gradient.
   bool partition_if_unresolved = false;
+
+  /// Whether the exact mass is asked where the cells of a partition leave more open than that.
+  bool exact_if_unresolved = false;
 };
 
 /// \throws UnsupportedGeometry if the method asked for cannot handle the pair.

@@ -315,6 +315,23 @@ TEST_CASE("needles, plates and covariances of ratios up to 1e6 hold what polytop
   }
 }
 
+TEST_CASE("bodies of a thousand deviations along one axis are certified to 1e-6") {
+  RandomBodies random(310);
+  for (int k = 0; k < 6; ++k) {
+    const auto error =
+        GaussianDisplacement::fromStandardDeviations({1.0, 0.1, 1e-3}, random.quaternion());
+    const ConvexBody shape =
+        k % 2 == 0 ? ConvexBody(fcl::Cylinderd(random.uniform(0.3, 0.6), random.uniform(0.5, 1)))
+                   : ConvexBody(fcl::Ellipsoidd(0.3, random.uniform(0.3, 0.6), 0.5));
+    const ConvexBody other = ConvexBody(fcl::Sphered(random.uniform(0.3, 0.6)));
+    const Pose pose_a = random.pose(0.0), pose_b = random.pose(0.6);
+    const Bounds mass = detail::curvedPairMass(shape, pose_a, other, pose_b, error, {});
+    INFO(k << ": " << mass.lower << " to " << mass.upper);
+    CHECK(mass.lower > 0.0);
+    CHECK(mass.width() <= 1e-6 * mass.upper);
+  }
+}
+
 TEST_CASE("two cylinders and a capsule and a cylinder of parallel axes against sections") {
   RandomBodies random(308);
   for (int k = 0; k < 12; ++k) {

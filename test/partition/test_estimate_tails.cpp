@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Estimates from few cells and few samples: their standard errors say so, and are as asked for.
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/normal_mass.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;
@@ -107,4 +111,34 @@ TEST_CASE("the standard errors of the smallest probabilities do not vanish") {
     small += *interval.upper < 1e-160;
   }
   CHECK(small >= 5);
+}
+
+TEST_CASE("lines of the smallest probabilities are drawn where they matter") {
+  // Two boxes as convex meshes, far out along one axis: P is a product of interval masses.
+  const fcl::Boxd box(1.0, 1.2, 0.8);
+  const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  fcl::generateBVHModel(*mesh, box, fcl::Transform3d::Identity());
+  const PreparedQuery query(mesh, mesh);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.15, 0.12});
+  for (const double height : {20.0, 27.0, 34.0}) {
+    fcl::Transform3d pose = fcl::Transform3d::Identity();
+    pose.translation() = Eigen::Vector3d(1.0 + 0.1 * height, 1.15, 0.7);
+    const double truth = normalTailMass(height) *
+                         normalIntervalMass((1.15 - 1.2) / 0.15, (1.15 + 1.2) / 0.15) *
+                         normalIntervalMass((0.7 - 0.8) / 0.12, (0.7 + 0.8) / 0.12);
+    ProbabilityRequest request;
+    request.method = ProbabilityMethod::estimate;
+    request.relative_tolerance = 0.01;
+    request.absolute_tolerance = 0.0;
+    request.contact = ContactMeaning::solid;
+    ProbabilityResult result;
+    query.collisionProbability(fcl::Transform3d::Identity(), pose, displacement, request, result);
+    CAPTURE(height, truth, *result.estimate, *result.standard_error, result.statistics.samples);
+    CHECK(std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& note) {
+      return note.find("parallel lines") != std::string::npos;
+    }));
+    CHECK(std::fabs(*result.estimate - truth) <= 4.0 * *result.standard_error);
+    CHECK(*result.standard_error <= 0.01 * truth * 1.05);
+    CHECK(result.statistics.samples < 2'000);
+  }
 }

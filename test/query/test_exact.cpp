@@ -72,16 +72,16 @@ TEST_CASE("the plan says that no tree was needed") {
   CHECK_FALSE(planMentions(answer(box, kIdentity, box, at({1.2, 0, 0}), stretched), "isotropic"));
 }
 
-TEST_CASE("with a gradient asked for, two polytopes go to the partition") {
+TEST_CASE("two polytopes have their gradient in closed form") {
   const fcl::Boxd box(1, 1, 1);
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
   ProbabilityRequest request;
   request.gradient = true;
   const auto result = answer(box, kIdentity, box, at({1.1, 0, 0}), displacement, request);
-  CHECK(result.method == ProbabilityMethod::interval);
+  CHECK(result.method == ProbabilityMethod::exact);
   REQUIRE(result.gradient);
   const double slope = 0.39894228040143268 * std::exp(-0.5) / 0.1;
-  CHECK((*result.gradient)[0] == Approx(slope).epsilon(0.02));
+  CHECK((*result.gradient)[0] == Approx(slope).epsilon(1e-10));
 }
 
 TEST_CASE("two spheres agree with the closed form of a ball") {
@@ -224,11 +224,37 @@ TEST_CASE("the exact method integrates over the boundaries of curved shapes") {
       answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
   CHECK(*with_box.lower <= *interval.upper);
   CHECK(*with_box.upper >= *interval.lower);
-  // The quadrature has no gradient.
   request.method = ProbabilityMethod::automatic;
   request.gradient = true;
-  CHECK(answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request).method ==
-        ProbabilityMethod::interval);
+  const auto with_gradient =
+      answer(cylinder, kIdentity, box, at({0.8, 0.2, 0.1}), displacement, request);
+  CHECK(with_gradient.method == ProbabilityMethod::exact);
+  CHECK(with_gradient.gradient);
+}
+
+TEST_CASE("what cells leave open of two convex shapes their exact mass closes") {
+  const fcl::Sphered sphere(3.0), other(2.0);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.3, 0.3, 0.3});
+  // Five deviations out.
+  const Eigen::Vector3d place(4.0, 5.0, 1.2);
+  const fcl::Transform3d pose = at(place);
+  const double truth = fcl_prob::normalBallMass(place.norm() / 0.3, 5.0 / 0.3).lower;
+  for (const auto method : {ProbabilityMethod::interval, ProbabilityMethod::estimate}) {
+    ProbabilityRequest request;
+    request.method = method;
+    request.relative_tolerance = 1e-4;
+    request.absolute_tolerance = 0.0;
+    request.max_cells = 20;
+    const auto result = answer(sphere, kIdentity, other, pose, displacement, request);
+    CHECK(result.method == method);
+    CHECK(result.status == ProbabilityStatus::exact);
+    CHECK(planMentions(result, "the cells left too much open"));
+    CHECK(result.probability() == Approx(truth).epsilon(1e-9));
+    request.max_cells = 20'000;
+    request.relative_tolerance = 0.1;
+    CHECK_FALSE(planMentions(answer(sphere, kIdentity, other, pose, displacement, request),
+                             "the cells left too much open"));
+  }
 }
 
 TEST_CASE("asked for by name, the exact method has sections of curved shapes to six digits") {

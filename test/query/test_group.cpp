@@ -217,6 +217,77 @@ TEST_CASE("two boxes apart along one axis: the mass of the union of their slabs"
   CHECK(*result.upper - *result.lower <= 1e-6 * expected);
 }
 
+TEST_CASE("spheres that are not in each other's way are answered as exactly as alone") {
+  GroupScene scene;
+  add(scene.a, scene.poses_a, std::make_shared<fcl::Sphered>(0.5), at({0.1, 0.2, 0.3}));
+  const std::vector<Eigen::Vector3d> places = {{1.6, 0.2, 0.3}, {-1.3, 0.1, 0.2}, {0.2, 9.0, 0.1}};
+  for (const Eigen::Vector3d& place : places) {
+    add(scene.b, scene.poses_b, std::make_shared<fcl::Sphered>(0.4), at(place));
+  }
+  scene.displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  double sum = 0.0;
+  for (const Eigen::Vector3d& place : places) {
+    const double distance = (place - Eigen::Vector3d(0.1, 0.2, 0.3)).norm();
+    sum += normalBallMass(distance / 0.1, 0.9 / 0.1).middle();
+  }
+  ProbabilityRequest request;
+  request.relative_tolerance = 1e-10;
+  request.absolute_tolerance = 0.0;
+  const ProbabilityResult result = scene.answer(request);
+  CHECK(mentions(result, "hardly overlap"));
+  CHECK(result.status == ProbabilityStatus::converged);
+  CHECK(result.probability() == Approx(sum).epsilon(1e-11));
+  CHECK(*result.upper - *result.lower <= 1e-10 * *result.upper);
+  // Two of them as one.
+  scene.poses_b[1] = scene.poses_b[0];
+  request.relative_tolerance = 0.01;
+  const ProbabilityResult doubled = scene.answer(request);
+  CHECK_FALSE(mentions(doubled, "hardly overlap"));
+  const double one = normalBallMass(Eigen::Vector3d(1.5, 0.0, 0.0).norm() / 0.1, 9.0).middle();
+  CHECK(doubled.probability() == Approx(one).epsilon(0.01));
+}
+
+TEST_CASE("sums of masses of pairs hold what cells tell") {
+  RandomBodies random(29);
+  const std::vector<NamedGeometry> shapes = boundedShapes();
+  int summed = 0;
+  for (int i = 0; i < 60; ++i) {
+    GroupScene scene;
+    const auto shape = [&] {
+      return shapes[static_cast<std::size_t>(random.integer(0, 7))].geometry;
+    };
+    for (int k = random.integer(1, 2); k > 0; --k) {
+      add(scene.a, scene.poses_a, shape(), random.pose(0.2));
+    }
+    for (int k = random.integer(2, 4); k > 0; --k) {
+      fcl::Transform3d pose = random.pose(0.0);
+      pose.translation() = random.uniform(1.0, 2.5) * random.direction();
+      add(scene.b, scene.poses_b, shape(), pose);
+    }
+    const double size = i % 2 == 0 ? 0.3 : 0.1;
+    scene.displacement = randomDisplacement(random, 0.3 * size, size);
+    ProbabilityRequest request;
+    request.absolute_tolerance = 1e-12;
+    request.relative_tolerance = 0.03;
+    const ProbabilityResult result = scene.answer(request);
+    if (!mentions(result, "hardly overlap")) continue;
+    ++summed;
+    // Gradients are the partition's.
+    request.gradient = true;
+    request.relative_tolerance = 0.1;
+    request.max_cells = 20'000;
+    const ProbabilityResult cells = scene.answer(request);
+    CAPTURE(i, *result.lower, *result.upper, *cells.lower, *cells.upper);
+    CHECK(*result.lower <= *cells.upper);
+    CHECK(*result.upper >= *cells.lower);
+    const Bounds any = anyOf(scene.pairs());
+    CHECK(*result.lower <= any.upper);
+    CHECK(*result.upper >= any.lower);
+  }
+  CAPTURE(summed);
+  CHECK(summed > 15);
+}
+
 TEST_CASE("copies of one geometry at one place are one geometry") {
   RandomBodies random(2);
   GroupScene scene;
