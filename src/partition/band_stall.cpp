@@ -15,6 +15,9 @@ constexpr std::size_t kPairsOfLook = 8;
 constexpr double kSmallCell = 0.7;
 constexpr double kThinnestLayer = 1.2;
 
+// A turn moves points along some axes far more than across contacts.
+constexpr double kSmallBesideTurns = 0.5;
+
 double thicknessAlong(const Eigen::Vector3d& m, const OpenCell& open, const BandMargin& band) {
   if (!band.isOfSweeps()) return band.thicknessAlong(m);
   double most = 0.0;
@@ -36,10 +39,10 @@ double thicknessAlong(const Eigen::Vector3d& m, const OpenCell& open,
 }
 
 template <typename Margin>
-bool isSmallBeside(const Margin& margin, const OpenCell& open) {
+bool isSmallBeside(const Margin& margin, const OpenCell& open, double share) {
   for (int k = 0; k < open.cell.rank; ++k) {
     const double thickness = thicknessAlong(Eigen::Vector3d::Unit(k), open, margin);
-    if (open.cell.hi[k] - open.cell.lo[k] > kSmallCell * thickness) return false;
+    if (open.cell.hi[k] - open.cell.lo[k] > share * thickness) return false;
   }
   return true;
 }
@@ -54,11 +57,12 @@ bool isThinLayerOf(const Margin& margin, const OpenCell& open) {
 }  // namespace
 
 bool isAllBand(const OpenCell& open, const BandMargin& band) {
-  return isSmallBeside(band, open) || isThinLayerOf(band, open);
+  return isSmallBeside(band, open, kSmallCell) || isThinLayerOf(band, open);
 }
 
 bool isAllTurning(const OpenCell& open, const TurningMargin& turning) {
-  return open.planeCovers() ? isThinLayerOf(turning, open) : isSmallBeside(turning, open);
+  return open.planeCovers() ? isThinLayerOf(turning, open)
+                            : isSmallBeside(turning, open, kSmallBesideTurns);
 }
 
 }  // namespace fcl_prob::detail
