@@ -18,6 +18,7 @@
 #include "fcl_prob/exceptions.h"
 #include "partition/partition.h"
 #include "pose/contact_point.h"
+#include "pose/mass_tree.h"
 #include "pose/rotation_cell.h"
 #include "pose/turning_contacts.h"
 #include "query/single_collide.h"
@@ -91,11 +92,9 @@ class PoseInterval {
 
   ProbabilityResult run() {
     cells_.push_back(wholeRotationSpace(frame_.rank()));
-    update();
     std::optional<ProbabilityStatus> status = satisfied();
     while (!status) {
       divide();
-      update();
       status = satisfied();
       if (!status) status = limited();
     }
@@ -133,11 +132,13 @@ class PoseInterval {
     costs_ = {contacts_->moved, contacts_->pushed * second};
   }
 
-  double target() const { return request_.toleranceAt(interval_.upper); }
+  const Bounds& interval() const { return tree_.sum(); }
+
+  double target() const { return request_.toleranceAt(interval().upper); }
 
   std::optional<ProbabilityStatus> satisfied() const {
-    if (interval_.width() <= target()) return ProbabilityStatus::converged;
-    const Decision decision = decisionOf(interval_, request_);
+    if (interval().width() <= target()) return ProbabilityStatus::converged;
+    const Decision decision = decisionOf(interval(), request_);
     if (isDecided(decision)) {
       return ProbabilityStatus::decided;
     }
@@ -148,8 +149,9 @@ class PoseInterval {
     if (!goOn()) return cancelled_ ? ProbabilityStatus::cancelled : ProbabilityStatus::time_limit;
     if (statistics_.cells >= request_.max_cells) return ProbabilityStatus::cell_limit;
     const std::size_t memory =
+        tree_.memory() +
         cells_.size() *
-        (sizeof(RotationCell) + 3 * sizeof(double) * static_cast<std::size_t>(frame_.rank()));
+            (sizeof(RotationCell) + 3 * sizeof(double) * static_cast<std::size_t>(frame_.rank()));
     statistics_.peak_memory = std::max(statistics_.peak_memory, memory);
     if (memory >= request_.max_memory) return ProbabilityStatus::memory_limit;
     // No gap is left that smaller cells would close.
@@ -170,7 +172,7 @@ class PoseInterval {
       const double by_cells =
           static_cast<double>(statistics_.cells) / static_cast<double>(request_.max_cells);
       const double by_time = request_.time_limit ? now / *request_.time_limit : 0.0;
-      const ProbabilityProgress progress{interval_, std::min(1.0, std::max(by_cells, by_time)),
+      const ProbabilityProgress progress{interval(), std::min(1.0, std::max(by_cells, by_time)),
                                          now};
       if (!request_.on_progress(progress)) cancelled_ = true;
     }
@@ -185,7 +187,10 @@ class PoseInterval {
     for (std::size_t i = 0; i < kDividedAtATime && !cells_.empty(); ++i) {
       if (!(cells_.front().gap() > 0.0)) break;
       std::pop_heap(cells_.begin(), cells_.end(), smaller);
-      for (RotationCell& part : split(cells_.back(), costs_)) parts.push_back(std::move(part));
+      for (RotationCell& part : split(cells_.back(), costs_)) {
+        part.in_tree = tree_.addPart(part.in_tree, part.contribution());
+        parts.push_back(std::move(part));
+      }
       cells_.pop_back();
     }
     std::vector<ProbabilityStatistics> statistics(parts.size());
@@ -205,21 +210,17 @@ class PoseInterval {
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
       add(statistics[i]);
+      tree_.tighten(parts[i].in_tree, parts[i].contribution());
       cells_.push_back(std::move(parts[i]));
       std::push_heap(cells_.begin(), cells_.end(), smaller);
     }
   }
 
-  // Keeps what is known of the whole cell that this is a part of where there is no time left.
   void examinePart(RotationCell& cell, ProbabilityStatistics& statistics) {
     if (!cell.isFinite() || !(cell.mass.upper > 0.0)) return;
-    if (cancelled_ || timed_out_) {
-      cell.conditional = {0.0, 1.0};
-      return;
-    }
-    if (!isWorthALook(cell)) return;
+    if (cancelled_ || timed_out_ || !isWorthALook(cell)) return;
     // A round body stays round where its displacement does: no shift then joins that.
-    const double expected = contacts_ ? std::min(0.5, interval_.upper) : 0.0;
+    const double expected = contacts_ ? std::min(0.5, interval().upper) : 0.0;
     const CellMotion motion = motionOf(frame_, cell, reference_, size_, expected);
     ProbabilityRequest request = request_;
     request.method = ProbabilityMethod::interval;
@@ -268,25 +269,13 @@ class PoseInterval {
     statistics_.peak_memory = std::max(statistics_.peak_memory, of_one.peak_memory);
   }
 
-  // Every sum is certified, so that the narrowest so far is, too.
-  void update() {
-    Bounds sum{0.0, 0.0};
-    for (const RotationCell& cell : cells_) {
-      sum.lower += cell.mass.lower * cell.conditional.lower;
-      sum.upper += cell.mass.upper * cell.conditional.upper;
-    }
-    const double rounding = 4e-16 * static_cast<double>(cells_.size() + 8);
-    interval_.lower = std::max(interval_.lower, sum.lower * (1.0 - rounding) - kUnderflow);
-    interval_.upper = std::min(interval_.upper, sum.upper * (1.0 + rounding));
-  }
-
   ProbabilityResult resultOf(ProbabilityStatus status) {
     ProbabilityResult result;
     result.method = ProbabilityMethod::interval;
     result.status = status;
-    result.lower = interval_.lower;
-    result.upper = interval_.upper;
-    result.decision = decisionOf(interval_, request_);
+    result.lower = interval().lower;
+    result.upper = interval().upper;
+    result.decision = decisionOf(interval(), request_);
     statistics_.cells_open = cells_.size();
     result.statistics = statistics_;
     result.statistics.seconds.emplace_back("rotations", seconds());
@@ -310,7 +299,7 @@ class PoseInterval {
   double size_ = 0.0;
   Eigen::Vector3d reference_;
   std::vector<RotationCell> cells_;
-  Bounds interval_{0.0, 1.0};
+  MassTree tree_{{0.0, 1.0}};
   ProbabilityStatistics statistics_;
   std::thread::id caller_ = std::this_thread::get_id();
   std::atomic<bool> cancelled_{false};

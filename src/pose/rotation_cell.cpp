@@ -55,6 +55,7 @@ RotationCell part(const RotationCell& cell, Eigen::Index k, double lo, double hi
   result.lo[k] = lo;
   result.hi[k] = hi;
   result.mass = massOf(result);
+  result.conditional = {0.0, 1.0};
   return result;
 }
 
@@ -74,6 +75,11 @@ double mostDownwards(double g) {
 }
 
 }  // namespace
+
+Bounds RotationCell::contribution() const {
+  return {mass.lower * conditional.lower * (1.0 - kEpsilon) - kUnderflow,
+          mass.upper * conditional.upper * (1.0 + kEpsilon) + kUnderflow};
+}
 
 RotationCell wholeRotationSpace(int rank) {
   RotationCell cell;
@@ -338,6 +344,7 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
     cell.conditional = {
         std::clamp((inner.lower - slack - higher) * (1.0 - kRounding) - kUnderflow, 0.0, 1.0),
         std::clamp((inner.upper + slack + higher) * (1.0 + kRounding), 0.0, 1.0)};
+    cell.open = cell.conditional.width();
     cell.moved_gap = inner.width() + 2.0 * motion.tail;
     cell.curvature_parts = 2.0 * motion.higher;
     return;
@@ -354,6 +361,7 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
   const double lower = inner.lower - slack - (shifted ? down : 0.0);
   cell.conditional = {std::clamp(lower * (1.0 - kRounding) - kUnderflow, 0.0, 1.0),
                       std::clamp(upper * (1.0 + kRounding), 0.0, 1.0)};
+  cell.open = cell.conditional.width();
   cell.moved_gap = inner.width() + 2.0 * motion.tail;
   cell.curvature_parts = motion.curvatures * (shifted ? (up + down) / variance : 0.0);
 }
