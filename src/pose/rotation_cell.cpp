@@ -77,8 +77,8 @@ double mostDownwards(double g) {
 }  // namespace
 
 Bounds RotationCell::contribution() const {
-  return {mass.lower * conditional.lower * (1.0 - kEpsilon) - kUnderflow,
-          mass.upper * conditional.upper * (1.0 + kEpsilon) + kUnderflow};
+  return {mass.lower * conditional.lower * (1.0 - 2 * kEpsilon) - kUnderflow,
+          mass.upper * conditional.upper * (1.0 + 2 * kEpsilon) + kUnderflow};
 }
 
 RotationCell wholeRotationSpace(int rank) {
