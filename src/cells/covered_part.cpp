@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/normal_density.h"
 
@@ -126,6 +127,24 @@ ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most) {
   }
   result.share = part.count > 0 ? share : 0.0;
   return result;
+}
+
+CellPlane farthestPlane(const SlabArrays& slabs, const Eigen::Vector3d& point) {
+  CellPlane farthest;
+  double beyond = -kInfinity;
+  for (int i = 0; i < slabs.count; ++i) {
+    const Eigen::Vector3d n(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
+    if (slabs.hi()[i] >= kUnbounded || n.isZero(0.0)) continue;
+    const double margin = slabs.margin()[i];
+    for (const CellPlane& plane :
+         {CellPlane{n, slabs.lo()[i] + margin}, CellPlane{-n, margin - slabs.hi()[i]}}) {
+      const double by = plane.s - plane.m.dot(point);
+      if (!(by > beyond)) continue;
+      beyond = by;
+      farthest = plane;
+    }
+  }
+  return farthest;
 }
 
 }  // namespace fcl_prob::detail

@@ -69,4 +69,7 @@ struct ObstaclePart {
 
 ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most);
 
+/// Of the obstacle's inner planes the one beyond which a point is farthest; m = 0 if it has none.
+CellPlane farthestPlane(const SlabArrays& slabs, const Eigen::Vector3d& point);
+
 }  // namespace fcl_prob::detail

@@ -279,7 +279,7 @@ ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& m
   std::array<ObstaclePart, kMostMeasured> best;
   int tried = 0;
   for (const CuttingPair& cutting : front_.cutting()) {
-    if (cutting.sides > most || (cutting.layered && !pair_.band) ||
+    if (cutting.sides > most || (cutting.layered && !pair_.band && !pair_.turning) ||
         front_.slabs(cutting.pair).outer_only)
       continue;
     if (++tried > kMostTried) break;
@@ -326,7 +326,10 @@ void CellExaminer::addPart(OpenCell& open) {
   if (!maySkim(open.cell)) return;
   double mass = kLeastCovered * open.upper;
   const ObstaclePart best = largestPart(open, CoveredPart::kMostPlanes, mass);
-  if (best.share <= 0.0) return;
+  if (best.share <= 0.0) {
+    if (pair_.turning) addPossible(open);
+    return;
+  }
   // What may collide, along the normals of all planes of the part.
   CoveredPart possible = best.part;
   for (int i = 0; i < possible.count; ++i) {
@@ -346,6 +349,24 @@ void CellExaminer::addPart(OpenCell& open) {
   if (possible.count > 1)
     open.upper = std::min(open.upper, PartMeasure(open.cell).massAtMost(possible, cutter_));
   open.upper = std::max(mass, open.upper);
+  open.drawn = open.upper;
+}
+
+// Where turns leave no part of the cell covered a plane may still tell what is free of it: across
+// what of a pair is nearest to the middle.
+void CellExaminer::addPossible(OpenCell& open) {
+  Eigen::Vector3d m = front_.acrossNearest(0.5 * (open.cell.lo + open.cell.hi));
+  for (int k = open.cell.rank; k < 3; ++k) m[k] = 0.0;
+  if (m.isZero(0.0)) return;
+  m.normalize();
+  const double possible_from = lowestOfFront(open, m);
+  if (!(possible_from > lowestIn(open.cell, m))) return;
+  open.possible_from = possible_from;
+  open.tells = OpenCell::PlaneTells::possible;
+  open.plane = {m, possible_from};
+  claimBelow("below what is possible", open.cell, {m, possible_from});
+  open.upper =
+      std::min(open.upper, cellHalfSpaceMass(open.cell, m, possible_from, kOpenAccuracy).upper);
   open.drawn = open.upper;
 }
 

@@ -58,6 +58,7 @@ class CellExaminer {
   ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
   double lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const;
   void addPart(OpenCell& open);
+  void addPossible(OpenCell& open);
   void weigh(OpenCell& open);
   bool isCutBack(const Cell& box) const;
   void claimBeside(const CuttingPair& leader, const Cell& box, double settled_from,

@@ -102,7 +102,7 @@ void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
   cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
   cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
   cutting.inner.s = cutting.outer + slabs.margin()[i];
-  cutting.layered = pair_.band && slabs.margin()[i] > kThinLayer;
+  cutting.layered = (pair_.band || pair_.turning) && slabs.margin()[i] > kThinLayer;
   cutting.depth = depthOf(cutting.inner);
 }
 
@@ -328,6 +328,20 @@ bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double
     if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;
+}
+
+Eigen::Vector3d CellFront::acrossNearest(const Eigen::Vector3d& point) const {
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  double nearest = kInfinity;
+  for (const CuttingPair& cutting : cutting_) {
+    if (cutting.pair.isHalfSpace()) continue;
+    const CellPlane plane = farthestPlane(slabs(cutting.pair), point);
+    const double beyond = plane.s - plane.m.dot(point);
+    if (plane.m.isZero(0.0) || beyond >= nearest) continue;
+    nearest = beyond;
+    across = plane.m;
+  }
+  return across;
 }
 
 double CellFront::lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const {

@@ -49,6 +49,10 @@ class CellFront {
 
   const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
 
+  /// The inward normal of the plane beyond which a point is, of the cutting pair that is nearest to
+  /// it; 0 if there is none.
+  Eigen::Vector3d acrossNearest(const Eigen::Vector3d& point) const;
+
   /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
   double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const;
 

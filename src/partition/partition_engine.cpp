@@ -68,7 +68,6 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
       round_(1),
       band_(scene.pair.band),
-      turning_(scene.pair.turning),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
       limits_(request, statistics) {
   Division root;
@@ -86,7 +85,7 @@ void PartitionEngine::add(Examination&& examination) {
   settled_ += examination.settled;
   if (!examination.open) return;
   OpenCell& cell = *examination.open;
-  if ((band_ && isAllBand(cell, *band_)) || (turning_ && isAllTurning(cell, *turning_))) {
+  if (band_ && isAllBand(cell, *band_)) {
     left_by_band_ += cell.gap();
     settled_ += asItIs(cell);
     return;
@@ -219,7 +218,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   const double tolerance = request_.toleranceAt(now.upper);
   if (now.width() <= tolerance) return ProbabilityStatus::converged;
   const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
-  if ((band_ || turning_) && all_is_band) return ProbabilityStatus::band_limit;
+  if (band_ && all_is_band) return ProbabilityStatus::band_limit;
   if (estimate &&
       samplesNeeded(targetError(now.middle())) <= samplesAffordable(statistics_.cells)) {
     return ProbabilityStatus::converged;

@@ -123,7 +123,6 @@ class PartitionEngine {
   bool quick_samples_ = false;
   bool indivisible_ = false;
   std::shared_ptr<const BandMargin> band_;
-  std::shared_ptr<const TurningMargin> turning_;
   double left_by_band_ = 0.0;  ///< of the width of the interval: what bands or motions leave open
   bool stalled_ = false;       ///< the bands leave nearly all that is open
   Bounds at_last_look_{0.0, 1.0};

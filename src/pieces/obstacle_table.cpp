@@ -20,6 +20,10 @@ constexpr std::size_t kBlockDoubles = 1 << 16;
 // With more slabs than this two polytopes are quicker examined by their support functions.
 constexpr std::size_t kMostSlabs = 128;
 
+// Planes on the sides of two triangles, and lanes to fill up; a slab that bounds nothing.
+constexpr int kSideSlabs = 8;
+constexpr double kNoSlab[kSlabFields] = {0.0, 0.0, 0.0, -kUnbounded, kUnbounded, 0.0};
+
 // Of slabs across the normal of a face: at less rounding may no longer be relative, from the most
 // on the products of a normal and a corner, 1e14 times as large, may overflow.
 constexpr double kLeastPadding = 1e-300;
@@ -54,6 +58,14 @@ Eigen::Matrix3d cornersOf(const WhitenedTree& whitened, int leaf) {
 Eigen::Vector3d normalOf(const Eigen::Matrix3d& corners) {
   const Eigen::Vector3d first = corners.col(1) - corners.col(0);
   return first.cross(corners.col(2) - corners.col(0));
+}
+
+// In the plane of a triangle, across one of its edges; 0 if it has none.
+Eigen::Vector3d sideNormalOf(const Eigen::Matrix3d& corners, int edge) {
+  const Eigen::Vector3d along = corners.col((edge + 1) % 3) - corners.col(edge);
+  const Eigen::Vector3d across = normalOf(corners).normalized().cross(along.normalized());
+  return across.allFinite() && across.norm() > 0.5 ? across.normalized()
+                                                   : Eigen::Vector3d::Zero().eval();
 }
 
 Eigen::Vector3d largestCoordinates(const NodeBox& box) {
@@ -99,8 +111,9 @@ int ObstacleTable::find(NodePair leaves) {
   const auto locked = lock(part.mutex);
   const auto [entry, is_new] = part.index.try_emplace(key, -1);
   if (is_new) {
-    entry.value() = add(areTriangles(leaves) ? buildTriangles(leaves, allocate(kTriangleSlabs))
-                                             : buildPieces(leaves));
+    entry.value() = add(!areTriangles(leaves) ? buildPieces(leaves)
+                        : pair_.turning       ? buildTurning(leaves)
+                                              : buildTriangles(leaves, allocate(kTriangleSlabs)));
   }
   return entry.value();
 }
@@ -144,6 +157,40 @@ SlabArrays ObstacleTable::buildTriangles(NodePair leaves, double* data) const {
   return {data, kTriangleSlabs};
 }
 
+// Between two nearly parallel triangles all facets' normals are nearly parallel, too: planes moved
+// outwards meet far beside the triangles. Slabs across the sides of either bound that. They are no
+// facets, so that the inside has no need of them: their margins leave it as it is.
+SlabArrays ObstacleTable::buildTurning(NodePair leaves) {
+  TriangleSlabsData facets;
+  buildTriangles(leaves, facets.data());
+  constexpr int kCount = kTriangleSlabs + kSideSlabs;
+  double* data = allocate(kCount);
+  for (int field = 0; field < kSlabFields; ++field) {
+    std::copy_n(&facets[field * kTriangleSlabs], kTriangleSlabs, data + field * kCount);
+  }
+  const Eigen::Matrix3d corners[2] = {cornersOf(pair_.a, leaves.a), cornersOf(pair_.b, leaves.b)};
+  const Eigen::Vector3d error = paddingOf(leaves, pair_.a.error + pair_.b.error);
+  for (int i = 0; i < kSideSlabs; ++i) {
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    if (i < 6) n = sideNormalOf(corners[i / 3], i % 3);
+    const double padding = n.cwiseAbs().dot(error);
+    const Eigen::RowVector3d along_a = n.transpose() * corners[0];
+    const Eigen::RowVector3d along_b = n.transpose() * corners[1];
+    const double moved = padding + pair_.turning->along(n, leaves);
+    const double values[kSlabFields] = {n[0],
+                                        n[1],
+                                        n[2],
+                                        along_b.minCoeff() - along_a.maxCoeff() - moved,
+                                        along_b.maxCoeff() - along_a.minCoeff() + moved,
+                                        -kUnbounded};
+    const bool bounds = !n.isZero(0.0) && std::isfinite(values[4] - values[3]);
+    for (int field = 0; field < kSlabFields; ++field) {
+      data[field * kCount + kTriangleSlabs + i] = bounds ? values[field] : kNoSlab[field];
+    }
+  }
+  return {data, kCount};
+}
+
 SlabArrays ObstacleTable::buildPieces(NodePair leaves) {
   const bool few = hasFewSlabs(leaves);
   const PieceSlabs slabs = few ? pieceSlabs(pair_, leaves) : supportSlabs(support(leaves));
@@ -172,10 +219,14 @@ bool ObstacleTable::hasFewSlabs(NodePair leaves) const {
 
 // Bound on the error of b - a, axis by axis, and on the rounding of sums of such terms.
 Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
+  return paddingOf(leaves, slabError(pair_, leaves));
+}
+
+Eigen::Vector3d ObstacleTable::paddingOf(NodePair leaves, const Eigen::Vector3d& error) const {
   const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
                                 largestCoordinates(pair_.b.boxes[leaves.b]) +
                                 Eigen::Vector3d::Constant(kReach);
-  return 4 * slabError(pair_, leaves) + 32 * kEpsilon * reach;
+  return 4 * error + 32 * kEpsilon * reach;
 }
 
 SupportObstacle ObstacleTable::support(NodePair leaves) const {

@@ -96,7 +96,9 @@ class ObstacleTable {
   int add(const SlabArrays& slabs);
   double* allocate(int count);
   Eigen::Vector3d errorOf(NodePair leaves) const;
+  Eigen::Vector3d paddingOf(NodePair leaves, const Eigen::Vector3d& error) const;
   SlabArrays buildTriangles(NodePair leaves, double* data) const;
+  SlabArrays buildTurning(NodePair leaves);
   SlabArrays buildPieces(NodePair leaves);
   bool hasFewSlabs(NodePair leaves) const;
 

@@ -15,6 +15,9 @@ constexpr double kTwoMeshes = 20.0;
 constexpr double kMeshAndShape = 8.0;
 constexpr double kTwoShapes = 1.5;
 
+// Of the pairs of two groups few are near each other.
+constexpr double kApart = 0.5;
+
 constexpr double kQuery = 40.0;
 
 // Pairs of pieces and samples of an answer beside a mesh: some 500 samples and 3,000 pairs.
@@ -51,15 +54,17 @@ double sizeCost(const GeometryList& members) {
 }  // namespace
 
 double collideCost(const GeometryList& a, const GeometryList& b) {
-  double sum = 0.0;
+  double nearest = 0.0;
   for (const auto& of_a : a) {
     for (const auto& of_b : b) {
       const bool convex_a = isConvex(*of_a);
       const bool convex_b = isConvex(*of_b);
-      sum += convex_a && convex_b ? kTwoShapes : convex_a || convex_b ? kMeshAndShape : kTwoMeshes;
+      nearest = std::max(nearest, convex_a && convex_b   ? kTwoShapes
+                                  : convex_a || convex_b ? kMeshAndShape
+                                                         : kTwoMeshes);
     }
   }
-  return sum;
+  return nearest + kApart * (static_cast<double>(a.size() * b.size()) - 1.0);
 }
 
 QueryCost queryCost(const GeometryList& a, const GeometryList& b) {

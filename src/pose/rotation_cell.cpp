@@ -55,6 +55,7 @@ RotationCell part(const RotationCell& cell, Eigen::Index k, double lo, double hi
   result.lo[k] = lo;
   result.hi[k] = hi;
   result.mass = massOf(result);
+  result.conditional = {0.0, 1.0};
   return result;
 }
 
@@ -74,6 +75,11 @@ double mostDownwards(double g) {
 }
 
 }  // namespace
+
+Bounds RotationCell::contribution() const {
+  return {mass.lower * conditional.lower * (1.0 - 2 * kEpsilon) - kUnderflow,
+          mass.upper * conditional.upper * (1.0 + 2 * kEpsilon) + kUnderflow};
+}
 
 RotationCell wholeRotationSpace(int rank) {
   RotationCell cell;
@@ -156,17 +162,20 @@ class CellMotionBuilder {
     return largest * (1.0 + kRounding);
   }
 
-  // The first-order turns, and what they leave: |u(1) - u(0) - ω × u| <= ¾ |Δθ|² |u|, since
-  // |J(θ) - J(θ')| <= ½ |θ - θ'| for the Jacobian J of the exponential and |ω| <= |Δθ|.
+  // With R(s) for the rotation at θ_c + s Δθ and u(s) = R(s) R_c⁻¹ u, u' = ω(s) × u(s) and ω(s) =
+  // J(θ_c + s Δθ) Δθ, J being the Jacobian of the exponential, |ω| <= |Δθ|. So u(1) - u is ω(0) × u
+  // up to ½ |Δθ|² |u| and what ω varies by, |ω(s) - ω(0)| <= s V: ½ V |u|. With ½ ω(0) × (ω(0) × u)
+  // it is so up to that and ⅙ |Δθ| (|Δθ|² + V) |u|, V being ½ |Δθ|² at most.
   void build(const Eigen::Vector3d& reference, double size) {
     const Eigen::Matrix3d jacobian = translationJacobian(theta_);
     const Eigen::Vector3d about = frame_.frame().translation();
     const Eigen::Vector3d lever = reference - about;
     PointMotion& motion = result_.motion;
     motion.centre = reference;
-    motion.remainder = 0.75 * angle_ * angle_ * (1.0 + kRounding);
-    motion.ball =
-        motion.remainder * lever.norm() + 64 * kEpsilon * (size + about.norm() + reference.norm());
+    const double varied = 0.5 * variationOfRate();
+    motion.remainder = (0.5 * angle_ * angle_ + varied) * (1.0 + kRounding);
+    motion.ball = (0.25 * angle_ * angle_ * angle_ + varied) * (1.0 + kRounding) * lever.norm() +
+                  64 * kEpsilon * (size + about.norm() + reference.norm());
     Eigen::MatrixXd shifts(3, half_.size());
     const Eigen::Matrix3d to_world =
         frame_.isExponential() ? jacobian : Eigen::Matrix3d::Identity().eval();
@@ -177,11 +186,40 @@ class CellMotionBuilder {
     }
     const GaussianDisplacement& displacement = result_.displacement;
     if (frame_.isExponential()) addExponential();
-    const Eigen::Vector3d mean = displacement.mean() + shifts * (mean_ - middle_);
+    const Eigen::Vector3d mean =
+        displacement.mean() + shifts * (mean_ - middle_) + takeSecondOrder(lever);
     share(shifts);
     join();
     result_.displacement =
         result_.joined ? withShifts().withMean(mean) : displacement.withMean(mean);
+  }
+
+  // J = 1 + a [θ]× + b [θ]×², a = ∫ (1 - x) cos(|θ| x) dx and b = ½ ∫ (1 - x)² cos(|θ| x) dx over
+  // 0 <= x <= 1, so that |a'| <= |θ| / 12, |b'| <= |θ| / 60 and b <= 1/6; Δθ × Δθ is 0. Bound on
+  // |ω(s) - ω(0)| / s, the V of build(). J is also ∫ exp(x [θ]×) dx, which varies by ½ |Δθ| at
+  // most.
+  double variationOfRate() const {
+    const double from = theta_.norm();
+    const double most = from + angle_;
+    return angle_ * angle_ * std::min(0.5, from * (1.0 / 6.0 + most / 12.0 + from * most / 60.0));
+  }
+
+  // ½ ω × (ω × u), ω = Σ a_j turns_j: a_j² is within ½ of ½, and so every term between two ends.
+  // Returns what is in the middle of these.
+  Eigen::Vector3d takeSecondOrder(const Eigen::Vector3d& u) {
+    std::vector<Eigen::Vector3d>& shifts = result_.motion.shifts;
+    const std::vector<Eigen::Vector3d>& turns = result_.motion.turns;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (std::size_t j = 0; j < turns.size(); ++j) {
+      const Eigen::Vector3d squared = 0.25 * turns[j].cross(turns[j].cross(u));
+      middle += squared;
+      shifts.push_back((1.0 + kRounding) * squared);
+      for (std::size_t k = 0; k < j; ++k) {
+        shifts.push_back((0.5 + kRounding) *
+                         (turns[j].cross(turns[k].cross(u)) + turns[k].cross(turns[j].cross(u))));
+      }
+    }
+    return middle;
   }
 
   // V(θ) ρ is taken for V(θ_c) ρ: |V(θ) - V(θ_c)| <= ½ |θ - θ_c|.
@@ -306,6 +344,7 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
     cell.conditional = {
         std::clamp((inner.lower - slack - higher) * (1.0 - kRounding) - kUnderflow, 0.0, 1.0),
         std::clamp((inner.upper + slack + higher) * (1.0 + kRounding), 0.0, 1.0)};
+    cell.open = cell.conditional.width();
     cell.moved_gap = inner.width() + 2.0 * motion.tail;
     cell.curvature_parts = 2.0 * motion.higher;
     return;
@@ -322,6 +361,7 @@ void setConditional(const CellMotion& motion, const Bounds& inner, RotationCell&
   const double lower = inner.lower - slack - (shifted ? down : 0.0);
   cell.conditional = {std::clamp(lower * (1.0 - kRounding) - kUnderflow, 0.0, 1.0),
                       std::clamp(upper * (1.0 + kRounding), 0.0, 1.0)};
+  cell.open = cell.conditional.width();
   cell.moved_gap = inner.width() + 2.0 * motion.tail;
   cell.curvature_parts = motion.curvatures * (shifted ? (up + down) / variance : 0.0);
 }

@@ -18,12 +18,18 @@ struct RotationCell {
   Eigen::VectorXd hi;
   Bounds mass;                      ///< certified
   Bounds conditional{0.0, 1.0};     ///< of P(contact | z in the cell), certified
+  double open = 1.0;                ///< its width in the last cell around it that was looked at
   double moved_gap = 1.0;           ///< of it, what is left open by how points move in the cell
   Eigen::VectorXd curvature_parts;  ///< and by the curvature of P over shifts, by coordinate
 
-  double looked_at = 4.0;  ///< MotionCosts of the last cell around it that was looked at
+  double looked_at = 4.0;   ///< MotionCosts of the last cell around it that was looked at
+  std::size_t in_tree = 0;  ///< its number in a MassTree
 
-  double gap() const { return mass.upper * conditional.width(); }
+  /// About what it leaves open.
+  double gap() const { return mass.upper * open; }
+
+  /// Of contact and z in the cell.
+  Bounds contribution() const;
   bool isFinite() const { return lo.allFinite() && hi.allFinite(); }
 };
 
