@@ -32,6 +32,10 @@ double within(double lo, double hi, double step) {
 
 }  // namespace
 
+bool reachesOut(const Column& column) {
+  return column.lo.minCoeff() <= -kReach || column.hi.maxCoeff() >= kReach;
+}
+
 Eigen::Vector2d middleOf(const Column& column) {
   return {within(column.lo[0], column.hi[0], kMiddleOfEnd),
           within(column.lo[1], column.hi[1], kMiddleOfEnd)};

@@ -9,6 +9,9 @@
 
 namespace fcl_prob::detail {
 
+/// Whether its lines go on to where there is next to nothing of the normal distribution.
+bool reachesOut(const Column& column);
+
 /// Where most of what is normally distributed in a column is, about.
 Eigen::Vector2d middleOf(const Column& column);
 

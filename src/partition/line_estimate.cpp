@@ -256,10 +256,12 @@ class LineEstimation {
   }
 
   // What one line more of the column may change. Bounds on columns are much larger than what is
-  // there, so they count only for what nothing nearby tells of.
+  // there, so they count only for what nothing nearby tells of. Beyond a column that reaches to the
+  // end of the space there is nothing nearby: all that collides may be far out in it.
   static double unseenOf(const PairsOfColumn& pairs, const LineColumns::Node& node,
                          double highest) {
-    const double of_nearby = std::min(node.most, kHigherThanSeen * highest);
+    const double of_nearby =
+        reachesOut(node.column) ? node.most : std::min(node.most, kHigherThanSeen * highest);
     const bool has_edge = pairs.lowest < kNearlyMissed * node.most;
     const double of_known = std::max(kUnseenSegment * pairs.segment, has_edge ? kUnseenEdge : 0.0);
     return of_known * of_nearby + kUnseenPiece * pairs.hidden * node.most;
