@@ -273,6 +273,27 @@ TEST_CASE("an obstacle along the lines is not missed", "[lines]") {
   }
 }
 
+// Axes whose deviations are far apart are not turned towards the nearest contact, so that all that
+// collides may be far out across the lines, where few are drawn.
+TEST_CASE("what collides far out across the lines is not missed", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({1.0, 0.02, 0.02});
+  RandomBodies random(8);
+  PartitionQuery query(hullMesh(random.onSphere(60, 0.3)), bumpyMesh(0.7, 12, 16, 5));
+  int by_lines = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    query.pose_b.translation() = Eigen::Vector3d(0.0, random.uniform(1.0, 1.1), 0.0);
+    const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(3e-3));
+    ProbabilityRequest request = estimateRequest(0.01, seed);
+    request.absolute_tolerance = 0.01 * truth.probability();
+    const ProbabilityResult result = query.run(displacement, request);
+    CAPTURE(seed, truth.probability(), *result.estimate, *result.standard_error);
+    by_lines += isByLines(result);
+    CHECK(std::fabs(*result.estimate - truth.probability()) <
+          6 * *result.standard_error + 3e-3 * truth.probability());
+  }
+  CHECK(by_lines > 10);
+}
+
 TEST_CASE("lines in a closed mesh count as collisions of solids, and not of surfaces", "[lines]") {
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.3, 0.3, 0.3});
   RandomBodies random(4);
