@@ -195,7 +195,7 @@ TEST_CASE("the JSON of check has every field of the contract", "[cli]") {
   CHECK(free_of_threshold.at("decision").is_null());
 }
 
-TEST_CASE("a gradient is computed only when asked for, and its price is told", "[cli]") {
+TEST_CASE("a gradient is computed only when asked for, and along all axes", "[cli]") {
   const TemporaryFolder folder;
   const auto answer = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"--scene", dataFile("two_boxes.json"), "--sigma", "0.08,0.05,0.02"});
@@ -203,13 +203,13 @@ TEST_CASE("a gradient is computed only when asked for, and its price is told", "
   };
   const json without = answer({});
   CHECK(without.at("gradient").is_null());
-  CHECK(without.at("method") == "exact");
-  CHECK(without.at("upper").get<double>() - without.at("lower").get<double>() <
-        1e-9 * without.at("upper").get<double>());
   const json with = answer({"--gradient"});
   CHECK(with.at("gradient").size() == 3);
-  CHECK(with.at("method") == "interval");
-  CHECK(with.at("plan").dump().find("a gradient is asked for") != std::string::npos);
+  for (const json& result : {without, with}) {
+    CHECK(result.at("method") == "exact");
+    CHECK(result.at("upper").get<double>() - result.at("lower").get<double>() <
+          1e-9 * result.at("upper").get<double>());
+  }
 }
 
 TEST_CASE("what the importer's single precision rounds is told where it matters", "[cli]") {
