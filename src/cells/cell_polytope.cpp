@@ -163,11 +163,12 @@ void PolytopeCutter::cut(const CellPolytope& body, const Eigen::Vector3d& n, dou
     if (nothing) *nothing = CellPolytope();
     return;
   }
-  // Either of them may be the body.
+  // Either of them may be the body. Copied, since memory that is handed on would tell which cells a
+  // thread had before: what a cell needs must not depend on that.
   if (below) keep(body, -1.0, low_);
   if (above) keep(body, 1.0, high_);
-  if (below) std::swap(*below, low_);
-  if (above) std::swap(*above, high_);
+  if (below) *below = low_;
+  if (above) *above = high_;
 }
 
 // The part of the surface on one side of the plane, and a face in the plane.
