@@ -156,8 +156,9 @@ struct Look {
     const double more = static_cast<double>(columns) / static_cast<double>(last.columns);
     const double own = standardError();
     const double by_last = last.standardError() / std::pow(more, kConvergence);
-    const double square = (1.0 - kWeightOfLast) * own * own + kWeightOfLast * by_last * by_last;
-    return std::max(own, std::sqrt(square));
+    const double of_both =
+        std::hypot(std::sqrt(1.0 - kWeightOfLast) * own, std::sqrt(kWeightOfLast) * by_last);
+    return std::max(own, of_both);
   }
 
   double weight() const { return std::pow(static_cast<double>(columns), 2.0 * kConvergence); }
@@ -173,12 +174,12 @@ struct Look {
 struct Looks {
   double weight = 0.0;
   double mass = 0.0;
-  double square = 0.0;  ///< of the standard error
+  double standard_error = 0.0;
 
   void add(const Look& look, double error) {
     const double share = look.weight() / (weight + look.weight());
     mass += share * (look.mass - mass);
-    square = (1.0 - share) * (1.0 - share) * square + share * share * error * error;
+    standard_error = std::hypot((1.0 - share) * standard_error, share * error);
     weight += look.weight();
   }
 };
@@ -212,7 +213,7 @@ class LineEstimation {
       result.status = look.interrupted.value_or(ProbabilityStatus::converged);
       const double target = request_.toleranceAt(result.value);
       const double least = leastError(look.columns) * target;
-      result.standard_error = std::sqrt(together.square + least * least);
+      result.standard_error = std::hypot(together.standard_error, least);
       if (look.interrupted || (is_confirmed && result.standard_error <= target)) return result;
       if (!divide(look, together, target)) return std::nullopt;
       before = look;
@@ -256,12 +257,13 @@ class LineEstimation {
   }
 
   // What one line more of the column may change. Bounds on columns are much larger than what is
-  // there, so they count only for what nothing nearby tells of. Beyond a column that reaches to the
-  // end of the space there is nothing nearby: all that collides may be far out in it.
+  // there, so they count only for what nothing nearby tells of: all that collides may be far out in
+  // a column that reaches to the end of the space.
   static double unseenOf(const PairsOfColumn& pairs, const LineColumns::Node& node,
                          double highest) {
+    const bool may_be_far_out = highest == 0.0 && reachesOut(node.column);
     const double of_nearby =
-        reachesOut(node.column) ? node.most : std::min(node.most, kHigherThanSeen * highest);
+        may_be_far_out ? node.most : std::min(node.most, kHigherThanSeen * highest);
     const bool has_edge = pairs.lowest < kNearlyMissed * node.most;
     const double of_known = std::max(kUnseenSegment * pairs.segment, has_edge ? kUnseenEdge : 0.0);
     return of_known * of_nearby + kUnseenPiece * pairs.hidden * node.most;
@@ -292,13 +294,14 @@ class LineEstimation {
     seen.jumps = 0.0;
     const double of_seen = seen.standardError(kDeviations);
     const double of_all = look.spread.standardError(kDeviations);
-    const double unseen = std::sqrt(std::max(0.0, of_all * of_all - of_seen * of_seen));
+    const double share = of_all > 0.0 ? of_seen / of_all : 1.0;
+    const double unseen = of_all * std::sqrt(std::max(0.0, 1.0 - share * share));
     const auto errorWith = [&](double growth) {
       Look next = look;
       next.columns = static_cast<std::size_t>(growth * static_cast<double>(look.columns));
       Looks all = together;
       all.add(next, std::hypot(of_seen / std::pow(growth, kConvergence), unseen / growth / growth));
-      return std::sqrt(all.square);
+      return all.standard_error;
     };
     const auto now = static_cast<double>(look.columns);
     const auto most = static_cast<double>(most_columns_);
