@@ -157,7 +157,10 @@ ProbabilityResult GroupsQuery::answerOfGaussian(const Poses& poses_a, const Pose
   // Those bounds are of contact, not of contact within an ellipsoid.
   if (!ball && !request.hasBand()) {
     if (auto decided = decidedByPairs(poses_a, poses_b, displacement, request)) return *decided;
-    if (auto sum = unionOfPairs(a_, poses_a, b_, poses_b, displacement, request)) return *sum;
+    if (auto sum = unionOfPairs(a_, poses_a, b_, poses_b, displacement, request)) {
+      sum->plan.insert(sum->plan.begin(), note());
+      return *sum;
+    }
   }
   // At most one of the two has unbounded members.
   placed_a.boundBy(placed_b.object(), displacement);
@@ -168,7 +171,7 @@ ProbabilityResult GroupsQuery::answerOfGaussian(const Poses& poses_a, const Pose
     return collided(poses_a, poses_b, displacement.mean(), request);
   }
   result.upper = std::max(*result.lower, std::min(*result.upper, most));
-  result.plan.insert(result.plan.begin(), note());
+  result.plan.insert(result.plan.begin(), note() + ": one partition for the union of their pairs");
   return result;
 }
 
@@ -273,8 +276,7 @@ std::string GroupsQuery::note() const {
          std::to_string(b_.members().size()) +
          (left_out > 0
               ? " (" + std::to_string(left_out) + " left out, as fcl::collide does: not occupied)"
-              : "") +
-         ": one partition for the union of their pairs";
+              : "");
 }
 
 }  // namespace fcl_prob::detail

@@ -176,9 +176,9 @@ class UnionOfPairs {
 };
 
 bool areConvex(const MemberGroup& group) {
-  return !group.anyUnbounded() && group.leftOut() == 0 &&
-         std::all_of(group.members().begin(), group.members().end(),
-                     [](const auto& member) { return member->isConvex(); });
+  const auto isConvex = [&](std::size_t i) { return group.members()[i]->isConvex(); };
+  return !group.anyUnbounded() &&
+         std::all_of(group.bounded().begin(), group.bounded().end(), isConvex);
 }
 
 }  // namespace
@@ -191,11 +191,11 @@ std::optional<ProbabilityResult> unionOfPairs(const MemberGroup& a,
                                               const ProbabilityRequest& request) {
   const bool wanted = !request.gradient && !request.threshold && displacement.rank() > 0 &&
                       request.method != ProbabilityMethod::estimate;
-  if (!wanted || poses_a.size() * poses_b.size() > kMostPairs) return std::nullopt;
+  if (!wanted || a.bounded().size() * b.bounded().size() > kMostPairs) return std::nullopt;
   if (!areConvex(a) || !areConvex(b)) return std::nullopt;
   UnionOfPairs pairs(displacement, request);
-  for (std::size_t i = 0; i < poses_a.size(); ++i) {
-    for (std::size_t j = 0; j < poses_b.size(); ++j) {
+  for (const std::size_t i : a.bounded()) {
+    for (const std::size_t j : b.bounded()) {
       pairs.add(a.members()[i]->rootBody(), poses_a[i], b.members()[j]->rootBody(), poses_b[j]);
     }
   }
