@@ -143,12 +143,14 @@ void WholeBodyLines::lowerTo(const CornerMeans& means, const Visit& leaf,
 }
 
 // No line has anything before what is linear between the entries at the corners, which is not
-// behind the last one of those; what is free behind that is free on all lines.
+// behind the last one of those; what is free behind that is free on all lines. Nor has any line
+// less than nothing, as if it entered behind the end: such entries are at the end.
 double WholeBodyLines::mostMeanOn(const Column& column, const Met& met) {
   const auto means = CornerMeans::of(column);
   const std::vector<LineSpan>& spans = met.spans;
   if (!means || spans.empty()) return mostOn(met);
-  const CornerValues entries = entriesAt(*means, column, met);
+  CornerValues entries = entriesAt(*means, column, met);
+  for (double& entry : entries) entry = std::min(entry, spans.back().hi);
   const double last = *std::max_element(entries.begin(), entries.end());
   CornerValues tails;
   for (std::size_t k = 0; k < 4; ++k) tails[k] = normalTailMass(entries[k]);

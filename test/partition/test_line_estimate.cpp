@@ -24,6 +24,7 @@ using namespace fcl_prob::detail;
 using fcl_prob_test::boxMesh;
 using fcl_prob_test::bumpyMesh;
 using fcl_prob_test::hullMesh;
+using fcl_prob_test::joined;
 using fcl_prob_test::PartitionQuery;
 using fcl_prob_test::RandomBodies;
 using fcl_prob_test::WhitenedMeshes;
@@ -106,16 +107,10 @@ double deviationOf(const PartitionQuery& query, const GaussianDisplacement& disp
 
 /// Two plates, one across and one along the way between the objects.
 TriangleMesh cornerMesh() {
-  TriangleMesh mesh = fcl_prob_test::transformed(
-      boxMesh({0.1, 4, 4}), Eigen::Isometry3d(Eigen::Translation3d(1.05, 0, 0)));
-  const TriangleMesh beside = fcl_prob_test::transformed(
-      boxMesh({4, 0.1, 4}), Eigen::Isometry3d(Eigen::Translation3d(-1, 1.1, 0)));
-  const std::size_t first = mesh.vertices.size();
-  mesh.vertices.insert(mesh.vertices.end(), beside.vertices.begin(), beside.vertices.end());
-  for (const fcl::Triangle& t : beside.triangles) {
-    mesh.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
-  }
-  return mesh;
+  return joined(fcl_prob_test::transformed(boxMesh({0.1, 4, 4}),
+                                           Eigen::Isometry3d(Eigen::Translation3d(1.05, 0, 0))),
+                fcl_prob_test::transformed(boxMesh({4, 0.1, 4}),
+                                           Eigen::Isometry3d(Eigen::Translation3d(-1, 1.1, 0))));
 }
 
 /// Of the line { (s, u) } what is in a box around 0.
@@ -201,6 +196,45 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
   CHECK(met > 100);
   CHECK(covered > 50);
   CHECK(followed > 10);
+}
+
+// Lines that pass a plate must not make up for those that meet it.
+TEST_CASE("bounds by columns hold at the rims of thin plates", "[lines]") {
+  RandomBodies random(21);
+  int partial = 0, covered = 0;
+  const auto plateAt = [&random](double x) {
+    const Eigen::Vector3d sides(random.logUniform(1e-3, 0.1), random.uniform(0.5, 3.0),
+                                random.uniform(0.5, 3.0));
+    const Eigen::AngleAxisd turn(random.uniform(0.0, 0.3), random.direction());
+    const Eigen::Translation3d to(x, random.uniform(-1, 1), random.uniform(-1, 1));
+    return fcl_prob_test::transformed(boxMesh(sides), to * turn);
+  };
+  for (int scene = 0; scene < 40; ++scene) {
+    const TriangleMesh body = hullMesh(random.onSphere(30, random.logUniform(1e-3, 0.05)));
+    const double x = random.uniform(0.2, 2.0);
+    const WhitenedMeshes meshes(body, joined(plateAt(x), plateAt(x + random.uniform(0.2, 1.0))));
+    const auto lines = contactsOf<WholeBodyLines>(meshes);
+    REQUIRE(lines);
+    for (int i = 0; i < 40; ++i) {
+      const Eigen::Vector2d u(random.uniform(-2, 2), random.uniform(-2, 2));
+      const Eigen::Vector2d half(random.logUniform(0.01, 0.5), random.logUniform(0.01, 0.5));
+      const Column column{u - half, u + half};
+      const double mean = meanOnLines(*lines, column);
+      const auto met = lines->meet(column, lines->everything());
+      const auto middle = lines->contactsOn(u, met, Taken::whole);
+      CAPTURE(scene, i, u.transpose(), half.transpose(), mean, middle.mass);
+      // The mean is of 144 lines, some of which pass the rims.
+      CHECK(lines->mostMeanOn(column, met) >= 0.7 * mean);
+      CHECK(lines->leastOn(column, middle.chain) <= 1.3 * mean);
+      for (const auto& touch : middle.touches) {
+        CHECK(lines->leastOn(column, touch) <= 1.3 * mean);
+      }
+      partial += mean > 0.0 && middle.mass == 0.0;
+      covered += lines->leastOn(column, middle.chain) > 0.0;
+    }
+  }
+  CHECK(partial > 20);
+  CHECK(covered > 20);
 }
 
 TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][slow]") {
