@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/bisection.h"
 #include "bench/bench_task.h"
 #include "bench/benchmark.h"
 #include "bench/fcl_loop.h"
@@ -139,14 +140,12 @@ class PartsTable {
     const auto place = [&](double away) {
       pose.translation() = vertex + away * direction - pose.linear() * middle;
     };
-    double near = 0.0, far = 2.0;
-    constexpr int kHalvings = 30;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double away = 0.5 * (near + far);
+    const auto isNear = [&](double away) {
       place(away);
-      (distanceAt(part, pose) < distance ? near : far) = away;
-    }
-    place(far);
+      return distanceAt(part, pose) < distance;
+    };
+    constexpr int kHalvings = 30;
+    place(detail::bisect({0.0, 2.0}, kHalvings, isNear).fails);
     return pose;
   }
 

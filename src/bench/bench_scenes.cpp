@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "base/bisection.h"
 #include "cli/random_frames.h"
 
 namespace fcl_prob::cli {
@@ -25,17 +26,14 @@ fcl::Transform3d offsetPose(double offset) {
 double findOffset(const TriangleMesh& a, const TriangleMesh& b, double distance) {
   const auto model_a = buildModel<fcl::OBBRSSd>(a);
   const auto model_b = buildModel<fcl::OBBRSSd>(b);
-  double near = 0.0;
-  double far = kLargestOffset;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (near + far);
-    fcl::DistanceRequestd request;
+  const auto isNear = [&](double offset) {
+    const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
-    const double found = fcl::distance(model_a.get(), fcl::Transform3d::Identity(), model_b.get(),
-                                       offsetPose(middle), request, result);
-    (found < distance ? near : far) = middle;
-  }
-  return far;
+    return fcl::distance(model_a.get(), fcl::Transform3d::Identity(), model_b.get(),
+                         offsetPose(offset), request, result) < distance;
+  };
+  constexpr int kHalvings = 60;
+  return detail::bisect({0.0, kLargestOffset}, kHalvings, isNear).fails;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/bisection.h"
 #include "base/stopwatch.h"
 #include "fcl_prob/mesh_io.h"
 
@@ -80,13 +81,12 @@ Eigen::Vector3d besideObject(const Geometry& finger, const Eigen::Matrix3d& turn
                              const Eigen::Vector3d& direction, double gap) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.linear() = turn;
-  double near = 0.0, far = 1.0;
-  for (int step = 0; step < 30; ++step) {
-    const double middle = 0.5 * (near + far);
-    pose.translation() = place + middle * direction;
-    (distanceOf(finger, pose, object) < gap ? near : far) = middle;
-  }
-  return place + far * direction;
+  const auto isNear = [&](double away) {
+    pose.translation() = place + away * direction;
+    return distanceOf(finger, pose, object) < gap;
+  };
+  constexpr int kHalvings = 30;
+  return place + detail::bisect({0.0, 1.0}, kHalvings, isNear).fails * direction;
 }
 
 CloudScene randomCloudScene(const TriangleMesh& mesh, const Geometry& finger, double depth,

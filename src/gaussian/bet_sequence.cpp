@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/bisection.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -21,7 +23,6 @@ constexpr double kMostLost = 0.75;
 // Factors that are multiplied before their logarithm is taken.
 constexpr std::size_t kFactors = 16;
 
-// Of a bisection; the end that is taken is outside.
 constexpr int kCoarseHalvings = 24;
 
 // Of a logarithm of capital, for rounding.
@@ -78,13 +79,10 @@ double BetSequence::logCapital(double p) const {
 
 double BetSequence::upper(double error, double most) const {
   const double enough = -std::log(error);
-  double outside = most, inside = std::min(most, mean());
+  const double outside = most, inside = std::min(most, mean());
   if (!(logCapital(outside) >= enough)) return most;
-  for (int i = 0; i < kCoarseHalvings; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (logCapital(middle) >= enough ? outside : inside) = middle;
-  }
-  return outside;
+  const auto isAgainst = [&](double p) { return logCapital(p) >= enough; };
+  return bisect({outside, inside}, kCoarseHalvings, isAgainst).holds;
 }
 
 double BetSequence::samplesToTell(double target, double most, double error) const {

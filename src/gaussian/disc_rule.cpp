@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/bisection.h"
 #include "fcl_prob/normal_mass.h"
 
 namespace fcl_prob::detail {
@@ -85,10 +86,8 @@ double DiscRule::distanceToCut(double side, double level) const {
     low = high;
     high = std::min(room, 1.5 * high);
   }
-  for (int k = 0; k < 4; ++k) {
-    const double middle = 0.5 * (low + high);
-    (isBeyond(middle) ? high : low) = middle;
-  }
+  constexpr int kCutHalvings = 4;
+  high = bisect({high, low}, kCutHalvings, isBeyond).holds;
   // Too near the pole for a cut.
   return high < 0.98 * room ? high : kInfinity;
 }

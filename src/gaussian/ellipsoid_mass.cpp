@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/bisection.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/disc_mass.h"
 #include "gaussian/gauss_legendre.h"
@@ -118,14 +119,13 @@ class Slices {
     const double room = side < 0.0 ? nearest_u_ : 2.0 - nearest_u_;
     double high = std::min(room, std::sqrt(level - squareAt(nearest_u_)) / ball_.radius.z());
     double low = 0.0;
-    for (int k = 0; k < 40 && high < room && squareAt(nearest_u_ + side * high) < level; ++k) {
+    const auto isBefore = [&](double d) { return squareAt(nearest_u_ + side * d) < level; };
+    for (int k = 0; k < 40 && high < room && isBefore(high); ++k) {
       low = high;
       high = std::min(room, 1.5 * high);
     }
-    for (int k = 0; k < 4; ++k) {
-      const double middle = 0.5 * (low + high);
-      (squareAt(nearest_u_ + side * middle) < level ? low : high) = middle;
-    }
+    constexpr int kCutHalvings = 4;
+    high = bisect({low, high}, kCutHalvings, isBefore).fails;
     return high < room ? nearest_u_ + side * high : (side < 0.0 ? 0.0 : 2.0);
   }
 

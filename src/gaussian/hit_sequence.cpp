@@ -4,13 +4,13 @@
 
 #include <cmath>
 
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "base/quantiles.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// Of a bisection; the end that is taken is outside of the interval.
 constexpr int kHalvings = 60;
 
 // Not std::lgamma, which writes a global.
@@ -35,11 +35,8 @@ class Evidence {
 
   double end(double outside, double inside, double enough) const {
     if (!(logAgainst(outside) >= enough)) return outside;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = 0.5 * (outside + inside);
-      (logAgainst(middle) >= enough ? outside : inside) = middle;
-    }
-    return outside;
+    const auto isAgainst = [&](double p) { return logAgainst(p) >= enough; };
+    return bisect({outside, inside}, kHalvings, isAgainst).holds;
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/bisection.h"
 #include "base/constants.h"
 #include "base/number_text.h"
 #include "cobstacle/support_shape.h"
@@ -59,14 +60,14 @@ double leastSquaredDistance(const Eigen::Vector3d& centre, double radius,
                             const Eigen::Vector3d& inverse_variances) {
   const double excess = centre.norm() / radius - 1.0;
   if (!(excess > 0.0)) return 0.0;
-  double lower = std::log(excess * inverse_variances.minCoeff());
-  double upper = std::log(excess * inverse_variances.maxCoeff());
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (lower + upper);
-    (tooSmall(std::exp(middle), centre, radius, inverse_variances) ? lower : upper) = middle;
-  }
-  const double best = std::max(dualValue(std::exp(lower), centre, radius, inverse_variances),
-                               dualValue(std::exp(upper), centre, radius, inverse_variances));
+  const auto isTooSmall = [&](double logarithm) {
+    return tooSmall(std::exp(logarithm), centre, radius, inverse_variances);
+  };
+  const Bracket found = bisect({std::log(excess * inverse_variances.minCoeff()),
+                                std::log(excess * inverse_variances.maxCoeff())},
+                               kHalvings, isTooSmall);
+  const double best = std::max(dualValue(std::exp(found.holds), centre, radius, inverse_variances),
+                               dualValue(std::exp(found.fails), centre, radius, inverse_variances));
   return best > 0.0 ? best : 0.0;  // NaN: overflow
 }
 

@@ -249,14 +249,16 @@ std::optional<ProbabilityResult> GroupsQuery::decidedByPairs(
   if (!request.threshold || request.gradient || request.method == ProbabilityMethod::estimate) {
     return std::nullopt;
   }
-  if (!a_.isConvexInOnePlace(poses_a) || !b_.isConvexInOnePlace(poses_b)) return std::nullopt;
-  if (a_.leftOut() + b_.leftOut() > 0) return std::nullopt;
+  if (!a_.areConvex() || !b_.areConvex()) return std::nullopt;
+  const fcl::Transform3d* const place_a = a_.onePlace(poses_a);
+  const fcl::Transform3d* const place_b = b_.onePlace(poses_b);
+  if (!place_a || !place_b) return std::nullopt;
   RequestLimits limits(request);
   PartsBoundsRequest parts;
   parts.negligible = kNegligible * *request.threshold;
   parts.interruption = limits.interruption();
   const PartsBoundsResult bounds =
-      partsBounds(a_.bodies(), poses_a[0], b_.bodies(), poses_b[0], displacement, parts);
+      partsBounds(a_.bodies(), *place_a, b_.bodies(), *place_b, displacement, parts);
   const Decision decision = decisionOf(bounds.any, request);
   if (decision != Decision::below && decision != Decision::above) return std::nullopt;
   ProbabilityResult result;
@@ -266,7 +268,7 @@ std::optional<ProbabilityResult> GroupsQuery::decidedByPairs(
   result.status = ProbabilityStatus::decided;
   result.decision = decision;
   result.statistics.leaf_pairs = bounds.pairs;
-  result.plan.push_back("decided by Hunter's and Bonferroni's bounds on pairs of convex members");
+  result.plan = {note(), "decided by Hunter's and Bonferroni's bounds on pairs of convex members"};
   return result;
 }
 

@@ -56,19 +56,25 @@ class MemberGroup {
                        [](const auto& member) { return member->hasRootBody(); });
   }
 
-  bool isConvexInOnePlace(const std::vector<fcl::Transform3d>& poses) const {
-    const auto same = [&](const fcl::Transform3d& pose) {
-      return pose.matrix() == poses[0].matrix();
-    };
-    return std::all_of(poses.begin(), poses.end(), same) &&
-           std::all_of(members_.begin(), members_.end(),
-                       [](const auto& member) { return member->isConvex(); });
+  /// Of its members that are not left out.
+  bool areConvex() const {
+    return !anyUnbounded() && std::all_of(bounded_.begin(), bounded_.end(),
+                                          [&](std::size_t i) { return members_[i]->isConvex(); });
   }
 
-  /// Of convex members.
+  /// The one place of all bounded members, if they have one.
+  const fcl::Transform3d* onePlace(const std::vector<fcl::Transform3d>& poses) const {
+    const auto isThere = [&](std::size_t i) {
+      return poses[i].matrix() == poses[bounded_.front()].matrix();
+    };
+    const bool one = !bounded_.empty() && std::all_of(bounded_.begin(), bounded_.end(), isThere);
+    return one ? &poses[bounded_.front()] : nullptr;
+  }
+
+  /// Of the bounded members, which are convex.
   std::vector<ConvexBody> bodies() const {
     std::vector<ConvexBody> bodies;
-    for (const auto& member : members_) bodies.push_back(member->rootBody());
+    for (const std::size_t i : bounded_) bodies.push_back(members_[i]->rootBody());
     return bodies;
   }
 

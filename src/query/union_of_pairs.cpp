@@ -175,12 +175,6 @@ class UnionOfPairs {
   std::vector<MemberPair> pairs_;
 };
 
-bool areConvex(const MemberGroup& group) {
-  const auto isConvex = [&](std::size_t i) { return group.members()[i]->isConvex(); };
-  return !group.anyUnbounded() &&
-         std::all_of(group.bounded().begin(), group.bounded().end(), isConvex);
-}
-
 }  // namespace
 
 std::optional<ProbabilityResult> unionOfPairs(const MemberGroup& a,
@@ -192,7 +186,7 @@ std::optional<ProbabilityResult> unionOfPairs(const MemberGroup& a,
   const bool wanted = !request.gradient && !request.threshold && displacement.rank() > 0 &&
                       request.method != ProbabilityMethod::estimate;
   if (!wanted || a.bounded().size() * b.bounded().size() > kMostPairs) return std::nullopt;
-  if (!areConvex(a) || !areConvex(b)) return std::nullopt;
+  if (!a.areConvex() || !b.areConvex()) return std::nullopt;
   UnionOfPairs pairs(displacement, request);
   for (const std::size_t i : a.bounded()) {
     for (const std::size_t j : b.bounded()) {

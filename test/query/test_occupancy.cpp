@@ -200,9 +200,10 @@ TEST_CASE("members of groups that are not occupied are left out") {
   };
   const auto ask = [&](const GroupQuery::Geometries& a, const GroupQuery::Geometries& b,
                        const std::vector<fcl::Transform3d>& poses_a,
-                       const std::vector<fcl::Transform3d>& poses_b) {
+                       const std::vector<fcl::Transform3d>& poses_b,
+                       const ProbabilityRequest& request = {}) {
     ProbabilityResult result;
-    GroupQuery(a, b).collisionProbability(poses_a, poses_b, someDisplacement(), {}, result);
+    GroupQuery(a, b).collisionProbability(poses_a, poses_b, someDisplacement(), request, result);
     return result;
   };
   const auto with =
@@ -212,6 +213,14 @@ TEST_CASE("members of groups that are not occupied are left out") {
   CHECK(*with.upper == *without.upper);
   CHECK(*with.upper < 0.1);
   CHECK_THAT(with.plan.front(), Catch::Matchers::Contains("2 left out"));
+
+  ProbabilityRequest decision;
+  decision.threshold = 0.5 * *ask({ball}, {wall}, {at(0)}, {at(1)}).lower;
+  const auto decided =
+      ask({ball, ball}, {near, wall, wall}, {at(0), at(0)}, {at(0), at(1), at(1)}, decision);
+  CHECK(decided.decision == fcl_prob::Decision::above);
+  CHECK_THAT(decided.plan.front(), Catch::Matchers::Contains("1 left out"));
+  CHECK_THAT(decided.plan.back(), Catch::Matchers::Contains("Bonferroni"));
   const auto nothing = ask({ball, ball}, {near, ground}, {at(0), at(0.2)}, {at(0), at(0)});
   CHECK(*nothing.upper == 0.0);
 
