@@ -42,6 +42,9 @@ constexpr NodeBox kEverywhere{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
 // Depth of a plane that covers nothing of the cell.
 constexpr double kDeepest = 0.9999;
 
+// The order of a heap whose first is the lowest.
+constexpr auto kHigher = [](const auto& x, const auto& y) { return x.first > y.first; };
+
 }  // namespace
 
 CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
@@ -365,8 +368,6 @@ double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m)
   return std::max(lowest, lowestOf(obstacles_.support(pair.nodes), pair.nodes, m));
 }
 
-// Lower bound of m·y over the C-obstacle of two nodes of meshes from their vertices. Calls with the
-// same m share their work until another m is used.
 double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
   const double a = support_a_.along(m, nodes.a);
@@ -379,41 +380,51 @@ double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
   return b - a - error;
 }
 
-// Depth first, lower children first; a pair that cannot lower what is known is not opened.
-double CellFront::lowestOfParts(const FrontPair& coarse, const Eigen::Vector3d& m,
-                                const LowestSought& sought, int& budget, PartsBelow& below) {
-  double result = std::numeric_limits<double>::infinity();
-  below.pairs.clear();
-  below.lowest_of_others = result;
-  stack_.assign(1, {coarse, obstacleBox(pair_, coarse.nodes)});
-  while (!stack_.empty()) {
-    const BoxedPair boxed = stack_.back();
-    const NodePair nodes = boxed.pair.nodes;
-    stack_.pop_back();
-    ++statistics_.pairs_tested;
-    if (!meetsCell(boxed.box)) continue;
-    double lowest = lowestInCell(boxed.box, m);
-    if (lowest < std::min(sought.enough, result)) {
-      lowest = std::max(lowest, lowestOfVertices(nodes, m));
-    }
-    if (lowest >= sought.enough) {
-      below.lowest_of_others = std::min(below.lowest_of_others, lowest);
-      continue;
-    }
-    if (lowest >= result || areLeaves(pair_, nodes) || budget <= 0) {
-      result = std::min({result, lowest, sought.known});
-      below.pairs.push_back(FrontPair::ofNodes(nodes));
-      continue;
-    }
-    --budget;
-    const std::array<NodePair, 2> children = childrenOf(pair_, nodes);
-    const std::array<NodeBox, 2> boxes{obstacleBox(pair_, children[0]),
-                                       obstacleBox(pair_, children[1])};
-    const int last = lowestInCell(boxes[0], m) < lowestInCell(boxes[1], m) ? 0 : 1;
-    for (const int i : {1 - last, last})
-      stack_.push_back({FrontPair::ofNodes(children[i]), boxes[i]});
+// Lower bound of m·y over the C-obstacle of two nodes ∩ cell: as good as it gets if it is below the
+// level.
+double CellFront::lowestOfParts(const BoxedPair& boxed, const CellPlane& level) {
+  const NodePair nodes = boxed.pair.nodes;
+  double lowest = lowestInCell(boxed.box, level.m);
+  if (lowest >= level.s) return lowest;
+  lowest = std::max(lowest, lowestOfVertices(nodes, level.m));
+  if (lowest >= level.s || !areLeaves(pair_, nodes) || !obstacles_.areTriangles(nodes)) {
+    return lowest;
   }
-  return std::min(result, below.lowest_of_others);
+  const SlabArrays slabs = obstacles_.slabsOnce(nodes, once_);
+  if (kernels_.classify(slabs, box_).relation == CellRelation::outside) return kInfinity;
+  return std::max(lowest, kernels_.minimumAlong(slabs, box_, level.m.data()));
+}
+
+// Adds to the heap of pairs by how low they reach.
+void CellFront::addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below) {
+  ++statistics_.pairs_tested;
+  const BoxedPair boxed{FrontPair::ofNodes(nodes), obstacleBox(pair_, nodes)};
+  if (!meetsCell(boxed.box)) return;
+  const double lowest = lowestOfParts(boxed, level);
+  if (lowest >= level.s) {
+    below.lowest_of_others = std::min(below.lowest_of_others, lowest);
+    return;
+  }
+  ordered_.emplace_back(lowest, boxed);
+  std::push_heap(ordered_.begin(), ordered_.end(), kHigher);
+}
+
+void CellFront::findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
+                          int budget, PartsBelow& below) {
+  below.pairs.clear();
+  below.lowest = kInfinity;
+  below.lowest_of_others = kInfinity;
+  ordered_.clear();
+  for (const FrontPair& pair : pairs) addBelow(pair.nodes, level, below);
+  for (; !ordered_.empty() && budget > 0; --budget) {
+    const auto [lowest, boxed] = ordered_.front();
+    if (lowest >= known || areLeaves(pair_, boxed.pair.nodes)) break;
+    std::pop_heap(ordered_.begin(), ordered_.end(), kHigher);
+    ordered_.pop_back();
+    for (const NodePair child : childrenOf(pair_, boxed.pair.nodes)) addBelow(child, level, below);
+  }
+  if (!ordered_.empty()) below.lowest = ordered_.front().first;
+  for (const auto& [unused, boxed] : ordered_) below.pairs.push_back(boxed.pair);
 }
 
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {

@@ -59,24 +59,21 @@ class CellFront {
   /// The same from the slabs of a pair of leaves.
   double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
 
-  /// What a search for the lowest part of a pair is for.
-  struct LowestSought {
-    double enough;  ///< parts above need not be told apart
-    double known;  ///< as low as some other pair reaches: if a part lies below `enough`, how low it
-                   ///< reaches matters only below this
-  };
+  /// Lower bound of m·y over the C-obstacle of two nodes of meshes, in the cell or not, from their
+  /// vertices. Calls with the same m share their work until another m is used.
+  double lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m);
 
-  /// The parts of a pair that reach below a level, and how low the others reach.
+  /// What reaches below a level, in pairs as large as they came or smaller.
   struct PartsBelow {
     std::vector<FrontPair> pairs;
-    double lowest_of_others;
+    double lowest;            ///< of them, or a bound that is at least as low
+    double lowest_of_others;  ///< of those that do not reach below the level
   };
 
-  /// The same from the smaller pairs that a coarse pair consists of, as far as `sought` needs and
-  /// as long as `budget` lasts, which counts the nodes opened. Tells apart what reaches below
-  /// `enough` and what does not.
-  double lowestOfParts(const FrontPair& pair, const Eigen::Vector3d& m, const LowestSought& sought,
-                       int& budget, PartsBelow& below);
+  /// How low coarse pairs reach within the cell. The lowest one is opened until that is known, no
+  /// pair reaches below `known`, or `budget` nodes were opened: what lies higher stays as it is.
+  void findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
+                 int budget, PartsBelow& below);
 
   /// A box around the pair's C-obstacle ∩ cell; false if that is empty.
   bool clip(const FrontPair& pair, Cell& part) const;
@@ -108,7 +105,8 @@ class CellFront {
   double eccentricity(const NodeBox& box) const;
   bool largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const;
   double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
-  double lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m);
+  double lowestOfParts(const BoxedPair& boxed, const CellPlane& level);
+  void addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below);
 
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
@@ -127,6 +125,7 @@ class CellFront {
   std::vector<BoxedPair> stack_;
   std::vector<CuttingPair> previous_;
   std::vector<std::pair<double, BoxedPair>> ordered_;
+  TriangleSlabsData once_;
 };
 
 }  // namespace fcl_prob::detail

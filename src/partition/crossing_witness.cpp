@@ -88,6 +88,62 @@ int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) 
   return best;
 }
 
+// What is left of a triangle within a box: every side adds one corner at most.
+struct ClippedTriangle {
+  std::array<Eigen::Vector3d, 9> corners;
+  int count;
+
+  // Keeps {sign x[axis] <= level}.
+  void clip(int axis, double sign, double level);
+};
+
+void ClippedTriangle::clip(int axis, double sign, double level) {
+  std::array<double, 9> beyond;
+  int outside = 0;
+  for (int i = 0; i < count; ++i) {
+    beyond[i] = sign * corners[i][axis] - level;
+    if (beyond[i] > 0) ++outside;
+  }
+  if (outside == 0) return;
+  const ClippedTriangle whole = *this;
+  count = 0;
+  if (outside == whole.count) return;
+  for (int i = 0; i < whole.count; ++i) {
+    const int next = i + 1 < whole.count ? i + 1 : 0;
+    if (beyond[i] <= 0) corners[count++] = whole.corners[i];
+    if ((beyond[i] <= 0) == (beyond[next] <= 0)) continue;
+    const double share = beyond[i] / (beyond[i] - beyond[next]);
+    corners[count++] = whole.corners[i] + share * (whole.corners[next] - whole.corners[i]);
+  }
+}
+
+// The largest m·x over the part of a triangle within a box; -inf if there is none.
+double highestWithin(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& lo,
+                     const Eigen::Vector3d& hi, const Eigen::Vector3d& m) {
+  ClippedTriangle rest;
+  std::copy(triangle.begin(), triangle.end(), rest.corners.begin());
+  rest.count = 3;
+  for (int k = 0; k < 3 && rest.count > 0; ++k) {
+    rest.clip(k, 1.0, hi[k]);
+    rest.clip(k, -1.0, -lo[k]);
+  }
+  double highest = -kInfinity;
+  for (int i = 0; i < rest.count; ++i) highest = std::max(highest, m.dot(rest.corners[i]));
+  return highest;
+}
+
+// Every clip rounds a corner by less than 8 epsilon of coordinates like these, axis by axis: its
+// distances from a side are differences of two doubles. In a box that is larger by the sum nothing
+// is lost.
+Eigen::Vector3d clipRounding(const NodeBox& mesh, const Eigen::Vector3d& p) {
+  Eigen::Vector3d rounding;
+  for (int k = 0; k < 3; ++k) {
+    const double largest = std::max(std::fabs(mesh.lo[k]), std::fabs(mesh.hi[k]));
+    rounding[k] = 64 * kEpsilon * (largest + std::fabs(p[k]) + kReach);
+  }
+  return rounding;
+}
+
 }  // namespace
 
 CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid)
@@ -272,11 +328,13 @@ void CrossingWitness::tryPlane(Side& side, int vertex, const SweptVertex& swept,
   const double length = m.norm();
   if (!(length > 0.0)) return;
   m /= length;
-  const double s = highestTouched(side, vertex, swept, m);
   const double least = m.dot(cell.lowestCorner(m));
   const double most = m.dot(cell.lowestCorner(-m));
+  const double least_depth = best_ ? best_->depth : kLeastPlaneDepth;
+  const double useful = least + 0.5 * (least_depth + 1) * (most - least);
+  const double s = std::max(least, highestTouched(side, vertex, swept, m, useful));
   const double depth = 2 * (s - least) / (most - least) - 1;
-  if (!(depth < (best_ ? best_->depth : kLeastPlaneDepth))) return;
+  if (!(depth < least_depth)) return;
   const Attempt attempt{&side, vertex, {m, s}, depth};
   if (certify(attempt, cell)) best_ = attempt;
 }
@@ -291,38 +349,37 @@ Eigen::Vector3d CrossingWitness::acrossTouched(const Side& side) const {
   return -side.sign * sum;
 }
 
-// Upper bound of m·y over the displacements y at which the vertex touches one of the triangles.
+// Upper bound of m·y over the displacements y at which the vertex touches one of the triangles, of
+// which only what it sweeps matters; infinite if that is above `most`, -inf if it touches none.
 double CrossingWitness::highestTouched(const Side& side, int vertex, const SweptVertex& swept,
-                                       const Eigen::Vector3d& m) const {
+                                       const Eigen::Vector3d& m, double most) const {
   const WhitenedTree& outer = side.outer.mesh();
   const Eigen::Vector3d& p = side.inner.mesh().vertices[vertex];
+  const Eigen::Vector3d upwards = side.sign * m;
+  const Eigen::Vector3d rounding = clipRounding(outer.boxes[0], p);
   double highest = -kInfinity;
   for (const Eigen::Vector3i& t : touched_) {
-    double of_vertices = -kInfinity;
-    Eigen::Vector3d lo = outer.vertices[t[0]];
-    Eigen::Vector3d hi = lo;
+    std::array<Eigen::Vector3d, 3> triangle;
+    double of_corners = -kInfinity;
     Eigen::Vector3d motion = Eigen::Vector3d::Zero();
     for (int corner = 0; corner < 3; ++corner) {
-      const Eigen::Vector3d& v = outer.vertices[t[corner]];
+      triangle[corner] = outer.vertices[t[corner]];
+      of_corners = std::max(of_corners, upwards.dot(triangle[corner] - p));
       motion = motion.cwiseMax(outer.motionOf(t[corner]));
-      of_vertices = std::max(of_vertices, side.sign * m.dot(v - p));
-      lo = lo.cwiseMin(v);
-      hi = hi.cwiseMax(v);
     }
     // A band counts once, at the end.
-    if (!band_) of_vertices += m.cwiseAbs().dot(motion);
-    double of_box = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double pad = outer.error[k] + motion[k];
-      const double from = std::max(lo[k] - pad, swept.lo[k]) - p[k];
-      const double to = std::min(hi[k] + pad, swept.hi[k]) - p[k];
-      of_box += std::max(side.sign * m[k] * from, side.sign * m[k] * to);
-    }
-    highest = std::max(highest, std::min(of_vertices, of_box));
+    const double moved = band_ ? 0.0 : m.cwiseAbs().dot(motion);
+    if (of_corners + moved <= highest) continue;
+    const Eigen::Vector3d pad = outer.error + motion + rounding;
+    const Eigen::Vector3d lo = Eigen::Map<const Eigen::Vector3d>(swept.lo) - pad;
+    const Eigen::Vector3d hi = Eigen::Map<const Eigen::Vector3d>(swept.hi) + pad;
+    const double within = highestWithin(triangle, lo, hi, upwards) - upwards.dot(p);
+    highest = std::max(highest, std::min(of_corners, within) + moved);
+    if (highest > most) return kInfinity;
   }
   return highest + 4 * (side.inner.mesh().errorAlong(m) + outer.errorAlong(m)) +
          (band_ ? band_->inwardAlong(m) : m.cwiseAbs().dot(side.inner.mesh().motionOf(vertex))) +
-         64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
+         m.cwiseAbs().dot(rounding) + 64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
 }
 
 // What is beyond the plane is convex and free of the outer mesh, so that one point of it tells.

@@ -86,7 +86,7 @@ class CrossingWitness {
                 Eigen::Vector3d m);
   Eigen::Vector3d acrossTouched(const Side& side) const;
   double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
-                        const Eigen::Vector3d& m) const;
+                        const Eigen::Vector3d& m, double most) const;
   bool certify(const Attempt& attempt, const Cell& cell);
 
   bool solid_;
