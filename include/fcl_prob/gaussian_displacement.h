@@ -72,6 +72,10 @@ class GaussianDisplacement {
   /// \throws InvalidDistribution if that is not finite.
   GaussianDisplacement withMean(const Eigen::Vector3d& mean) const;
 
+  /// The same displacement without what moves along the last of the axes that it has: of a rank
+  /// less by one (0: of rank 0 it is this one).
+  GaussianDisplacement withoutLastAxis() const;
+
   /// The displacement of B relative to A: the same distribution mirrored, so the mean changes sign.
   GaussianDisplacement reversed() const;
 

@@ -168,6 +168,13 @@ GaussianDisplacement GaussianDisplacement::withMean(const Eigen::Vector3d& mean)
   return result;
 }
 
+GaussianDisplacement GaussianDisplacement::withoutLastAxis() const {
+  if (rank_ == 0) return *this;
+  detail::PrincipalAxes axes{standard_deviations_, axes_, rank_ - 1};
+  axes.standard_deviations[rank_ - 1] = 0.0;
+  return {mean_, axes, covarianceOf(axes)};
+}
+
 GaussianDisplacement GaussianDisplacement::reversed() const { return withMean(-mean_); }
 
 GaussianDisplacement GaussianDisplacement::rotated(const Eigen::Matrix3d& rotation) const {

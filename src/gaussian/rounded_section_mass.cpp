@@ -16,8 +16,8 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Of the error of all rules, next to the mass.
-constexpr SurfaceAccuracy kSectionAccuracy{2e-11, 2e-10};
+/// Of the error of all rules, next to the mass: tried for, and enough.
+constexpr double kSectionTarget = 2e-11, kSectionEnough = 2e-10;
 
 /// Of the mass of the box around a section.
 constexpr double kSectionGuess = 0.1;
@@ -198,9 +198,11 @@ Bounds planeMass(const RoundedSection& section, const MovingAxes& axes, const Lo
   const std::vector<SurfacePatch> patches = whitened.patches();
   // Of a layer of thickness δ around a convex region of perimeter L, π δ² is next to 2.2 δ L.
   if (!(whitened.perimeter() > kLeastPerimeter * whitened.rounding())) return {0.0, 1.0};
-  SurfaceAccuracy accuracy = kSectionAccuracy;
-  accuracy.displacement = whitened.rounding();
-  const Bounds prism = massWithin(patches, whitened.guess(), interruption, accuracy);
+  SurfaceEffort effort;
+  effort.target = kSectionTarget;
+  effort.enough = kSectionEnough;
+  effort.displacement = whitened.rounding();
+  const Bounds prism = massWithin(patches, whitened.guess(), interruption, effort).mass;
   const double height = normalIntervalMass(0.0, 1.0);
   return {prism.lower / height * (1.0 - 32.0 * kEpsilon),
           prism.upper / height * (1.0 + 32.0 * kEpsilon)};

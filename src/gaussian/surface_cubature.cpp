@@ -24,6 +24,9 @@ constexpr double kBoxSumRounding = 2.0 * kMostSurfaceBoxes * kEpsilon;
 /// Of a term, besides that of the point: exp, erfc, weights and sums.
 constexpr double kFluxRounding = 512.0 * kEpsilon;
 
+/// Of a point seen along the field's axes: products, sums, and what the axes are off orthonormal.
+constexpr double kAxesRounding = 16.0 * kEpsilon;
+
 /// A box is divided across both parameters if normals change along them by about the same.
 constexpr double kEvenChange = 0.4;
 
@@ -39,8 +42,9 @@ constexpr double kFarthestPoint = 39.0;
 /// The third parameter is none: of length 1, so that volumes are areas.
 ParameterBox wholePatch() { return {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}; }
 
-/// A normal with n_z >= 0 along which the box is far from the origin.
-Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
+/// A normal with n·e >= 0 along which the box is far from the origin.
+Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box,
+                          const Eigen::Vector3d& e) {
   Lanes t(box.centre[1]);
   t[0] -= box.half[1];
   t[2] += box.half[1];
@@ -49,16 +53,15 @@ Eigen::Vector3d farNormal(const SurfacePatch& patch, const ParameterBox& box) {
   for (const double step : {0.0, -1.0, 1.0}) {
     const PatchPoints points = PatchLine(patch, box.centre[0] + step * box.half[0]).at(t);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d up(points.value[0][k], points.value[1][k],
-                               std::max(points.value[2][k], 0.0));
+      const Eigen::Vector3d x(points.value[0][k], points.value[1][k], points.value[2][k]);
+      const Eigen::Vector3d up = x - std::min(e.dot(x), 0.0) * e;
       if (const double square = up.squaredNorm(); square < least) {
         least = square;
         nearest = up;
       }
     }
   }
-  return least > 0.0 && least < kInfinity ? Eigen::Vector3d(nearest / std::sqrt(least))
-                                          : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  return least > 0.0 && least < kInfinity ? Eigen::Vector3d(nearest / std::sqrt(least)) : e;
 }
 
 /// The rule of one parameter in lanes; what is beyond its points has no weight.
@@ -78,24 +81,45 @@ struct LaneRule {
   std::size_t count;
 };
 
+using LaneVector = std::array<Lanes, 3>;
+
+LaneVector crossOf(const LaneVector& u, const LaneVector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Lanes rowTimes(const Eigen::Matrix3d& axes, Eigen::Index row, const LaneVector& v) {
+  return axes(row, 0) * v[0] + axes(row, 1) * v[1] + axes(row, 2) * v[2];
+}
+
 /// Sums of 2π F and of what its rounding is told from.
 struct FluxSums {
-  double flux = 0.0, magnitude = 0.0, density = 0.0, farthest_square = 0.0;
+  explicit FluxSums(const Eigen::Matrix3d& field_axes) : axes(field_axes) {}
 
-  void add(const PatchPoints& points, double weight, const Lanes& weights) {
-    const Lanes area = points.first[0] * points.second[1] - points.first[1] * points.second[0];
-    const Lanes across = points.value[0] * points.value[0] + points.value[1] * points.value[1];
+  void add(const PatchPoints& points, const LaneVector& areas, double weight,
+           const Lanes& weights) {
+    const Lanes x = rowTimes(axes, 0, points.value), y = rowTimes(axes, 1, points.value),
+                height = rowTimes(axes, 2, points.value), area = rowTimes(axes, 2, areas);
+    const Lanes across = x * x + y * y;
     for (std::size_t k = 0; k < Lanes::kCount; ++k) {
       if (!(weights[k] > 0.0)) continue;
-      const double z = points.value[2][k];
+      const double z = height[k], square = across[k] + z * z;
       const double field =
           weight * weights[k] * 0.5 * std::exp(-0.5 * across[k]) * std::erfc(z * kInverseSqrtTwo);
       flux -= field * area[k];
       magnitude += field * std::abs(area[k]);
       density += field;
-      farthest_square = std::max(farthest_square, across[k] + z * z);
+      farthest_square = std::max(farthest_square, square);
+      if (square < nearest_square) {
+        nearest_square = square;
+        nearest = {points.value[0][k], points.value[1][k], points.value[2][k]};
+      }
     }
   }
+
+  const Eigen::Matrix3d& axes;
+  double flux = 0.0, magnitude = 0.0, density = 0.0, farthest_square = 0.0;
+  double nearest_square = kInfinity;
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
 };
 
 /// Sums of (2π)^(3/2) φ times the area, and of what their rounding is told from.
@@ -103,7 +127,8 @@ struct MomentSums {
   Eigen::Vector3d flux = Eigen::Vector3d::Zero();
   double magnitude = 0.0, density = 0.0;
 
-  void add(const PatchPoints& points, double weight, const Lanes& weights) {
+  void add(const PatchPoints& points, const LaneVector& areas, double weight,
+           const Lanes& weights) {
     const Lanes square = points.value[0] * points.value[0] + points.value[1] * points.value[1] +
                          points.value[2] * points.value[2];
     Lanes field(0.0);
@@ -113,8 +138,7 @@ struct MomentSums {
       density += field[k];
     }
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t i = (c + 1) % 3, j = (c + 2) % 3;
-      const Lanes area = points.first[i] * points.second[j] - points.first[j] * points.second[i];
+      const Lanes& area = areas[c];
       for (std::size_t k = 0; k < Lanes::kCount; ++k) {
         if (!(weights[k] > 0.0)) continue;
         flux[static_cast<Eigen::Index>(c)] -= field[k] * area[k];
@@ -158,7 +182,7 @@ void SurfaceCubature::addBox(const SurfacePatch& patch, const ParameterBox& box,
     divideWhereBent(patch, box, changes, depth);
     return;
   }
-  const PatchCell cell(patch, box, farNormal(patch, box), components_);
+  const PatchCell cell(patch, box, farNormal(patch, box, axes_.row(2)), axes_.row(2), components_);
   const PartBound real = cell.bound(ComplexBox(box));
   const double all = volumeOf(box) * supremumOf(real) * kBoundSlack;
   if (all <= target || is_last) {
@@ -213,22 +237,25 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
                                const ParameterBox& box, const std::array<double, 3>& points) {
   const PartRule& first = partRule(points[0]);
   const LaneRule second(partRule(points[1]), box);
-  FluxSums sums;
+  FluxSums sums(axes_);
   MomentSums moments;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     const PatchLine line(patch, box.centre[0] + box.half[0] * first.nodes[i]);
     for (std::size_t j = 0; j < second.count; ++j) {
       const PatchPoints at = line.at(second.nodes[j]);
-      sums.add(at, first.weights[i], second.weights[j]);
-      if (withMoment()) moments.add(at, first.weights[i], second.weights[j]);
+      const LaneVector areas = crossOf(at.first, at.second);
+      sums.add(at, areas, first.weights[i], second.weights[j]);
+      if (withMoment()) moments.add(at, areas, first.weights[i], second.weights[j]);
     }
   }
   const double scale = kInverseTwoPi * box.half[0] * box.half[1];
   const PatchRounding& rounding = cell.rounding();
-  const double reach = std::min(std::sqrt(sums.farthest_square), kFarthestPoint);
-  // |∇ log F| is at most reach + 1.
-  const double relative = (reach + 1.0) * rounding.position + 4.0 * kEpsilon * reach * reach +
-                          kFluxRounding + kBoxSumRounding;
+  const double farthest = std::sqrt(sums.farthest_square);
+  const double reach = std::min(farthest, kFarthestPoint);
+  // |∇ log F| is at most reach + 1; the axes are orthonormal but for a few ε.
+  const double position = rounding.position + kAxesRounding * farthest;
+  const double relative =
+      (reach + 1.0) * position + 4.0 * kEpsilon * reach * reach + kFluxRounding + kBoxSumRounding;
   const double of_area =
       rounding.first * rounding.second_length + rounding.second * rounding.first_length +
       (kFluxRounding + layerAt(reach)) * rounding.first_length * rounding.second_length;
@@ -238,26 +265,28 @@ void SurfaceCubature::evaluate(const SurfacePatch& patch, const PatchCell& cell,
   sum_.moment += moment_scale * moments.flux;
   sum_.moment_error +=
       moment_scale * (moments.magnitude * relative + moments.density * of_area) + kFluxUnderflow;
-  if (!(rounding.position < 1e-3)) sum_.error = kInfinity;
+  if (!(position < 1e-3)) sum_.error = kInfinity;
+  if (sums.nearest_square < sum_.nearest.squaredNorm()) sum_.nearest = sums.nearest;
 }
 
 namespace {
 
 /// The best of some attempts.
 SurfaceSum sumOver(const std::vector<SurfacePatch>& surface, double guess,
-                   const Interruption& interruption, const SurfaceAccuracy& accuracy,
-                   AreaComponents components) {
+                   const Interruption& interruption, const SurfaceEffort& effort) {
+  const AreaComponents components =
+      effort.with_moment ? AreaComponents::all : AreaComponents::along_field;
   const double count = static_cast<double>(surface.size()) + 30.0;
   SurfaceSum best{0.0, kInfinity};
   double about = std::clamp(guess, kUnderflow, 0.1);
   for (int attempt = 0; attempt < kSurfaceAttempts; ++attempt) {
-    SurfaceCubature cubature({accuracy.target * about / count, kMostSurfaceBoxes}, interruption,
-                             accuracy.displacement, components);
+    SurfaceCubature cubature({effort.target * about / count, kMostSurfaceBoxes}, interruption,
+                             effort.axes, effort.displacement, components);
     for (const SurfacePatch& patch : surface) cubature.add(patch);
     // Rounding stays, whatever rules leave.
     const bool stays = cubature.sum().error > 0.5 * best.error;
     if (cubature.sum().error < best.error) best = cubature.sum();
-    if (best.error <= accuracy.enough * best.mass || cubature.exhausted() || stays) break;
+    if (best.error <= effort.enough * best.mass || cubature.exhausted() || stays) break;
     // As far as it is known.
     const double most = best.mass + best.error;
     const double next = best.mass > 2.0 * best.error ? best.mass : std::min(1e-6 * about, most);
@@ -275,15 +304,12 @@ Bounds boundsOf(const SurfaceSum& sum) {
 
 }  // namespace
 
-Bounds massWithin(const std::vector<SurfacePatch>& surface, double guess,
-                  const Interruption& interruption, const SurfaceAccuracy& accuracy) {
-  return boundsOf(sumOver(surface, guess, interruption, accuracy, AreaComponents::along_z));
-}
-
-SurfaceMass massAndMomentWithin(const std::vector<SurfacePatch>& surface, double guess,
-                                const Interruption& interruption, const SurfaceAccuracy& accuracy) {
-  const SurfaceSum sum = sumOver(surface, guess, interruption, accuracy, AreaComponents::all);
-  SurfaceMass result{boundsOf(sum), std::nullopt};
+SurfaceMass massWithin(const std::vector<SurfacePatch>& surface, double guess,
+                       const Interruption& interruption, const SurfaceEffort& effort) {
+  const SurfaceSum sum = sumOver(surface, guess, interruption, effort);
+  SurfaceMass result{boundsOf(sum), std::nullopt, std::nullopt};
+  if (sum.nearest.allFinite()) result.nearest = sum.nearest;
+  if (!effort.with_moment) return result;
   const double error = sum.moment_error * (1.0 + 1e-9) + kUnderflow;
   if (!(sum.error < kInfinity && error < kInfinity)) return result;
   result.moment = {sum.moment.array() - error, sum.moment.array() + error};

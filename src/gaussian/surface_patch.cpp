@@ -172,6 +172,20 @@ TaylorModel along(const Eigen::Vector3d& normal, const Triple<TaylorModel>& v) {
   return normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2];
 }
 
+/// normal · (u × v)
+TaylorModel alongProduct(const Eigen::Vector3d& normal, const Triple<TaylorModel>& u,
+                         const Triple<TaylorModel>& v) {
+  TaylorModel sum;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double along_i = normal[static_cast<Eigen::Index>(i)],
+                 along_j = normal[static_cast<Eigen::Index>(j)];
+    if (along_i == 0.0 && along_j == 0.0) continue;
+    sum = sum + (along_i * u[j] - along_j * u[i]) * v[k];
+  }
+  return sum;
+}
+
 /// The largest mean along a normal over a segment from the middle.
 double mostMean(const Eigen::Vector3d& normal, const Triple<TaylorModel>& v) {
   const TaylorModel z = along(normal, v);
@@ -308,8 +322,9 @@ NormalChanges normalChanges(const SurfacePatch& patch, const ParameterBox& box) 
 }
 
 PatchCell::PatchCell(const SurfacePatch& patch, const ParameterBox& box,
-                     const Eigen::Vector3d& normal, AreaComponents components)
-    : patch_(patch), normal_(normal), components_(components) {
+                     const Eigen::Vector3d& normal, const Eigen::Vector3d& field,
+                     AreaComponents components)
+    : patch_(patch), normal_(normal), field_(field), components_(components) {
   const auto [s, t, none] = parameters(box);
   const Jet<TaylorModel> jet = evaluate(patch, s, t);
   double middle = 0.0, square = 0.0;
@@ -338,13 +353,16 @@ PartBound PatchCell::bound(const ComplexBox& box) const {
 
 PartBound PatchCell::boundOf(const PatchModel& jet, const ComplexBox& box) const {
   double area = 0.0;
-  for (const std::size_t k : {2, 0, 1}) {
-    if (k != 2 && components_ == AreaComponents::along_z) break;
-    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    const TaylorModel component = jet.first[i] * jet.second[j] - jet.first[j] * jet.second[i];
-    if (!(component.radius < kInfinity)) return kUnboundedPatch;
-    area = std::max(area, component.most());
+  const auto consider = [&](const TaylorModel& component) {
+    area = component.radius < kInfinity ? std::max(area, component.most()) : kInfinity;
+  };
+  consider(alongProduct(field_, jet.first, jet.second));
+  if (components_ == AreaComponents::all) {
+    for (int k = 0; k < 3; ++k) {
+      consider(alongProduct(Eigen::Vector3d::Unit(k), jet.first, jet.second));
+    }
   }
+  if (!(area < kInfinity)) return kUnboundedPatch;
   const double fall = mostMean(normal_, jet.first) * box.real.half[0] +
                       mostMean(normal_, jet.second) * box.real.half[1];
   const double first = mostLength(jet.first), second = mostLength(jet.second);

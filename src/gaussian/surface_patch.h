@@ -100,17 +100,18 @@ struct PatchRounding {
   double first_length = 0.0, second_length = 0.0;
 };
 
-/// Which of the components of ∂x/∂s × ∂x/∂t are asked for: what a mass or a moment takes.
-enum class AreaComponents { along_z, all };
+/// Which components of ∂x/∂s × ∂x/∂t are asked for: what a mass or, besides, a moment takes.
+enum class AreaComponents { along_field, all };
 
 /// Bounds over a box of a patch (the third parameter of boxes is none) along a unit normal.
 class PatchCell {
  public:
+  /// \param field  about a unit vector
   PatchCell(const SurfacePatch& patch, const ParameterBox& box, const Eigen::Vector3d& normal,
-            AreaComponents components = AreaComponents::along_z);
+            const Eigen::Vector3d& field, AreaComponents components = AreaComponents::along_field);
 
-  /// Of the integrand ∂x/∂s × ∂x/∂t · e_z exp(-x·x/2) (or with the largest of e_x, e_y and e_z) and
-  /// of what it is made of. With the mean
+  /// Of the integrand ∂x/∂s × ∂x/∂t · field exp(-x·x/2) (or with the largest of that, e_x, e_y and
+  /// e_z) and of what it is made of. With the mean
   /// value theorem x(s, t) - x(middle) is a mean of ∂x/∂s times one step and a mean of ∂x/∂t times
   /// another, both within discs around what they are at the middle; and Im x(s + iη) is η times a
   /// mean of Re ∂x/∂s, since x is real where the parameters are.
@@ -124,7 +125,7 @@ class PatchCell {
   PartBound boundOf(const PatchModel& jet, const ComplexBox& box) const;
 
   const SurfacePatch& patch_;
-  Eigen::Vector3d normal_;
+  Eigen::Vector3d normal_, field_;
   AreaComponents components_;
   double height_ = 0.0;  ///< of the middle, along the normal, less its rounding
   double reach_ = 0.0;

@@ -52,7 +52,7 @@ struct NormalFan {
 
 class AxesSurface {
  public:
-  explicit AxesSurface(const AxesSum& axes) : centre_(axes.sum.centre) {
+  explicit AxesSurface(const AxesSum& axes) : centre_(axes.sum.centre()) {
     LongMatrix3 frame = axes.second_frame;
     Frustum second = axes.second;
     if (axes.sum.frame.col(2).dot(frame.col(2)) < 0.0L) {
@@ -268,7 +268,6 @@ double skewOf(const LongMatrix3& frame) {
 }  // namespace
 
 double AxesSum::rounding() const {
-  const double stretch = static_cast<double>(sum.map.norm());
   const double size = 1.001 * (sum.frustum.size() + second.size());
   double ellipsoids = 0.0;
   for (const LongMatrix3& ellipsoid : sum.ellipsoids) {
@@ -277,7 +276,7 @@ double AxesSum::rounding() const {
   const double skew = 8.0 * (skewOf(sum.frame) + skewOf(second_frame)) * size;
   const LongVector3 a = sum.frame.col(2).normalized(), b = second_frame.col(2).normalized();
   const double tie = std::abs(a.dot(b)) < 2.0L * kAxesTie ? 2.0 * kAxesTie * size : 0.0;
-  return sum.rounding() + stretch * (skew + tie + 32.0 * kEpsilon * (size + ellipsoids));
+  return sum.rounding() + skew + tie + 32.0 * kEpsilon * (size + ellipsoids);
 }
 
 std::optional<std::vector<SurfacePatch>> axesSurface(const AxesSum& axes) {

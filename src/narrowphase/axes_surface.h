@@ -16,7 +16,7 @@ struct AxesSum {
   Frustum second;
   LongMatrix3 second_frame;
 
-  /// How far the surface may be from the boundary, mapped.
+  /// How far the surface may be from the boundary, in metres.
   double rounding() const;
 };
 

@@ -13,6 +13,7 @@
 #include "narrowphase/ball_pair.h"
 #include "narrowphase/curved_pair.h"
 #include "narrowphase/ellipsoid_polytope.h"
+#include "narrowphase/layered_mass.h"
 #include "narrowphase/pair_bounds.h"
 #include "narrowphase/rounded_pair.h"
 #include "narrowphase/section_mass.h"
@@ -22,6 +23,13 @@ namespace {
 
 /// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
 constexpr double kSandwichWidth = 1e-4;
+
+/// What is aimed at by sections of flat displacements: of polytopes, of those swept by a ball, of
+/// others.
+constexpr double kRoundingWidth = 1e-10, kRoundedWidth = 1e-9, kCurvedWidth = 1e-6;
+
+/// How many of them: before quadrature over the boundary is tried, and instead of polytopes.
+constexpr int kFewSections = 10, kMostSections = 40;
 
 /// What is below cannot be told from nothing.
 constexpr double kNothing = 1e-300;
@@ -54,12 +62,28 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   const PairObstacle obstacle(frame, a.set(), b.set());
   PairBounds pair;
-  if (obstacle->isPolytope()) return pair.mass(*obstacle, {0.0, interruption});
   Bounds known{0.0, 1.0};
+  const bool is_flat = isFlat(displacement);
+  const auto narrowByLayers = [&](double width, int most_sections) {
+    const auto section = [&](const fcl::Transform3d& at_a, const fcl::Transform3d& at_b,
+                             const GaussianDisplacement& across) {
+      return detail::convexPairMass(a, at_a, b, at_b, across, interruption);
+    };
+    known = agreed(
+        known, layeredMass(a, pose_a, b, pose_b, displacement, section, {width, most_sections}));
+    return known.width() <= width * known.upper;
+  };
+  if (obstacle->isPolytope()) {
+    if (is_flat) narrowByLayers(kRoundingWidth, kMostSections);
+    return agreed(known, pair.mass(*obstacle, {0.0, interruption}));
+  }
   if (const auto ball = ballOfPair(a, pose_a, b, pose_b, displacement)) {
     known = ballMass(*ball, displacement);
     if (known.width() <= kSandwichWidth * known.upper) return known;
   }
+  const double layered_width =
+      isRoundedPair(a, b) || isEllipsoidWithPolytope(a, b) ? kRoundedWidth : kCurvedWidth;
+  if (is_flat && narrowByLayers(layered_width, kFewSections)) return known;
   if (frame.rank >= 2 && isRoundedPair(a, b)) {
     const RoundedEffort effort{false, interruption};
     known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
@@ -76,6 +100,10 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   }
   if (frame.rank < 3 && isSectionPair(a, b)) {
     known = agreed(known, sectionMass(a, pose_a, b, pose_b, displacement, interruption));
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (is_flat && !isDue(interruption)) {
+    narrowByLayers(layered_width, kMostSections);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;

@@ -11,6 +11,7 @@
 #include "cobstacle/nearest.h"
 #include "cobstacle/perturbation.h"
 #include "fcl_prob/normal_mass.h"
+#include "gaussian/part_rules.h"
 #include "gaussian/surface_cubature.h"
 #include "geometry/exact_sum.h"
 #include "narrowphase/axes_surface.h"
@@ -24,9 +25,15 @@ namespace {
 /// Of the mass of the box around a body.
 constexpr double kGuess = 0.05;
 
-/// Beyond a reach of sqrt(kBeyondReach - 2 log P) there is less than this share of P.
-constexpr double kBeyondReach = 80.0;
-constexpr double kShareBeyond = 1e-15;
+/// Of a ball that is seen from a point near the mean, next to itself.
+constexpr double kLeastSize = 0x1p-60;
+
+/// A point of the surface is a sum of points of the parts, whatever their normals are, rounded a
+/// few times; V' is another error from V.
+constexpr double kPointErrors = 8.0;
+
+/// Of logarithms of masses.
+constexpr double kLogRounding = 1e-6;
 
 /// By support functions, for GJK to propose directions.
 class ShapeObstacle final : public CObstacle {
@@ -48,15 +55,12 @@ class ShapeObstacle final : public CObstacle {
   SupportShape a_, b_;
 };
 
-/// A rotation that takes a unit vector to e_z.
-LongMatrix3 rotationToAxis(const Eigen::Vector3d& direction) {
-  const LongVector3 z = direction.cast<long double>().normalized();
-  const LongVector3 x = z.unitOrthogonal().normalized();
-  LongMatrix3 rotation;
-  rotation.row(0) = x.transpose();
-  rotation.row(1) = z.cross(x).transpose();
-  rotation.row(2) = z.transpose();
-  return rotation;
+/// Orthonormal rows, the last one along a direction.
+Eigen::Matrix3d axesAlong(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d z = direction.normalized(), x = z.unitOrthogonal();
+  Eigen::Matrix3d axes;
+  axes << x.transpose(), z.cross(x).transpose(), z.transpose();
+  return axes;
 }
 
 /// Towards the nearest point or, if the mean is inside or GJK fails, the middle.
@@ -82,24 +86,47 @@ double guessOf(const CObstacle& obstacle, const Eigen::Vector3d& direction) {
 
 /// Of where the bodies are, known to 2⁻⁶² of a long double.
 double farRounding(const CurvedSum& sum) {
-  return 0x1p-58 * static_cast<double>(sum.centre.norm());
+  return 0x1p-58 * static_cast<double>(sum.offset.norm());
 }
 
-/// With V' within δ of a convex V, and V' holding a ball of radius ϱ about c: c + λ(V' - c) is in V
-/// for λ = 1 - δ/ϱ, and V in the same for 1/λ. Masses of these are at least λ³ exp(-(1 - λ)|c|²/2)
-/// of each other, |·|² being convex; and, but for what is beyond R, which weighs no more than
-/// (1 + R) exp(-R²/2), λ³ exp(-(1 - λ) R|c| - (1 - λ)² (R + |c|)²/2). Nothing if that is no use.
-/// \param least  the mass may weigh
-std::optional<double> shareBetween(double error, double inradius, double centre, double least) {
-  if (!(error < 1e-3 * inradius)) return std::nullopt;
-  const double gap = error / inradius;
-  double slope = 0.5 * centre * centre;
-  if (least > 0.0) {
-    const double reach = std::sqrt(kBeyondReach - 2.0 * std::log(least));
-    slope = std::min(slope, reach * centre + 0.5 * gap * (reach + centre) * (reach + centre));
+/// What is within V: a ball, as it is in the world, and a point near the mean.
+struct WithinBody {
+  Eigen::Vector3d centre;  ///< of the ball, whitened
+  double radius;           ///< metres
+  std::optional<Eigen::Vector3d> point;
+
+  /// The ball's centre and radius on its way to the point, seen from which it is of this size.
+  Eigen::Vector3d centreAt(double size) const {
+    return point ? Eigen::Vector3d(*point + size * (centre - *point)) : centre;
   }
-  const double share = 1.01 * gap * (3.0 + slope) + kShareBeyond;
-  return share < 0.1 ? std::optional<double>(share) : std::nullopt;
+};
+
+/// No more than the log of the mass of a ball in the world: by Jensen's inequality, exp being
+/// convex.
+double logMassOfBall(const Eigen::Vector3d& centre, double radius,
+                     const Eigen::Vector3d& deviations) {
+  const Eigen::Array3d scaled = radius / deviations.array();
+  const double mean_square = centre.squaredNorm() + scaled.square().sum() / 5.0;
+  return std::log(4.0 / 3.0 * M_PI * kDensityScale) + scaled.log().sum() - 0.5 * mean_square;
+}
+
+/// A bound on |log P(V) - log P(V')| for V' with V less δ within it and itself within V plus δ.
+/// With E a ball of one metre let V(t) be V ⊕ tE or, for t < 0, what is |t| deep in V: the log of
+/// its mass is concave in t (Prékopa), so that it grows beyond -δ by no more than on its way there
+/// from any V(-τ), of which a ball's mass is enough. That is the ball within V, shrunk on its way
+/// to a point near the mean: where from is free. \param log_mass  of V', at the most
+std::optional<double> shareBetween(double error, double log_mass, const WithinBody& within,
+                                   const Eigen::Vector3d& deviations) {
+  double least = kInfinity;
+  for (double size = 1.0; size > kLeastSize; size *= 0.5) {
+    const double depth = 0.5 * (size * within.radius - kPointErrors * error);
+    if (!(depth > 2.0 * error)) break;
+    const double fall =
+        log_mass - logMassOfBall(within.centreAt(size), depth, deviations) + kLogRounding;
+    least = std::min(least, error * std::max(fall, 0.0) / (depth - error));
+    if (!within.point) break;
+  }
+  return least < 0.1 ? std::optional<double>(1.01 * least) : std::nullopt;
 }
 
 /// What is in one of the two bodies only weighs at most share and share / (1 - share) of V.
@@ -128,15 +155,15 @@ LongVector3 offsetOf(const ConvexBody& a, const fcl::Transform3d& pose_a, const 
   return offset.value();
 }
 
-/// The patches of parts that are placed, and how far what they enclose may be from the true sum.
+/// The patches of parts that are placed, and how far what they enclose may be from the true sum, in
+/// metres.
 struct PlacedSurface {
   std::vector<SurfacePatch> patches;
   double error;
 };
 
 std::optional<PlacedSurface> placedSurface(const CurvedParts& parts) {
-  const double stretch = static_cast<double>(parts.sum.map.norm()) * (1.0 + 1e-8);
-  const double far = farRounding(parts.sum) + parts.error * stretch;
+  const double far = farRounding(parts.sum) + parts.error;
   if (parts.second) {
     const AxesSum axes{parts.sum, *parts.second, parts.second_frame};
     auto patches = axesSurface(axes);
@@ -150,7 +177,7 @@ std::optional<PlacedSurface> placedSurface(const CurvedParts& parts) {
   double size = 0.0;
   for (const Eigen::Vector3d& v : parts.polytope->vertices) size = std::max(size, v.norm());
   return PlacedSurface{std::move(surface->patches),
-                       rounding + (surface->defect + 32.0 * kEpsilon * size) * stretch};
+                       rounding + surface->defect + 32.0 * kEpsilon * size};
 }
 
 }  // namespace
@@ -173,27 +200,26 @@ PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& 
   const LongMatrix3 whitening = longWhitening(displacement);
   const ShapeObstacle obstacle(frame, shapeOf(a), shapeOf(b));
   const Eigen::Vector3d direction = directionTo(obstacle, (whitening * offset).cast<double>());
-  LongMatrix3 map = rotationToAxis(direction) * whitening;
   // A reflection leaves N(0, I) as it is.
-  if (map.determinant() < 0.0L) map.row(0) *= -1.0L;
+  const double handedness = whitening.determinant() < 0.0L ? -1.0 : 1.0;
+  const Eigen::Vector3d reflection(handedness, 1.0, 1.0);
+  const LongMatrix3 map = reflection.cast<long double>().asDiagonal() * whitening;
+  SurfaceEffort effort;
+  effort.with_moment = with_gradient;
+  effort.axes = axesAlong(reflection.asDiagonal() * direction);
   for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
     auto parts = curvedParts(a, frame.rotation_a, b, frame.rotation_b, attempt);
     if (!parts) return {};
     parts->sum.map = map;
-    parts->sum.centre = map * offset;
+    parts->sum.offset = offset;
     const auto surface = placedSurface(*parts);
     if (!surface) continue;
-    const double guess = guessOf(obstacle, direction);
     const SurfaceMass mass =
-        with_gradient
-            ? massAndMomentWithin(surface->patches, guess, interruption)
-            : SurfaceMass{massWithin(surface->patches, guess, interruption), std::nullopt};
-    const double inradius = parts->inradius / displacement.standardDeviations().maxCoeff();
-    const LongVector3 middle =
-        parts->sum.centre + map * (parts->sum.frame * parts->middle.cast<long double>());
-    const auto share =
-        shareBetween(surface->error, inradius * (1.0 - 8.0 * kEpsilon),
-                     static_cast<double>(middle.norm()) * (1.0 + kEpsilon), mass.mass.lower);
+        massWithin(surface->patches, guessOf(obstacle, direction), interruption, effort);
+    const LongVector3 middle = offset + parts->sum.frame * parts->middle.cast<long double>();
+    const WithinBody within{(map * middle).cast<double>(), parts->inradius, mass.nearest};
+    const auto share = shareBetween(surface->error, std::log(mass.mass.upper), within,
+                                    displacement.standardDeviations());
     return share ? widened(mass, *share, map) : PairMass{};
   }
   return {};

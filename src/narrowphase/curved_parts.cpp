@@ -39,14 +39,15 @@ void addSecond(const CurvedBody& body, int attempt, CurvedParts& parts) {
   const LongVector3 first = parts.sum.frame.col(2).normalized(), second = frame.col(2).normalized();
   parts.inradius += added.inradius();
   parts.error = 1.01 * turn.norm() * added.size();
-  if (first.cross(second).norm() > kAxesTie) {
+  const auto apart = static_cast<double>(first.cross(second).norm());
+  if (apart > kAxesTie) {
     parts.second = added;
     parts.second_frame = frame;
     return;
   }
   if (first.dot(second) < 0.0L) std::swap(added.bottom, added.top);
   parts.error +=
-      2.0 * kAxesTie * added.size() + 8.0 * kEpsilon * (parts.sum.frustum.size() + added.size());
+      2.0 * apart * added.size() + 8.0 * kEpsilon * (parts.sum.frustum.size() + added.size());
   parts.sum.coaxial = added;
 }
 

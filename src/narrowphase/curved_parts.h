@@ -11,7 +11,7 @@ namespace fcl_prob::detail {
 
 /// B ⊕ (−A), not yet mapped, and a ball within it.
 struct CurvedParts {
-  CurvedSum sum;                  ///< its map and centre are not set
+  CurvedSum sum;                  ///< its map and offset are not set
   std::optional<Frustum> second;  ///< with another axis
   LongMatrix3 second_frame;
   std::optional<ConvexMesh> polytope;                ///< a part of the sum, in the frustum's frame

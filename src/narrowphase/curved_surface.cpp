@@ -67,7 +67,7 @@ std::vector<Frustum> sidesOf(const CurvedSum& sum) {
 class CurvedSurface {
  public:
   explicit CurvedSurface(const CurvedSum& sum) : sides_(sidesOf(sum)), frame_(sum.map * sum.frame) {
-    LongVector3 end = sum.centre;
+    LongVector3 end = sum.centre();
     double radius = 0.0;
     for (const Frustum& side : sides_) {
       end -= frame_.col(2) * static_cast<long double>(side.half_height);
@@ -165,14 +165,10 @@ class CurvedSurface {
 }  // namespace
 
 double CurvedSum::rounding() const {
-  const LongMatrix3 mapped = map * frame;
-  double rims = std::max(frustum.bottom, frustum.top) + frustum.half_height;
-  if (coaxial) rims += std::max(coaxial->bottom, coaxial->top) + coaxial->half_height;
-  double size = rims * static_cast<double>(mapped.norm());
-  for (const LongMatrix3& ellipsoid : ellipsoids) {
-    size += static_cast<double>((map * ellipsoid).norm());
-  }
-  return 8.0 * kEpsilon * (size + static_cast<double>(centre.norm()));
+  double size = frustum.size();
+  if (coaxial) size += coaxial->size();
+  for (const LongMatrix3& ellipsoid : ellipsoids) size += static_cast<double>(ellipsoid.norm());
+  return 16.0 * kEpsilon * (size + static_cast<double>(offset.norm()));
 }
 
 std::vector<SurfacePatch> surfaceOf(const CurvedSum& sum) { return CurvedSurface(sum).patches(); }

@@ -15,13 +15,17 @@ namespace fcl_prob::detail {
 /// determinant.
 struct CurvedSum {
   LongMatrix3 map;
-  LongVector3 centre;  ///< mapped
+  LongVector3 offset;  ///< of the middle, not yet mapped
   Frustum frustum;
   std::optional<Frustum> coaxial;
   LongMatrix3 frame;                    ///< of the frustum, right-handed, not yet mapped
   std::vector<LongMatrix3> ellipsoids;  ///< images of the unit ball, not yet mapped
 
-  /// How far the surface's constants may be from those of the sum, mapped.
+  /// Of the middle, mapped.
+  LongVector3 centre() const { return map * offset; }
+
+  /// How far the surface's constants may be from those of the sum, in metres. Each coordinate is
+  /// rounded next to the length that the map gives it, which is that of a metre at the most.
   double rounding() const;
 };
 

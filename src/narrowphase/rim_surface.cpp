@@ -103,7 +103,7 @@ class RimSurfaceBuilder {
   Vector position(int vertex, End end) const {
     LongVector3 point = at(vertex).cast<long double>();
     point.z() += (end == End::top ? 1.0L : -1.0L) * frustum_.half_height;
-    return (sum_.centre + frame_ * point).cast<double>();
+    return (sum_.centre() + frame_ * point).cast<double>();
   }
 
   std::optional<RimNormal> rimNormal(const Vector& normal) const {
