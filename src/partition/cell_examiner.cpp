@@ -97,19 +97,12 @@ double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
 
 }  // namespace
 
-SettledMass& SettledMass::operator+=(const SettledMass& other) {
-  mass.lower += other.mass.lower;
-  mass.upper += other.mass.upper;
-  moment += other.moment;
-  moment_error += other.moment_error;
-  return *this;
-}
-
 CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
                            const SolidContact* solids, bool with_moments,
                            ProbabilityStatistics& statistics)
     : pair_(pair),
       front_(pair, obstacles, statistics),
+      smooth_(pair, obstacles),
       solids_(solids),
       with_moments_(with_moments),
       statistics_(statistics) {}
@@ -128,6 +121,7 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
     settleFree(front_.cell());
     return std::move(result_);
   }
+  if (settleSmooth(front_.cell())) return std::move(result_);
   if (const auto leader = bestLeader()) {
     openWithPlane(*leader);
   } else {
@@ -224,6 +218,14 @@ void CellExaminer::settleFree(const Cell& cell) {
       break;
     }
   }
+}
+
+// What collides in the cell is what of it is in one quadric.
+bool CellExaminer::settleSmooth(const Cell& cell) {
+  if (with_moments_ || !front_.coarse().empty() || !maySkim(cell)) return false;
+  const auto mass = smooth_.massOf(cell, front_.cutting(), kSettledAccuracy, observer_);
+  if (mass) result_.settled += {*mass, Eigen::Vector3d::Zero(), 0.0};
+  return mass.has_value();
 }
 
 // What is left of the cell around `box` is free.

@@ -8,6 +8,7 @@
 #include "cells/claim_observer.h"
 #include "partition/cell_front.h"
 #include "partition/crossing_witness.h"
+#include "partition/smooth_cell.h"
 #include "pieces/containment.h"
 
 namespace fcl_prob::detail {
@@ -18,7 +19,13 @@ struct SettledMass {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double moment_error = 0.0;  ///< bound on the error of each component of `moment`
 
-  SettledMass& operator+=(const SettledMass& other);
+  SettledMass& operator+=(const SettledMass& other) {
+    mass.lower += other.mass.lower;
+    mass.upper += other.mass.upper;
+    moment += other.moment;
+    moment_error += other.moment_error;
+    return *this;
+  }
 };
 
 struct Examination {
@@ -46,6 +53,7 @@ class CellExaminer {
   void settle(const Cell& cell, const char* method);
   void settlePart(const Cell& cell, const CellPlane& plane, double sign);
   void settleFree(const Cell& cell);
+  bool settleSmooth(const Cell& cell);
   void settleAround(const Cell& box);
   void claim(const char* method, bool collides, const Cell& cell) const;
   void claim(const char* method, bool collides, const Cell& cell, const CoveredPart& part) const;
@@ -67,6 +75,7 @@ class CellExaminer {
 
   const WhitenedPair& pair_;
   CellFront front_;
+  SmoothCell smooth_;
   std::optional<CrossingWitness> witness_;  ///< made when a front first is long enough for it
   CrossingWitness::Hint hint_{-1, -1};      ///< until then
   const SolidContact* solids_;

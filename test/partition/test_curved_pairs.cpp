@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // The partition of pairs with curved shapes.
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <cmath>
 
 #include "catch.h"
+#include "fcl_prob/collision_probability.h"
 #include "mesh_shapes.h"
 #include "partition/partition.h"
 #include "random_bodies.h"
@@ -173,4 +177,38 @@ TEST_CASE("curved shapes and meshes: the interval holds what displaced fcl::coll
     }
   }
   CHECK(between > 6);
+}
+
+TEST_CASE("round shapes beside the mesh of a thin box: the exact mass of the pair, in few cells") {
+  // What is thicker than the box cannot be inside of it, so that its surface is all that counts.
+  RandomBodies random(4);
+  const Eigen::Vector3d sides(0.8, 0.5, 0.1);
+  const auto mesh = makeModel<fcl::OBBRSSd>(boxMesh(sides));
+  const fcl::Boxd box(sides);
+  const fcl::Sphered sphere(0.2);
+  const fcl::Capsuled capsule(0.15, 0.4);
+  const fcl::Ellipsoidd ellipsoid(0.3, 0.2, 0.12);
+  for (const fcl::CollisionGeometryd* shape :
+       {static_cast<const fcl::CollisionGeometryd*>(&sphere),
+        static_cast<const fcl::CollisionGeometryd*>(&capsule),
+        static_cast<const fcl::CollisionGeometryd*>(&ellipsoid)}) {
+    for (int i = 0; i < 3; ++i) {
+      const auto displacement = randomDisplacement(random, 0.05, 0.2);
+      fcl::Transform3d pose = at(0.5 * random.direction());
+      pose.linear() = random.rotation();
+      ProbabilityRequest request = withTolerance(3e-5);
+      request.max_cells = 30'000;
+      const ProbabilityResult result = run(*shape, kIdentity, *mesh, pose, displacement, request);
+      request.method = ProbabilityMethod::exact;
+      request.relative_tolerance = 1e-8;
+      ProbabilityResult exact;
+      collisionProbability(shape, kIdentity, &box, pose, displacement, request, exact);
+      INFO("shape " << shape->getNodeType() << ", P " << *exact.lower << " " << *exact.upper
+                    << ", interval " << *result.lower << " " << *result.upper << ", cells "
+                    << result.statistics.cells);
+      CHECK(result.status == ProbabilityStatus::converged);
+      CHECK(*result.lower <= *exact.upper);
+      CHECK(*result.upper >= *exact.lower);
+    }
+  }
 }
