@@ -68,10 +68,12 @@ class QuadricCell {
   }
 
   /// The axis to halve the cell along.
-  int wider() const { return half_[u_] > half_[v_] ? axes_[u_] : axes_[v_]; }
+  int wider() const {
+    return half_[kFlattest] > half_[kSlanted] ? axes_[kFlattest] : axes_[kSlanted];
+  }
 
   std::optional<Bounds> mass(double accuracy) {
-    if (!(half_.minCoeff() > 0.0) || !(gradient_[k_] > 0.0)) return std::nullopt;
+    if (!(half_.minCoeff() > 0.0) || !(gradient_[kSteepest] > 0.0)) return std::nullopt;
     const int outside = sideOfCell();
     if (outside > 0) return Bounds{0.0, 0.0};
     if (outside < 0) return cell_mass_;
@@ -134,14 +136,17 @@ class QuadricCell {
 
   // Whether the boundary is between both ends along k everywhere.
   bool staysBetweenEnds() const {
-    const double h = half_[k_];
-    const double top = at_middle_ + 2 * gradient_[k_] * h + form_(k_, k_) * h * h;
-    const Eigen::Vector3d slope = gradient_ + h * form_.col(k_);
-    if (top - 2 * (std::fabs(slope[v_]) * half_[v_] + std::fabs(slope[u_]) * half_[u_]) < 0.0) {
+    const double h = half_[kSteepest];
+    const double top =
+        at_middle_ + 2 * gradient_[kSteepest] * h + form_(kSteepest, kSteepest) * h * h;
+    const Eigen::Vector3d slope = gradient_ + h * form_.col(kSteepest);
+    if (top - 2 * (std::fabs(slope[kSlanted]) * half_[kSlanted] +
+                   std::fabs(slope[kFlattest]) * half_[kFlattest]) <
+        0.0) {
       return false;
     }
-    for (const double v : {-half_[v_], half_[v_]}) {
-      for (const double u : {-half_[u_], half_[u_]}) {
+    for (const double v : {-half_[kSlanted], half_[kSlanted]}) {
+      for (const double u : {-half_[kFlattest], half_[kFlattest]}) {
         if (form(-h, v, u) > 0.0) return false;
       }
     }
@@ -152,7 +157,7 @@ class QuadricCell {
   bool plan(double accuracy) {
     between_ = staysBetweenEnds();
     nodes_ = GaussRule::kMost + 1;
-    const double widest = std::max(half_[u_], half_[v_]);
+    const double widest = std::max(half_[kFlattest], half_[kSlanted]);
     for (const double factor : {8.0, 5.0, 3.0, 2.0, 1.4, 1.0}) tryHeight(factor * widest, accuracy);
     return nodes_ <= GaussRule::kMost;
   }
@@ -165,13 +170,13 @@ class QuadricCell {
 
   // False where the slopes within so much around the cell do not bound that.
   bool moveBy(double height, const Eigen::Vector3d& beyond, Moved& moved) const {
-    const double least_k = slopeAtLeast(k_, beyond);
-    const double least_v = slopeAtLeast(v_, beyond);
+    const double least_k = slopeAtLeast(kSteepest, beyond);
+    const double least_v = slopeAtLeast(kSlanted, beyond);
     if (!(least_k > 0.0) || !(between_ || least_v > 0.0)) return false;
-    const double slope_u = slopeAtMost(u_, beyond);
+    const double slope_u = slopeAtMost(kFlattest, beyond);
     const double curve = between_ ? 0.0 : slope_u / least_v * height;
     moved.along_v = std::max(curve, height);
-    moved.bulge = (slope_u * height + slopeAtMost(v_, beyond) * moved.along_v) / least_k;
+    moved.bulge = (slope_u * height + slopeAtMost(kSlanted, beyond) * moved.along_v) / least_k;
     return true;
   }
 
@@ -180,21 +185,21 @@ class QuadricCell {
   // v = g(u) in which it meets an end of the cell by dg = -q_u / q_v du.
   void tryHeight(double height, double accuracy) {
     Eigen::Vector3d beyond = Eigen::Vector3d::Zero();
-    beyond[u_] = beyond[v_] = height;
+    beyond[kFlattest] = beyond[kSlanted] = height;
     Moved moved;
     // What is allowed for is a guess, half as much again as is needed without it.
     if (!moveBy(height, beyond, moved)) return;
-    beyond[v_] = kRoom * moved.along_v;
-    beyond[k_] = kRoom * moved.bulge;
+    beyond[kSlanted] = kRoom * moved.along_v;
+    beyond[kSteepest] = kRoom * moved.bulge;
     if (!moveBy(height, beyond, moved)) return;
-    if (!(moved.along_v <= beyond[v_] && moved.bulge <= beyond[k_])) return;
+    if (!(moved.along_v <= beyond[kSlanted] && moved.bulge <= beyond[kSteepest])) return;
     const double along_v = moved.along_v;
     const double bulge = moved.bulge;
     const double largest = sizeOfIntegrand(height, along_v, bulge);
-    const RuleError of_u(half_[u_], height);
-    const RuleError of_v(half_[v_], height);
-    const double across_u = 2 * half_[u_];
-    const double across_v = 2 * half_[v_] + 2 * along_v;
+    const RuleError of_u(half_[kFlattest], height);
+    const RuleError of_v(half_[kSlanted], height);
+    const double across_u = 2 * half_[kFlattest];
+    const double across_v = 2 * half_[kSlanted] + 2 * along_v;
     for (int nodes = GaussRule::kFewest; nodes < nodes_; ++nodes) {
       const double error = largest * (across_u * of_v.with(nodes) + across_v * of_u.with(nodes));
       if (!(error <= accuracy)) continue;
@@ -211,9 +216,9 @@ class QuadricCell {
       return densityNear(middle_[axis] - half_[axis], middle_[axis] + half_[axis], margin);
     };
     const double along_k =
-        near(k_, bulge) * (2 * half_[k_] + bulge * std::exp(0.5 * bulge * bulge));
-    return along_k * near(v_, along_v) * std::exp(0.5 * along_v * along_v) * near(u_, height) *
-           std::exp(0.5 * height * height) * (between_ ? 1.0 : 2.0);
+        near(kSteepest, bulge) * (2 * half_[kSteepest] + bulge * std::exp(0.5 * bulge * bulge));
+    return along_k * near(kSlanted, along_v) * std::exp(0.5 * along_v * along_v) *
+           near(kFlattest, height) * std::exp(0.5 * height * height) * (between_ ? 1.0 : 2.0);
   }
 
   // The larger root of the form along an axis at which it grows there, by its half derivative and
@@ -227,27 +232,28 @@ class QuadricCell {
   std::array<double, 10> breaks(int& count) const {
     std::array<double, 10> result;
     count = 0;
-    result[count++] = -half_[u_];
-    for (const double v : {-half_[v_], half_[v_]}) {
-      for (const double k : {-half_[k_], half_[k_]}) {
-        const double square = form_(u_, u_);
-        const double slope = gradient_[u_] + form_(u_, v_) * v + form_(u_, k_) * k;
+    result[count++] = -half_[kFlattest];
+    for (const double v : {-half_[kSlanted], half_[kSlanted]}) {
+      for (const double k : {-half_[kSteepest], half_[kSteepest]}) {
+        const double square = form_(kFlattest, kFlattest);
+        const double slope =
+            gradient_[kFlattest] + form_(kFlattest, kSlanted) * v + form_(kFlattest, kSteepest) * k;
         const double value = form(k, v, 0.0);
         const double discriminant = slope * slope - square * value;
         if (!(discriminant >= 0.0)) continue;
         const double q = -(slope + std::copysign(std::sqrt(discriminant), slope));
         for (const double u : {q / square, value / q}) {
-          if (u > -half_[u_] && u < half_[u_]) result[count++] = u;  // false for NaN
+          if (u > -half_[kFlattest] && u < half_[kFlattest]) result[count++] = u;  // false for NaN
         }
       }
     }
     std::sort(result.begin() + 1, result.begin() + count);
-    result[count++] = half_[u_];
+    result[count++] = half_[kFlattest];
     return result;
   }
 
   void integrate(double& sum) const {
-    if (between_) return piece(-half_[u_], half_[u_], sum);
+    if (between_) return piece(-half_[kFlattest], half_[kFlattest], sum);
     int count = 0;
     const std::array<double, 10> ends = breaks(count);
     for (int i = 0; i + 1 < count; ++i) piece(ends[i], ends[i + 1], sum);
@@ -259,27 +265,29 @@ class QuadricCell {
     const double half = 0.5 * (end - begin);
     for (int i = 0; i < nodes_; ++i) {
       const double u = 0.5 * (begin + end) + half * rule.node[i];
-      sum += half * rule.weight[i] * normalDensity(middle_[u_] + u) * inner(u);
+      sum += half * rule.weight[i] * normalDensity(middle_[kFlattest] + u) * inner(u);
     }
   }
 
   // Where the boundary is at the height k, along v: at an end of the cell if it is not in it.
   double meeting(double k, double u) const {
-    if (form(k, -half_[v_], u) >= 0.0) return -half_[v_];
-    if (form(k, half_[v_], u) <= 0.0) return half_[v_];
-    const double slope = gradient_[v_] + form_(v_, u_) * u + form_(v_, k_) * k;
-    return std::clamp(root(form_(v_, v_), slope, form(k, 0.0, u)), -half_[v_], half_[v_]);
+    if (form(k, -half_[kSlanted], u) >= 0.0) return -half_[kSlanted];
+    if (form(k, half_[kSlanted], u) <= 0.0) return half_[kSlanted];
+    const double slope =
+        gradient_[kSlanted] + form_(kSlanted, kFlattest) * u + form_(kSlanted, kSteepest) * k;
+    return std::clamp(root(form_(kSlanted, kSlanted), slope, form(k, 0.0, u)), -half_[kSlanted],
+                      half_[kSlanted]);
   }
 
   // Of what lies at one u.
   double inner(double u) const {
-    const double lowest = middle_[k_] - half_[k_];
-    const double highest = middle_[k_] + half_[k_];
-    const double begin = between_ ? -half_[v_] : meeting(half_[k_], u);
-    const double end = between_ ? half_[v_] : meeting(-half_[k_], u);
+    const double lowest = middle_[kSteepest] - half_[kSteepest];
+    const double highest = middle_[kSteepest] + half_[kSteepest];
+    const double begin = between_ ? -half_[kSlanted] : meeting(half_[kSteepest], u);
+    const double end = between_ ? half_[kSlanted] : meeting(-half_[kSteepest], u);
     double sum = 0.0;
-    if (begin > -half_[v_]) {
-      sum += normalIntervalMass(middle_[v_] - half_[v_], middle_[v_] + begin) *
+    if (begin > -half_[kSlanted]) {
+      sum += normalIntervalMass(middle_[kSlanted] - half_[kSlanted], middle_[kSlanted] + begin) *
              normalIntervalMass(lowest, highest);
     }
     if (!(end > begin)) return sum;
@@ -287,10 +295,11 @@ class QuadricCell {
     const double half = 0.5 * (end - begin);
     for (int i = 0; i < nodes_; ++i) {
       const double v = 0.5 * (begin + end) + half * rule.node[i];
-      const double slope = gradient_[k_] + form_(k_, u_) * u + form_(k_, v_) * v;
-      const double top = root(form_(k_, k_), slope, form(0.0, v, u));
-      const double height = std::clamp(middle_[k_] + top, lowest, highest);
-      sum += half * rule.weight[i] * normalDensity(middle_[v_] + v) *
+      const double slope =
+          gradient_[kSteepest] + form_(kSteepest, kFlattest) * u + form_(kSteepest, kSlanted) * v;
+      const double top = root(form_(kSteepest, kSteepest), slope, form(0.0, v, u));
+      const double height = std::clamp(middle_[kSteepest] + top, lowest, highest);
+      sum += half * rule.weight[i] * normalDensity(middle_[kSlanted] + v) *
              normalIntervalMass(lowest, height);
     }
     return sum;
@@ -303,16 +312,17 @@ class QuadricCell {
     const auto near = [&](int axis) {
       return densityNear(middle_[axis] - half_[axis], middle_[axis] + half_[axis], 0.0);
     };
-    const double least_k = slopeAtLeast(k_, Eigen::Vector3d::Zero());
-    const double moved = error_of_form_ / least_k + 32 * kEpsilon * reach[k_];
-    const double of_boundary =
-        2 * moved * near(k_) * near(v_) * near(u_) * 4 * half_[u_] * half_[v_];
-    const double of_ends =
-        (reach[v_] / half_[v_] + reach[u_] / half_[u_] + reach.squaredNorm()) * 16;
+    const double least_k = slopeAtLeast(kSteepest, Eigen::Vector3d::Zero());
+    const double moved = error_of_form_ / least_k + 32 * kEpsilon * reach[kSteepest];
+    const double of_boundary = 2 * moved * near(kSteepest) * near(kSlanted) * near(kFlattest) * 4 *
+                               half_[kFlattest] * half_[kSlanted];
+    const double of_ends = (reach[kSlanted] / half_[kSlanted] +
+                            reach[kFlattest] / half_[kFlattest] + reach.squaredNorm()) *
+                           16;
     return of_boundary + (2000.0 + of_ends) * kEpsilon * cell_mass_.upper;
   }
 
-  static constexpr int k_ = 0, v_ = 1, u_ = 2;
+  static constexpr int kSteepest = 0, kSlanted = 1, kFlattest = 2;
   std::array<int, 3> axes_{0, 1, 2};  ///< of the cell
   Eigen::Vector3d middle_;
   Eigen::Vector3d half_;
