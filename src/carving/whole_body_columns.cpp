@@ -63,9 +63,9 @@ WholeBodyLines::Met WholeBodyLines::meet(const Column& column, const Met& among)
     const NodeBox& box = mesh.boxes[visit.place.node];
     const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
     if (isWithin(visit.span, spans)) {
-      met.places.push_back(visit.place);
+      met.visits.push_back(visit);
     } else if (is_fine || mesh.tree->nodes[visit.place.node].isLeaf()) {
-      met.places.push_back(visit.place);
+      met.visits.push_back(visit);
       unite(visit.span, spans);
     } else {
       pushChildren(visit);

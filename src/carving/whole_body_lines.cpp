@@ -20,6 +20,9 @@ constexpr LeftOut kRoughly{0.1, 1e-6};
 // Triangles of one line that are looked at on the lines beside it.
 constexpr std::size_t kLongestChain = 6;
 
+// Places at ends of contact on earlier lines that a line is asked for first.
+constexpr std::size_t kMostKnown = 8;
+
 // Directions in which the width of a member is measured, to both sides.
 constexpr int kWidths = 8;
 constexpr double kPi = 3.14159265358979323846;
@@ -76,17 +79,16 @@ void WholeBodyLines::addMember(const WholeBody& whole, std::size_t index, const 
 
 WholeBodyLines::Met WholeBodyLines::everything() {
   Met met{{{-kInfinity, kInfinity}}, {}};
-  for (Member& member : members_) met.places.push_back({&member, 0});
+  for (Member& member : members_) met.visits.push_back({{&member, 0}, met.spans.front()});
   return met;
 }
 
 void WholeBodyLines::begin(const Column& column, const Met& among) {
   stack_.clear();
   for (Member& member : members_) member.nodes.lookAt(column);
-  for (auto place = among.places.rbegin(); place != among.places.rend(); ++place) {
-    if (const auto span = place->member->nodes.around(place->node)) {
-      stack_.push_back({*place, *span});
-    }
+  for (auto visit = among.visits.rbegin(); visit != among.visits.rend(); ++visit) {
+    const Place& place = visit->place;
+    if (const auto span = place.member->nodes.around(place.node)) stack_.push_back({place, *span});
   }
 }
 
@@ -105,6 +107,8 @@ void WholeBodyLines::pushChildren(const Visit& visit) {
 
 WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u, const Met& met,
                                                         Taken taken) {
+  // Such lines are far from each other.
+  known_.clear();
   LineContacts contacts{massOn(u, met, kRoughly, taken), {}, {}};
   for (const Stretch& stretch : stretches_) {
     contacts.touches.push_back({stretch.first.member->index, stretch.point});
@@ -136,10 +140,9 @@ std::vector<WholeBodyLines::Touching> WholeBodyLines::chainOf() const {
 }
 
 void WholeBodyLines::beginLine(const LeftOut& negligible) {
-  known_.clear();
   for (const Stretch& stretch : stretches_) {
-    known_.push_back(stretch.first);
-    known_.push_back(stretch.last);
+    remember(stretch.first);
+    remember(stretch.last);
   }
   stretches_.clear();
   parts_.clear();
@@ -149,16 +152,29 @@ void WholeBodyLines::beginLine(const LeftOut& negligible) {
   left_out_below_ = left_out_above_ = false;
 }
 
-// Most of a line is like the last one.
+// The latest comes first.
+void WholeBodyLines::remember(const Place& place) {
+  const auto at = std::find(known_.begin(), known_.end(), place);
+  if (at == known_.end()) {
+    if (known_.size() == kMostKnown) known_.pop_back();
+    known_.insert(known_.begin(), place);
+  } else {
+    std::rotate(known_.begin(), at, at + 1);
+  }
+}
+
+// Most of a line is like the last ones.
 void WholeBodyLines::testKnown(const Eigen::Vector2d& u) {
   for (const Place& place : known_) {
     const auto span = place.member->nodes.around(place.node);
     if (!span) continue;
     Visit visit{place, *span};
     if (isSettled(visit.span)) continue;
-    if (place.piece != kBody && taken_ == Taken::whole)
+    if (place.piece == kBody || taken_ != Taken::whole) {
+      testBody(visit, u);
+    } else {
       testPiece(visit, place.piece, visit.span.hi, u);
-    test(visit, u);
+    }
   }
 }
 
@@ -166,8 +182,27 @@ double WholeBodyLines::massOn(const Eigen::Vector2d& u, const Met& met, const Le
                               Taken taken) {
   beginLine(negligible);
   taken_ = taken;
-  begin({u, u}, met);
+  for (Member& member : members_) member.nodes.lookAt({u, u});
   testKnown(u);
+  for (const Visit& visit : met.visits) {
+    LineSpan of_column = visit.span;
+    if (isSettled(of_column)) continue;
+    const auto span = visit.place.member->nodes.around(visit.place.node);
+    if (!span) continue;
+    stack_.assign(1, {visit.place, *span});
+    testAll(u);
+  }
+  mass_ = 0.0;
+  for (const Stretch& known : stretches_) {
+    mass_ += normalIntervalMass(known.span.lo, known.span.hi);
+  }
+  // Where the core meets nothing, the surface may.
+  if (solids_ && (is_convex_ || taken != Taken::cores)) joinContained(u);
+  return mass_;
+}
+
+// What is on the stack, and below it.
+void WholeBodyLines::testAll(const Eigen::Vector2d& u) {
   while (!stack_.empty()) {
     Visit visit = stack_.back();
     stack_.pop_back();
@@ -178,23 +213,26 @@ double WholeBodyLines::massOn(const Eigen::Vector2d& u, const Met& met, const Le
       pushChildren(visit);
     }
   }
-  // Where the core meets nothing, the surface may.
-  if (solids_ && (is_convex_ || taken != Taken::cores)) joinContained(u);
-  return mass_;
 }
 
 // Whether all of it is within known stretches or negligible; otherwise its ends are moved out of
 // those.
 bool WholeBodyLines::isSettled(LineSpan& span) {
+  for (const Stretch& stretch : stretches_) {
+    const LineSpan& known = stretch.span;
+    if (known.hi < span.lo) continue;
+    if (known.lo <= span.lo) {
+      if (span.hi <= known.hi) return true;
+      span.lo = known.hi;
+    } else if (span.hi <= known.hi) {
+      if (known.lo <= span.hi) span.hi = known.lo;
+      break;
+    }
+  }
   left_out_above_ = left_out_above_ || span.hi > beyond_;
   left_out_below_ = left_out_below_ || span.lo < -beyond_;
   span.lo = std::max(span.lo, -beyond_);
   span.hi = std::min(span.hi, beyond_);
-  for (const Stretch& stretch : stretches_) {
-    const LineSpan& known = stretch.span;
-    if (known.lo <= span.lo && span.lo <= known.hi) span.lo = known.hi;
-    if (known.lo <= span.hi && span.hi <= known.hi) span.hi = known.lo;
-  }
   return !(span.lo < span.hi);
 }
 
@@ -314,11 +352,13 @@ void WholeBodyLines::add(Stretch stretch) {
       stretch.last = last->last;
     }
   }
+  if (first == last) count(stretch);
   stretches_.insert(stretches_.erase(first, last), stretch);
-  mass_ = 0.0;
-  for (const Stretch& known : stretches_) {
-    mass_ += normalIntervalMass(known.span.lo, known.span.hi);
-  }
+}
+
+// What known stretches grow by makes little difference to what is negligible.
+void WholeBodyLines::count(const Stretch& stretch) {
+  mass_ += normalIntervalMass(stretch.span.lo, stretch.span.hi);
   const double tail = std::max(negligible_.mass, negligible_.share * mass_);
   beyond_ = std::min(beyond_, distanceOfTail(tail));
 }

@@ -62,12 +62,22 @@ class WholeBodyLines {
     Member* member;
     int node;
     int piece = kBody;  ///< of the shell
+
+    bool operator==(const Place& other) const {
+      return member == other.member && node == other.node && piece == other.piece;
+    }
+  };
+
+  /// A place, and around what some lines have of it.
+  struct Visit {
+    Place place;
+    LineSpan span;
   };
 
   /// What the lines { (s, u) } of a column may meet: certain.
   struct Met {
     std::vector<LineSpan> spans;  ///< all collisions, in order, apart
-    std::vector<Place> places;    ///< where all of them are, nearer ones before others
+    std::vector<Visit> visits;    ///< where all of them are, nearer ones before others
   };
 
   /// Of all lines.
@@ -153,11 +163,6 @@ class WholeBodyLines {
     CornerValues to;
   };
 
-  struct Visit {
-    Place place;
-    LineSpan span;
-  };
-
   /// A part of the line on which surfaces touch.
   struct Stretch {
     LineSpan span;
@@ -178,9 +183,12 @@ class WholeBodyLines {
   std::optional<CornerSpans> spansAt(const CornerMeans& means, const Touching& touching);
   std::vector<Touching> chainOf() const;
   void pushChildren(const Visit& visit);
+  void testAll(const Eigen::Vector2d& u);
   bool isSettled(LineSpan& span);
   void beginLine(const LeftOut& negligible);
+  void remember(const Place& place);
   void testKnown(const Eigen::Vector2d& u);
+  void count(const Stretch& stretch);
   bool endsStretch(double s) const;
   void test(const Visit& visit, const Eigen::Vector2d& u);
   void testBody(const Visit& visit, const Eigen::Vector2d& u);
@@ -202,8 +210,8 @@ class WholeBodyLines {
   std::vector<Stretch> stretches_;  ///< in order, none of which meet
   std::vector<Stretch> parts_;      ///< what they are made of, one triangle each
   std::vector<LineSpan> gaps_;      ///< of one triangle, between them
-  std::vector<Place> known_;        ///< leaves at the ends of those of the last line
-  double mass_ = 0.0;
+  std::vector<Place> known_;        ///< leaves at the ends of those of the last lines
+  double mass_ = 0.0;               ///< no more than that of the stretches until all are known
   LeftOut negligible_{0.0, 0.0};
   double beyond_ = 0.0;          ///< what is farther out is negligible
   bool left_out_below_ = false;  ///< something was, at that end
