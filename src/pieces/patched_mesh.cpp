@@ -20,7 +20,7 @@ constexpr double kLargestPatchShare = 1e-6;
 // the mesh's own frame rounds is next to nothing of that.
 constexpr double kThinnestBox = 1e-6;
 
-NodeBox boxAround(const NodeBox& one, const NodeBox& other) {
+NodeBox boxOfBoth(const NodeBox& one, const NodeBox& other) {
   NodeBox box;
   for (int k = 0; k < 3; ++k) {
     box.lo[k] = std::min(one.lo[k], other.lo[k]);
@@ -92,7 +92,7 @@ void PatchedMesh::fitBoxes(int root) {
   for (auto i = static_cast<int>(nodes_.size()); i-- > root;) {
     const Node& node = nodes_[i];
     if (node.left >= 0) {
-      boxes_[i] = boxAround(boxes_[node.left], boxes_[node.right]);
+      boxes_[i] = boxOfBoth(boxes_[node.left], boxes_[node.right]);
       continue;
     }
     const Eigen::Vector3i& t = mesh_.tree->triangles[node.piece];
