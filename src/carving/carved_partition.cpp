@@ -59,7 +59,7 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening whitening(displacement, unit);
   const WhitenedPair pair = whiten(a, b, whitening);
-  FatMembers obstacles(pair, body, fan_is_a, whitening.matrix());
+  FatMembers obstacles(pair, body, mesh, fan_is_a, whitening.matrix());
   if (!obstacles.usable()) return false;
   if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
     obstacles.keepHullsClosed();
@@ -82,6 +82,14 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   result.plan.push_back("partition of the displacement space along the C-obstacles' own planes: " +
                         std::to_string(result.statistics.cells) + " cells, " +
                         std::to_string(result.statistics.leaf_pairs) + " C-obstacles");
+  const PatchedMesh& pieces = obstacles.pieces();
+  if (pieces.patchCount() > 0) {
+    const std::size_t held = pieces.trianglesOfPatches();
+    result.plan.push_back(std::string("object ") + (fan_is_a ? "B" : "A") + ": " +
+                          std::to_string(held) + " of its " +
+                          std::to_string(mesh.tree->triangles.size()) + " triangles in " +
+                          std::to_string(pieces.patchCount()) + " convex patches");
+  }
   if (solids) result.plan.push_back("containment decided once for every free cell");
   return true;
 }

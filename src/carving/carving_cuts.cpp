@@ -133,11 +133,11 @@ void CellCarver::trim(CarvedCell& cell, const List& list) {
   supports_.assign(static_cast<std::size_t>(obstacles_.memberCount()), std::nan(""));
   double top = -kInfinity;
   for (const List::Entry& entry : list.entries) {
-    const auto& [member, triangle] = entry.obstacle;
+    const auto& [member, piece] = entry.obstacle;
     const FatObstacles& body = obstacles_.of(member);
     double& support = supports_[member];
     if (std::isnan(support)) support = body.support(n) + body.padding(n);
-    top = std::max(top, support + body.extent(triangle, n));
+    top = std::max(top, support + body.extent(piece, n));
   }
   const CellPolytope::Extent extent = cell.body.along(n);
   if (!(extent.hi - top > kLeastTrimmed * (extent.hi - extent.lo))) return;
@@ -215,7 +215,7 @@ void CellCarver::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
 double CellCarver::rimOf(const CarvedCell& cell, const List& list, std::size_t entry) const {
   const auto& [obstacle, first, last] = list.entries[entry];
   const FatObstacles::Planes planes = planesOf(obstacle);
-  const Eigen::Vector3d within = obstacles_.of(obstacle.member).middle(obstacle.triangle);
+  const Eigen::Vector3d within = obstacles_.of(obstacle.member).middle(obstacle.piece);
   double stretched = 0.0;
   for (std::size_t p = first; p < last; ++p) {
     const ObstaclePlane plane = planes[list.planes[p]];

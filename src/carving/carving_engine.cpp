@@ -38,7 +38,9 @@ CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
   root->box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
   root->mass = {0.0, 1.0};
   std::vector<FatNode> roots;
-  for (int member = 0; member < obstacles.count(); ++member) roots.push_back({member, 0});
+  for (int member = 0; member < obstacles.count(); ++member) {
+    for (const int node : obstacles.pieces().roots()) roots.push_back({member, node});
+  }
   root->nodes = std::make_shared<const std::vector<FatNode>>(std::move(roots));
   push(std::move(root));
 }

@@ -36,7 +36,7 @@ void CellCarver::divideBox(CarvedCell&& cell) {
 
 // Those of the nodes, and of what is below them, that the box may meet.
 void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves) {
-  const WhitenedTree& mesh = obstacles_.mesh();
+  const PatchedMesh& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
   const double size = 2.0 * half.sum();
@@ -45,22 +45,34 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     lowest_.push_back(obstacles_.reachOf(member).lowestOf(middle, half));
   }
   gathered_.clear();
+  patches_taken_.assign(obstacles_.count() * pieces.partCount(), std::nullopt);
   stack_.assign(from.rbegin(), from.rend());
   while (!stack_.empty()) {
     const auto [member, node] = stack_.back();
     stack_.pop_back();
     ++statistics_.pairs_tested;
-    const NodeBox around = obstacles_.of(member).obstacleBox(node);
+    const NodeBox around = obstacles_.of(member).obstacleBox(pieces.box(node));
     if (isClearOf(around, box.lo.data(), box.hi.data())) continue;
     if (obstacles_.reachOf(member).isClearOf(lowest_[member], node)) continue;
-    const PieceTree::Node& in_tree = mesh.tree->nodes[node];
-    if (in_tree.isLeaf() || (!to_leaves && mesh.boxes[node].size() < kOpenRatio * size)) {
+    const PatchedMesh::Node& in_tree = pieces.nodes()[node];
+    const bool is_small = !to_leaves && pieces.box(node).size() < kOpenRatio * size;
+    if (is_small || (in_tree.piece >= 0 && takesPiece(box, member, in_tree.piece))) {
       gathered_.push_back({member, node});
     } else {
       stack_.push_back({member, in_tree.right});
       stack_.push_back({member, in_tree.left});
     }
   }
+}
+
+// A triangle, or a patch that need not be taken by its triangles.
+bool CellCarver::takesPiece(const Cell& box, int member, int piece) {
+  const PatchedMesh& pieces = obstacles_.pieces();
+  if (!pieces.isPatch(piece)) return true;
+  const std::size_t part = pieces.partOfPatch(piece);
+  std::optional<bool>& taken = patches_taken_[member * pieces.partCount() + part];
+  if (!taken) taken = obstacles_.mayTakePatches(member, part, box, points_tried_[member]);
+  return *taken;
 }
 
 CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
@@ -78,7 +90,7 @@ CellCarver::Relation CellCarver::listBox(const CarvedCell& cell, List& into) {
   apart_.assign(obstacles_.count(), 0);
   std::vector<std::tuple<float, int, int>> order;
   for (const auto& [member, leaf] : gathered_) {
-    const int t = obstacles_.mesh().tree->nodes[leaf].piece;
+    const int t = obstacles_.pieces().nodes()[leaf].piece;
     order.emplace_back(-obstacles_.reachOf(member).leastOver(lowest_[member], leaf), member, t);
   }
   std::sort(order.begin(), order.end());
@@ -108,7 +120,7 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   FatObstacles& body = obstacles_.of(obstacle.member);
   const double* const face_lo = &face_lo_[obstacles_.firstFace(obstacle.member)];
   const double* const face_hi = &face_hi_[obstacles_.firstFace(obstacle.member)];
-  const std::vector<double>& offsets = body.faceOffsets(obstacle.triangle);
+  const std::vector<double>& offsets = body.faceOffsets(obstacle.piece);
   const double padding = body.padding(Eigen::Vector3d::Ones());
   const int faces = body.faceCount();
   int& apart = apart_[obstacle.member];
@@ -119,9 +131,11 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
     apart = above;
     if (isApart(above)) return Relation::free;
   }
-  const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.triangle);
-  const double margin = body.mostMargin(obstacle.triangle);
-  failed_ = failed_ || body.hasFailed(obstacle.triangle);
+  const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.piece);
+  const double margin = body.mostMargin(obstacle.piece);
+  if (body.hasFailed(obstacle.piece)) {
+    return addTriangles(obstacle, [&](FatObstacle each) { return addFromBox(box, each, into); });
+  }
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   const Eigen::Map<const Eigen::Vector3d> half(box.half);
   const std::size_t first = into.planes.size();
@@ -135,7 +149,7 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
     }
     if (at + radius > plane.inner()) into.planes.push_back(faces + static_cast<int>(i));
   }
-  const FatObstacles::Planes planes = body.planesOf(obstacle.triangle);
+  const FatObstacles::Planes planes = body.planesOf(obstacle.piece);
   cut_faces_.resize(static_cast<std::size_t>(faces + kFaceLanes));
   const int count = kernels_.allAbove(face_hi, offsets.data(), -margin, faces, cut_faces_.data());
   for (int i = 0; i < count; ++i) {
@@ -144,6 +158,22 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
     }
   }
   return addEntry(obstacle, first, into);
+}
+
+// Of a patch of which nothing is known those of its triangles; of a triangle there is nothing else.
+template <typename Add>
+CellCarver::Relation CellCarver::addTriangles(FatObstacle obstacle, const Add& add) {
+  if (!obstacles_.pieces().isPatch(obstacle.piece)) {
+    failed_ = true;
+    return Relation::cut;
+  }
+  Relation relation = Relation::free;
+  obstacles_.pieces().visitTriangles(obstacle.piece, [&](int triangle) {
+    if (relation == Relation::covered) return;
+    const Relation of_one = add({obstacle.member, triangle});
+    if (of_one != Relation::free) relation = of_one;
+  });
+  return relation;
 }
 
 // With the planes of the list from `first` on: those over which the cell sticks out.
@@ -159,14 +189,14 @@ CellCarver::Relation CellCarver::addEntry(FatObstacle obstacle, std::size_t firs
 // not meet the cell but in the layer that was allowed for when it was cut off.
 CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
   const List& from = *cell.list;
-  const auto [member, triangle] = cell.outside_of;
+  const auto [member, piece] = cell.outside_of;
   const FatObstacles* const body = member < 0 ? nullptr : &obstacles_.of(member);
-  const double reach = body ? body->extent(triangle, cell.behind) : 0.0;
+  const double reach = body ? body->extent(piece, cell.behind) : 0.0;
   ++bodies_;
   for (const List::Entry& entry : from.entries) {
     ++statistics_.pairs_tested;
     const bool may_be_behind = body && entry.obstacle.member == member;
-    if (may_be_behind && body->extent(entry.obstacle.triangle, cell.behind) <= reach) continue;
+    if (may_be_behind && body->extent(entry.obstacle.piece, cell.behind) <= reach) continue;
     const std::size_t first = into.planes.size();
     const FatObstacles::Planes planes = planesOf(entry.obstacle);
     bool meets = true;
@@ -183,13 +213,25 @@ CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
   return into.entries.empty() ? Relation::free : Relation::cut;
 }
 
+// Whether it is a patch of what counts as a surface: nothing tells then that what is within a hull
+// meets that surface where it meets the patch.
+bool CellCarver::isSurface(int piece) const {
+  const PatchedMesh& pieces = obstacles_.pieces();
+  return pieces.isPatch(piece) && !pieces.isSolid(pieces.partOfPatch(piece));
+}
+
 // All obstacles of the list are hulls: no core meets the cell.
 CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) {
   ++bodies_;
+  const Cell box = cell.body.box();
+  const auto add = [&](FatObstacle each) { return addFromBody(cell.body, box, each, into); };
   for (const List::Entry& hull : cell.list->entries) {
     for (const int piece : obstacles_.piecesWithin(hull.obstacle.member)) {
-      const FatObstacle obstacle{piece, hull.obstacle.triangle};
-      if (addFromBody(cell.body, obstacle, into) == Relation::covered) return Relation::covered;
+      const FatObstacle obstacle{piece, hull.obstacle.piece};
+      if (isClear(obstacle, box)) continue;
+      const Relation relation =
+          isSurface(obstacle.piece) ? addTriangles(obstacle, add) : add(obstacle);
+      if (relation == Relation::covered) return Relation::covered;
     }
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
@@ -212,17 +254,24 @@ bool CellCarver::addPlane(const CellPolytope& body, FatObstacle obstacle, int in
   return true;
 }
 
-CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, FatObstacle obstacle,
-                                             List& into) {
+bool CellCarver::isClear(FatObstacle obstacle, const Cell& box) const {
+  const NodeBox around = obstacles_.of(obstacle.member).obstacleBoxOf(obstacle.piece);
+  return isClearOf(around, box.lo.data(), box.hi.data());
+}
+
+// With a box around the body.
+CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, const Cell& box,
+                                             FatObstacle obstacle, List& into) {
   FatObstacles& member = obstacles_.of(obstacle.member);
-  const NodeBox around = member.obstacleBoxOf(obstacle.triangle);
-  const Cell box = body.box();
-  if (isClearOf(around, box.lo.data(), box.hi.data())) return Relation::free;
+  if (isClear(obstacle, box)) return Relation::free;
   ++statistics_.pairs_tested;
   const std::size_t first = into.planes.size();
-  const auto others = static_cast<int>(member.otherPlanes(obstacle.triangle).size());
-  failed_ = failed_ || member.hasFailed(obstacle.triangle);
-  const FatObstacles::Planes planes = member.planesOf(obstacle.triangle);
+  const auto others = static_cast<int>(member.otherPlanes(obstacle.piece).size());
+  if (member.hasFailed(obstacle.piece)) {
+    return addTriangles(obstacle,
+                        [&](FatObstacle each) { return addFromBody(body, box, each, into); });
+  }
+  const FatObstacles::Planes planes = member.planesOf(obstacle.piece);
   bool may_meet = true;
   for (int i = member.faceCount() + others; i-- > 0 && may_meet;) {
     may_meet = addPlane(body, obstacle, i, planes[i], into);

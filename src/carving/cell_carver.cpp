@@ -70,6 +70,7 @@ CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
       list_memory_(list_memory),
       statistics_(statistics),
       accuracy_(settledAccuracy(request)),
+      points_tried_(static_cast<std::size_t>(obstacles.count()), 0),
       face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
 
 void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into) {

@@ -107,16 +107,21 @@ class CellCarver {
   bool isTooLarge(const Cell& box) const;
   void divideBox(CarvedCell&& cell);
   void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves);
+  bool takesPiece(const Cell& box, int member, int piece);
   void resolve(CarvedCell&& cell);
   Relation listBox(const CarvedCell& cell, List& into);
   void rangeFaces(const CellBox& box, int member);
   Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
+  template <typename Add>
+  Relation addTriangles(FatObstacle obstacle, const Add& add);
+  bool isSurface(int piece) const;
   Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);
   Relation listPieces(const CarvedCell& cell, List& into);
-  Relation addFromBody(const CellPolytope& body, FatObstacle obstacle, List& into);
+  bool isClear(FatObstacle obstacle, const Cell& box) const;
+  Relation addFromBody(const CellPolytope& body, const Cell& box, FatObstacle obstacle, List& into);
   FatObstacles::Planes planesOf(FatObstacle obstacle) const {
-    return obstacles_.of(obstacle.member).planesOf(obstacle.triangle);
+    return obstacles_.of(obstacle.member).planesOf(obstacle.piece);
   }
   bool addPlane(const CellPolytope& body, FatObstacle obstacle, int index,
                 const ObstaclePlane& plane, List& into);
@@ -183,6 +188,9 @@ class CellCarver {
   std::vector<bool> ranged_;       // by member: those of its faces are known
   std::vector<FatNode> gathered_;  // that a box may meet
   std::vector<FatNode> stack_;
+  /// By member and part of the mesh: whether patches may be taken in that box, if it was asked.
+  std::vector<std::optional<bool>> patches_taken_;
+  std::vector<std::size_t> points_tried_;   // by member: the point that told last
   std::vector<NodeReach::Heights> lowest_;  // by member, of that box
   /// How far a body reaches along the normals of faces, as far as that was asked for since the
   /// body became another one.

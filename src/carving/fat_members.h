@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The C-obstacles of several convex bodies that move as one, and the triangles of another mesh.
+// The C-obstacles of several convex bodies that move as one, and the pieces of another mesh.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,18 @@
 
 #include "carving/fat_obstacles.h"
 #include "carving/node_reach.h"
+#include "cells/cell_mass.h"
+#include "pieces/patched_mesh.h"
 
 namespace fcl_prob::detail {
 
 /// One V_t = P ⊕ T_t.
 struct FatObstacle {
-  int member = -1;    ///< whose P it is; -1: none at all
-  int triangle = -1;  ///< t
+  int member = -1;  ///< whose P it is; -1: none at all
+  int piece = -1;   ///< t
 };
 
-/// P ⊕ a box of the tree of the mesh.
+/// P ⊕ a box of the tree of the mesh's pieces.
 struct FatNode {
   int member;
   int node;
@@ -31,11 +33,12 @@ struct FatNode {
 class FatMembers {
  public:
   /// \param body    of which every part is convex, or nearly; A if `fan_is_a`
+  /// \param mesh    the other one
   /// \param matrix  that of the whitening
   ///
   /// Keeps references to the pair and the body.
-  FatMembers(const WhitenedPair& pair, const PartitionObject& body, bool fan_is_a,
-             const Eigen::Matrix3d& matrix);
+  FatMembers(const WhitenedPair& pair, const PartitionObject& body, const PartitionObject& mesh,
+             bool fan_is_a, const Eigen::Matrix3d& matrix);
 
   /// Of one that has not been asked for anything.
   static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);
@@ -67,7 +70,13 @@ class FatMembers {
   /// if there are none.
   const std::vector<int>& piecesWithin(int hull);
 
-  const WhitenedTree& mesh() const { return members_.front()->mesh(); }
+  const PatchedMesh& pieces() const { return pieces_; }
+
+  /// Whether what touches a patch of that part of the mesh also touches its surface, or is told to
+  /// be touching it, for all displacements of a box and a member below count(). \param tried_first
+  /// of some points of the member, which see, and where the one that told of it is put
+  bool mayTakePatches(int member, std::size_t part, const Cell& box,
+                      std::size_t& tried_first) const;
 
   /// Where the faces of a member begin among those of all.
   int firstFace(int member) const { return first_faces_[member]; }
@@ -105,10 +114,12 @@ class FatMembers {
   const PartitionObject& body_;
   const bool fan_is_a_;
   const Eigen::Matrix3d matrix_;
+  const PatchedMesh pieces_;
   bool hulls_stay_closed_ = false;
   std::vector<std::unique_ptr<FatObstacles>> members_;  ///< null: not made yet
   std::vector<OfPart> parts_;                           ///< by member
   std::vector<NodeReach> reaches_;                      ///< by member below count()
+  std::vector<std::vector<Eigen::Vector3d>> points_;    ///< of those, a few apart
   int count_ = 0;
   std::vector<int> first_faces_;
   std::deque<Within> within_;

@@ -21,73 +21,83 @@ constexpr double kOnPlane = 1e-9;
 // The normals of a sharper edge than this, added up, are no longer than this.
 constexpr double kSharpest = 1e-3;
 
+// Two normals of a patch that are closer than this have no edge that is known.
+constexpr double kSmallestTurn = 1e-7;
+
 // A triangle whose normal is known no better than this covers nothing.
 constexpr double kPoorNormal = 1e-6;
 
 }  // namespace
 
 FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part,
-                           const ConvexFan& fan, bool fan_is_a, const Eigen::Matrix3d& linear)
+                           const ConvexFan& fan, bool fan_is_a, const Eigen::Matrix3d& linear,
+                           const PatchedMesh& pieces)
     : WhitenedFan(pair, part, fan, fan_is_a, linear),
-      details_(mesh().tree->triangles.size()),
+      pieces_(pieces),
+      details_(static_cast<std::size_t>(pieces.pieceCount())),
       memory_(leastMemory(details_.size())) {}
 
-FatObstacles::Details& FatObstacles::details(int triangle) {
-  std::atomic<Details*>& slot = details_[static_cast<std::size_t>(triangle)].details;
+FatObstacles::Details& FatObstacles::details(int piece) {
+  std::atomic<Details*>& slot = details_[static_cast<std::size_t>(piece)].details;
   Details* found = slot.load(std::memory_order_acquire);
   if (found) return *found;
-  const std::lock_guard lock(mutexOf(triangle));
+  const std::lock_guard lock(mutexOf(piece));
   found = slot.load(std::memory_order_relaxed);
   if (!found) {
-    found = newDetails(triangle);
+    found = newDetails(piece);
     slot.store(found, std::memory_order_release);
   }
   return *found;
 }
 
-FatObstacles::Details* FatObstacles::newDetails(int triangle) {
+FatObstacles::Details* FatObstacles::newDetails(int piece) {
   auto made = std::make_unique<Details>();
   made->offsets.resize(static_cast<std::size_t>(faceCount()));
-  const Eigen::Matrix3d t = corners(triangle);
   Eigen::Map<Eigen::VectorXd> of_faces(made->offsets.data(), faceCount());
-  of_faces = heightsAlong(t.col(0));
-  for (int k = 1; k < 3; ++k) of_faces = of_faces.cwiseMax(heightsAlong(t.col(k)));
+  of_faces.setConstant(-kInfinity);
+  pieces_.visitCorners(
+      piece, [&](int vertex) { of_faces = of_faces.cwiseMax(heightsAlong(corner(vertex))); });
   of_faces += offsets();
   ++built_;
   memory_ += sizeof(Details) + made->offsets.capacity() * sizeof(double);
   return made.release();
 }
 
-const std::vector<double>& FatObstacles::faceOffsets(int triangle) {
-  return details(triangle).offsets;
-}
+const std::vector<double>& FatObstacles::faceOffsets(int piece) { return details(piece).offsets; }
 
-const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int triangle) {
-  Details& found = details(triangle);
+const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int piece) {
+  Details& found = details(piece);
   if (!found.has_planes.load(std::memory_order_acquire)) {
-    const std::lock_guard lock(mutexOf(triangle));
+    const std::lock_guard lock(mutexOf(piece));
     if (!found.has_planes.load(std::memory_order_relaxed)) {
-      buildPlanes(triangle, found);
+      buildPlanes(piece, found);
       found.has_planes.store(true, std::memory_order_release);
     }
   }
   return found.planes;
 }
 
-void FatObstacles::buildPlanes(int triangle, Details& into) {
-  const Eigen::Matrix3d t = corners(triangle);
-  addTriangleNormal(t, into);
-  for (int edge = 0; edge < 3; ++edge) addEdge(t, edge, into);
-  if (!(into.loss < kNever)) failed_ = true;
+void FatObstacles::buildPlanes(int piece, Details& into) {
+  if (pieces_.isPatch(piece)) {
+    buildPatch(piece, into);
+  } else {
+    buildTriangle(piece, into);
+  }
   for (ObstaclePlane& plane : into.planes) plane.margin += into.loss;
   into.planes.shrink_to_fit();
   memory_ += into.planes.capacity() * sizeof(ObstaclePlane);
 }
 
-ObstaclePlane FatObstacles::planeAcross(const Eigen::Matrix3d& corners, const Eigen::Vector3d& n,
+void FatObstacles::buildTriangle(int piece, Details& into) {
+  const Eigen::Matrix3d t = corners(piece);
+  addTriangleNormal(t, into);
+  for (int edge = 0; edge < 3; ++edge) addEdge(t, edge, into);
+  if (!(into.loss < kNever)) failed_ = true;
+}
+
+ObstaclePlane FatObstacles::planeAcross(double extent, const Eigen::Vector3d& n,
                                         double of_p) const {
   const double pad = padding(n);
-  const double extent = (n.transpose() * corners).maxCoeff();
   return {n, of_p + extent + pad, share() * of_p + 3 * pad};
 }
 
@@ -102,9 +112,29 @@ void FatObstacles::addTriangleNormal(const Eigen::Matrix3d& corners, Details& in
   }
   for (const double side : {1.0, -1.0}) {
     const Eigen::Vector3d n = side * across.normalized();
-    into.planes.push_back(planeAcross(corners, n, support(n)));
+    into.planes.push_back(planeAcross((n.transpose() * corners).maxCoeff(), n, support(n)));
     into.planes.back().margin += turned * reach();
   }
+}
+
+Eigen::Vector3d FatObstacles::middle(int piece) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  pieces_.visitCorners(piece, [&](int vertex) {
+    sum += corner(vertex);
+    count += 1.0;
+  });
+  return sum / count;
+}
+
+NodeBox FatObstacles::obstacleBoxOf(int piece) const {
+  NodeBox result;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    result.lo[k] = box().lo[k] - extent(piece, -axis) - pad()[k];
+    result.hi[k] = box().hi[k] + extent(piece, axis) + pad()[k];
+  }
+  return result;
 }
 
 // Where the arc between the normals of two faces crosses the plane across an edge of the triangle,
@@ -141,9 +171,65 @@ void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& in
       continue;
     }
     const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
-    ObstaclePlane plane = planeAcross(corners, crossing / size, of_p);
+    const Eigen::Vector3d n = crossing / size;
+    ObstaclePlane plane = planeAcross((n.transpose() * corners).maxCoeff(), n, of_p);
     const double gap = (normals()[f] - normals()[g]).norm();
     plane.margin += 64 * kEpsilon * gap * (length / lean) * (lean / size) * reach();
+    into.planes.push_back(plane);
+  }
+}
+
+void FatObstacles::buildPatch(int piece, Details& into) {
+  const WhitenedPatch patch = pieces_.whitened(piece);
+  into.loss = std::min(patch.loss, kNever);
+  if (!(into.loss < kNever)) return;
+  for (const Eigen::Vector3d& normal : patch.normals) {
+    const Eigen::Vector3d n = sign() * normal;
+    into.planes.push_back(planeAcross(extent(piece, n), n, support(n)));
+  }
+  for (const auto& [f, g] : patch.arcs) {
+    addPatchEdge(piece, sign() * patch.normals[f], sign() * patch.normals[g], into);
+  }
+}
+
+// As of a triangle, where the arc of P crosses that between the two normals.
+void FatObstacles::addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
+                                Details& into) const {
+  const double sine = n0.cross(n1).norm();
+  if (!(sine > kSmallestTurn)) {
+    into.loss = kNever;
+    return;
+  }
+  const Eigen::Vector3d along = n0.cross(n1) / sine;
+  const Eigen::Vector3d from_n0 = along.cross(n0);
+  const Eigen::Vector3d from_n1 = n1.cross(along);
+  const Eigen::VectorXd on_normals = heightsAlong(along);
+  const double parallel = std::max(kParallel, 64 * kEpsilon / sine);
+  for (const auto& [f, g] : arcs()) {
+    const double at_f = on_normals[f];
+    const double at_g = on_normals[g];
+    const double lean = std::fabs(at_f) + std::fabs(at_g);
+    if (lean <= parallel) {
+      const double sum = (normals()[f] + normals()[g]).norm();
+      const double loss = sum > kSharpest ? 8 * lean * (4 / (sum * sum)) * reach() : kNever;
+      into.loss = std::max(into.loss, loss);
+      continue;
+    }
+    if ((at_f > 0.0) == (at_g > 0.0)) continue;
+    const double of_f = std::fabs(at_g);
+    const double of_g = std::fabs(at_f);
+    const Eigen::Vector3d crossing = of_f * normals()[f] + of_g * normals()[g];
+    const double size = crossing.norm();
+    const double beyond = (kOnPlane + 32 * kEpsilon / lean) * size;
+    if (crossing.dot(from_n0) < -beyond || crossing.dot(from_n1) < -beyond) continue;
+    if (!(size > kSharpest * lean)) {
+      into.loss = kNever;
+      return;
+    }
+    const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
+    const Eigen::Vector3d n = crossing / size;
+    ObstaclePlane plane = planeAcross(extent(piece, n), n, of_p);
+    plane.margin += 64 * kEpsilon * (normals()[f] - normals()[g]).norm() / size * reach();
     into.planes.push_back(plane);
   }
 }

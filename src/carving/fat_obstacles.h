@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The C-obstacles of one convex mesh, taken whole, and the triangles of another mesh.
+// The C-obstacles of one convex mesh, taken whole, and the pieces of another mesh.
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <mutex>
 #include <vector>
 
+#include "base/constants.h"
+#include "pieces/patched_mesh.h"
 #include "pieces/whitened_fan.h"
 
 namespace fcl_prob::detail {
@@ -23,43 +26,57 @@ struct ObstaclePlane {
   double inner() const { return outer - margin; }
 };
 
-/// V_t = P ⊕ T_t for every triangle t of the mesh (docs/rounding.md tells what its planes are):
-/// planes across the normals of P, offset by the triangle's extent, are shared by all; those across
-/// an edge of the triangle and one of P, and the triangle's own, are made when they are first asked
-/// for, by any of several threads. All is relative to the centre of P, which is within P.
+/// V_t = P ⊕ T_t for every piece t of the mesh, a triangle or a patch (docs/rounding.md tells what
+/// its planes are): planes across the normals of P, offset by the piece's extent, are shared by
+/// all; those across an edge of the piece and one of P, and the piece's own, are made when they are
+/// first asked for, by any of several threads. All is relative to the centre of P, which is within
+/// P.
 class FatObstacles : public WhitenedFan {
  public:
   FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
-               bool fan_is_a, const Eigen::Matrix3d& linear);
+               bool fan_is_a, const Eigen::Matrix3d& linear, const PatchedMesh& pieces);
 
-  /// Of one of so many triangles that has not been asked for anything.
-  static std::size_t leastMemory(std::size_t triangles) { return triangles * sizeof(Slot); }
+  /// Of one of so many pieces that has not been asked for anything.
+  static std::size_t leastMemory(std::size_t pieces) { return pieces * sizeof(Slot); }
 
   /// The offsets of the face planes of V_t (see ObstaclePlane::outer), without what is added for
   /// rounding.
-  const std::vector<double>& faceOffsets(int triangle);
+  const std::vector<double>& faceOffsets(int piece);
 
   /// All other planes.
-  const std::vector<ObstaclePlane>& otherPlanes(int triangle);
+  const std::vector<ObstaclePlane>& otherPlanes(int piece);
 
   /// All planes of V_t, by index: the faces', and from faceCount() on the others.
   class Planes;
 
   /// The others must have been made: those that are left out move the faces'.
-  Planes planesOf(int triangle) const;
+  Planes planesOf(int piece) const;
 
   /// Not below the margin of any face plane of V_t.
-  double mostMargin(int triangle) const { return largestMargin() + known(triangle).loss; }
+  double mostMargin(int piece) const { return largestMargin() + known(piece).loss; }
 
-  /// Whether the triangle or an edge of it turned out too degenerate for anything to be said of
-  /// what its obstacle contains.
-  bool hasFailed(int triangle) const { return !(known(triangle).loss < kNever); }
+  /// Whether the piece or an edge of it turned out too degenerate for anything to be said of what
+  /// its obstacle contains.
+  bool hasFailed(int piece) const { return !(known(piece).loss < kNever); }
 
-  /// Whether that is so of any of those that were asked for.
+  /// Whether that is so of any triangle that was asked for. (A patch has its triangles instead.)
   bool failed() const { return failed_; }
 
   /// In which half of the doubled middle of T ⊕ P: a point of V_t.
-  Eigen::Vector3d middle(int triangle) const { return corners(triangle).rowwise().mean(); }
+  Eigen::Vector3d middle(int piece) const;
+
+  /// The largest n·y on T_t.
+  double extent(int piece, const Eigen::Vector3d& n) const {
+    double highest = -kInfinity;
+    pieces_.visitCorners(piece,
+                         [&](int vertex) { highest = std::max(highest, n.dot(corner(vertex))); });
+    return highest;
+  }
+
+  /// Box of P ⊕ T_t.
+  NodeBox obstacleBoxOf(int piece) const;
+
+  const PatchedMesh& pieces() const { return pieces_; }
 
   std::size_t memory() const { return memory_; }
   std::size_t built() const { return built_; }
@@ -84,18 +101,23 @@ class FatObstacles : public WhitenedFan {
     ~Slot() { delete details.load(); }
   };
 
-  const Details& known(int triangle) const {
-    return *details_[static_cast<std::size_t>(triangle)].details.load(std::memory_order_acquire);
+  const Details& known(int piece) const {
+    return *details_[static_cast<std::size_t>(piece)].details.load(std::memory_order_acquire);
   }
-  std::mutex& mutexOf(int triangle) { return mutexes_[triangle % mutexes_.size()]; }
-  Details& details(int triangle);
-  Details* newDetails(int triangle);
-  void buildPlanes(int triangle, Details& into);
+  std::mutex& mutexOf(int piece) { return mutexes_[piece % mutexes_.size()]; }
+  Details& details(int piece);
+  Details* newDetails(int piece);
+  void buildPlanes(int piece, Details& into);
+  void buildTriangle(int piece, Details& into);
+  void buildPatch(int piece, Details& into);
   void addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const;
   void addEdge(const Eigen::Matrix3d& corners, int edge, Details& into);
-  ObstaclePlane planeAcross(const Eigen::Matrix3d& corners, const Eigen::Vector3d& n,
-                            double of_p) const;
+  /// Of two neighbouring normals of a patch, n0 and n1.
+  void addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
+                    Details& into) const;
+  ObstaclePlane planeAcross(double extent, const Eigen::Vector3d& n, double of_p) const;
 
+  const PatchedMesh& pieces_;
   std::vector<Slot> details_;
   std::array<std::mutex, 16> mutexes_;  ///< each for what is made of some of the triangles
   std::atomic<bool> failed_{false};
@@ -119,8 +141,8 @@ class FatObstacles::Planes {
   const Details& of_;
 };
 
-inline FatObstacles::Planes FatObstacles::planesOf(int triangle) const {
-  return {*this, known(triangle)};
+inline FatObstacles::Planes FatObstacles::planesOf(int piece) const {
+  return {*this, known(piece)};
 }
 
 }  // namespace fcl_prob::detail

@@ -18,7 +18,8 @@ float roundedDown(double value) { return std::nextafter(static_cast<float>(value
 
 }  // namespace
 
-NodeReach::NodeReach(const WhitenedFan& fan) : rounding_(fan.padding(Eigen::Vector3d::Ones())) {
+NodeReach::NodeReach(const WhitenedFan& fan, const PatchedMesh& pieces)
+    : rounding_(fan.padding(Eigen::Vector3d::Ones())) {
   std::vector<int> faces(static_cast<std::size_t>(fan.faceCount()));
   std::iota(faces.begin(), faces.end(), 0);
   faces = differentFaces(fan, faces, Eigen::Vector3d::UnitX(), kFaces);
@@ -33,10 +34,10 @@ NodeReach::NodeReach(const WhitenedFan& fan) : rounding_(fan.padding(Eigen::Vect
           roundedUp(offset + n.dot(fan.corner(static_cast<int>(v))));
     }
   }
-  highest_.resize(mesh.boxes.size());
+  highest_.resize(pieces.nodes().size());
   for (std::size_t i = highest_.size(); i-- > 0;) {
-    const PieceTree::Node& node = mesh.tree->nodes[i];
-    if (node.isLeaf()) {
+    const PatchedMesh::Node& node = pieces.nodes()[i];
+    if (node.left < 0) {
       const Eigen::Vector3i& t = mesh.tree->triangles[node.piece];
       highest_[i] = at_vertices[t[0]].max(at_vertices[t[1]]).max(at_vertices[t[2]]);
     } else {

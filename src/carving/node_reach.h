@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "pieces/patched_mesh.h"
 #include "pieces/whitened_fan.h"
 
 namespace fcl_prob::detail {
@@ -18,7 +19,8 @@ class NodeReach {
   static constexpr int kFaces = 32;
   using Heights = Eigen::Array<float, kFaces, 1>;
 
-  explicit NodeReach(const WhitenedFan& fan);
+  /// Of the nodes of `pieces`.
+  NodeReach(const WhitenedFan& fan, const PatchedMesh& pieces);
 
   /// What no point of a box is below, along those normals.
   Heights lowestOf(const Eigen::Vector3d& middle, const Eigen::Vector3d& half) const;

@@ -12,6 +12,7 @@
 #include "base/constants.h"
 #include "gaussian/directed_edges.h"
 #include "geometry/surface_caps.h"
+#include "pieces/hull_triangles.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -22,6 +23,14 @@ constexpr int kMostTriangles = 20'000;
 // What coordinates in single precision, as STL has them, are rounded by, twice over: relative to
 // the largest one.
 constexpr double kFileRounding = 4 * 5.96e-8;
+
+// Of a hull of few points: what hullTriangles() moves them by, tenfold, relative to their
+// distances, and how far from its centre its planes have to be.
+constexpr double kMovedPoints = 1e-10;
+constexpr double kLeastOffset = 1e-5;
+
+// Six times the volume below a triangle is known to this, of the cube of the size.
+constexpr double kVolumeRounding = 64 * kEpsilon;
 
 // Three normals of a vertex with a smaller determinant count as coplanar.
 constexpr double kLeastDeterminant = 1e-6;
@@ -36,6 +45,9 @@ class FanBuilder {
 
   /// P is to hold these, too.
   void include(const std::vector<Eigen::Vector3d>& points) { points_ = points; }
+
+  /// Triangles that are so nearly in one plane are one group, metres.
+  void tolerate(double distance) { tolerance_ = distance; }
 
   std::shared_ptr<ConvexFan> build() {
     if (!readSurface() || !readNeighbours() || !groupTriangles()) return nullptr;
@@ -68,7 +80,7 @@ class FanBuilder {
       corners_.push_back(corners);
     }
     if (corners_.size() < 4) return false;
-    tolerance_ = kFileRounding * largest;
+    if (!(tolerance_ > 0.0)) tolerance_ = kFileRounding * largest;
     std::sort(used_.begin(), used_.end());
     used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
     if (!points_.empty()) return true;
@@ -272,6 +284,31 @@ std::shared_ptr<const ConvexFan> convexFanOf(const ConvexPolytope& hull,
   if (!fan) return nullptr;
   const ClosedMesh solid(view, "polytope");
   return hasCentreWithin(*fan, solid, Eigen::Vector3d::Zero()) ? fan : nullptr;
+}
+
+// Moved as they are there, the points have triangles that all face away from the centre, around
+// which these wind; on the way from there to where they are they stay away from it.
+std::shared_ptr<const ConvexFan> convexFanAround(const std::vector<Eigen::Vector3d>& points) {
+  const TriangleMesh moved = hullTriangles(points);
+  if (moved.triangles.empty()) return nullptr;
+  double size = 0.0;
+  for (const Eigen::Vector3d& point : points) size = std::max(size, (point - points[0]).norm());
+  FanBuilder builder(viewOf(moved), points);
+  builder.include(points);
+  builder.tolerate(kMovedPoints * size);
+  const std::shared_ptr<ConvexFan> fan = builder.build();
+  if (!fan) return nullptr;
+  for (std::size_t f = 0; f < fan->normals.size(); ++f) {
+    if (!(fan->offsets[f] - fan->depths[f] > kLeastOffset * size)) return nullptr;
+  }
+  const Eigen::Vector3d centre = fan->centre - points[0];
+  for (const fcl::Triangle& t : moved.triangles) {
+    const Eigen::Vector3d a = moved.vertices[t[0]] - centre;
+    const Eigen::Vector3d b = moved.vertices[t[1]] - centre;
+    const Eigen::Vector3d c = moved.vertices[t[2]] - centre;
+    if (!(a.dot(b.cross(c)) > kVolumeRounding * size * size * size)) return nullptr;
+  }
+  return fan;
 }
 
 bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,

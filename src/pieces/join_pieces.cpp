@@ -76,6 +76,7 @@ class TreeJoiner {
     };
     if (part.root >= 0) part.root += at.nodes;
     move(part.vertices, at.vertices);
+    move(part.triangles, at.triangles);
     move(part.bodies, at.bodies);
     move(part.shapes, at.shapes);
     for (auto& [from, to] : part.spans) {

@@ -14,7 +14,7 @@ namespace {
 // The farthest that the mesh may reach into a body, as a share of it.
 constexpr double kMostReach = 1e-5;
 
-// Planes that separate as well as this are not improved upon.
+// Planes that separate as well as this, but for rounding, are not improved upon.
 constexpr double kLittleReach = 1e-12;
 
 class ReachSearch {
@@ -61,7 +61,7 @@ class ReachSearch {
     if (!(height > 0.0)) return false;
     const double lowest = std::min({n.dot(corners_[0]), n.dot(corners_[1]), n.dot(corners_[2])});
     best_ = std::min(best_, 1.0 - (lowest - 32 * kEpsilon * size_) / height);
-    return best_ <= kLittleReach;
+    return 1.0 - lowest / height <= kLittleReach;
   }
 
   bool tryDirection(const Eigen::Vector3d& across) {
@@ -81,26 +81,40 @@ class ReachSearch {
   double best_ = 1.0;
 };
 
-// The share λ of P that the mesh reaches into; where it is more than kMostReach it means no more
-// than that.
-double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
-                 const MeshView& view, const std::vector<Eigen::Vector3d>& vertices) {
-  ReachSearch search(fan, normals, view, vertices);
-  double farthest = 0.0;
-  for (int t = 0; t < view.triangle_count && farthest <= kMostReach; ++t) {
-    farthest = std::max(farthest, search.of(t));
-  }
-  return farthest;
-}
-
 }  // namespace
 
 SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
                                  const Eigen::Vector3d& moved_by)
-    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {}
+    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {
+  std::vector<BoxTree::Box> boxes(view.triangle_count);
+  for (int t = 0; t < view.triangle_count; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      boxes[t].extend(vertices[view.triangles[t][k]]);
+      largest_ = std::max(largest_, view.vertex(t, k).norm());
+    }
+  }
+  boxes_ = BoxTree(boxes);
+}
+
+// The share λ of P that the mesh reaches into; where it is more than kMostReach it means no more
+// than that. What is clear of a box around P by more than rounding does not reach into it.
+double SurroundingMesh::reachInto(const ConvexFan& fan,
+                                  const std::vector<Eigen::Vector3d>& normals) const {
+  BoxTree::Box box;
+  for (const Eigen::Vector3d& v : fan.vertices) box.extend(fan.centre + v);
+  const double rounding = 64 * kEpsilon * (fan.radius + fan.centre.norm() + 2 * largest_);
+  const BoxTree::Box around(box.min().array() - rounding, box.max().array() + rounding);
+  ReachSearch search(fan, normals, view_, vertices_);
+  double farthest = 0.0;
+  boxes_.visitBox(around, [&](int t) {
+    farthest = std::max(farthest, search.of(t));
+    return farthest <= kMostReach;
+  });
+  return farthest;
+}
 
 bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const {
-  const double reach = reachInto(fan, normals, view_, vertices_);
+  const double reach = reachInto(fan, normals);
   if (!(reach <= kMostReach) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
   for (std::size_t f = 0; f < fan.depths.size(); ++f) {
     fan.depths[f] = std::max(fan.depths[f], reach * fan.offsets[f]);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "geometry/box_tree.h"
 #include "geometry/closed_mesh.h"
 #include "geometry/mesh_visitor.h"
 #include "pieces/convex_fan.h"
@@ -28,11 +29,17 @@ class SurroundingMesh {
   /// is told of what the mesh does not reach. \param normals  of planes to try beside those of P
   bool surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
 
+  const ClosedMesh& solid() const { return solid_; }
+
  private:
+  double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
+
   const MeshView& view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   Eigen::Vector3d moved_by_;
   ClosedMesh solid_;
+  BoxTree boxes_;         ///< of triangles
+  double largest_ = 0.0;  ///< coordinate of a vertex
 };
 
 }  // namespace fcl_prob::detail

@@ -49,6 +49,7 @@ void makePart(double error, PieceTree& tree) {
   PieceTree::Part part;
   part.error = error;
   part.vertices.end = static_cast<int>(tree.vertices.size());
+  part.triangles.end = static_cast<int>(tree.triangles.size());
   part.bodies.end = static_cast<int>(tree.bodies.size());
   part.shapes.end = static_cast<int>(tree.shapes.size());
   if (!tree.isEmpty()) {
@@ -155,10 +156,25 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     part.fan = convexFanOf(view, tree->vertices, part.origin);
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
     part.spans = spansOf(view);
+    part.patches = std::make_shared<const PatchesOfMesh>();
   } else if (kindOf(geometry) == GeometryKind::convex) {
     fillFanOfShape(*tree);
   }
   return tree;
+}
+
+const MeshPatches* PieceTree::patchesOf(const Part& part) const {
+  if (!part.patches) return nullptr;
+  return part.patches->of([&] {
+    TriangleMesh mesh;
+    mesh.vertices.assign(vertices.begin() + part.vertices.begin,
+                         vertices.begin() + part.vertices.end);
+    for (int t = part.triangles.begin; t < part.triangles.end; ++t) {
+      const Eigen::Vector3i corners = triangles[t].array() - part.vertices.begin;
+      mesh.triangles.emplace_back(corners[0], corners[1], corners[2]);
+    }
+    return mesh;
+  });
 }
 
 double PieceTree::radius() const {

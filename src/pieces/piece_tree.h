@@ -13,6 +13,7 @@
 #include "geometry/surface_caps.h"
 #include "pieces/convex_fan.h"
 #include "pieces/convex_piece.h"
+#include "pieces/mesh_patches.h"
 #include "pieces/nearly_convex.h"
 
 namespace fcl_prob::detail {
@@ -60,6 +61,7 @@ struct PieceTree {
     double error = 0.0;   ///< metres: by how much coordinates differ from those of the geometry
     int root = -1;        ///< its topmost node, -1 if it has none
     Range vertices;
+    Range triangles;
     Range bodies;
     Range shapes;
 
@@ -69,6 +71,8 @@ struct PieceTree {
     std::shared_ptr<const NearlyConvex> nearly;
     /// Of a mesh, indices into the tree's vertices: see spansOf().
     std::vector<std::pair<int, int>> spans;
+    /// Of a mesh; null of what is none. See patchesOf().
+    std::shared_ptr<const PatchesOfMesh> patches;
   };
 
   std::vector<Node> nodes;  ///< nodes[0] is the root
@@ -81,6 +85,10 @@ struct PieceTree {
 
   /// Of an octree: a cell is both occupied and free.
   bool any_cell_also_free = false;
+
+  /// Of a part that is a mesh, with indices into its own triangles and vertices; null if it has
+  /// none.
+  const MeshPatches* patchesOf(const Part& part) const;
 
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }

@@ -68,7 +68,11 @@ class WhitenedFan {
   Eigen::Vector3d corner(int vertex) const { return sign_ * (mesh_.vertices[vertex] - centre_); }
 
   /// Box of the corners of a node of the tree of the mesh.
-  NodeBox cornerBox(int node) const;
+  NodeBox cornerBox(int node) const { return cornerBox(mesh_.boxes[node]); }
+  NodeBox cornerBox(const NodeBox& of_mesh) const;
+
+  /// The other way: in the coordinates of the mesh's vertices.
+  NodeBox boxOfMesh(const NodeBox& of_corners) const;
 
   /// Bound on |y - v| for any y of a cell and any v of a P ⊕ T.
   double reach() const { return reach_; }
@@ -80,10 +84,11 @@ class WhitenedFan {
   }
 
   /// Box of P ⊕ a box of the tree of the mesh.
-  NodeBox obstacleBox(int node) const;
+  NodeBox obstacleBox(int node) const { return obstacleBox(mesh_.boxes[node]); }
+  NodeBox obstacleBox(const NodeBox& of_mesh) const;
 
-  /// Box of P ⊕ T.
-  NodeBox obstacleBoxOf(int triangle) const;
+  /// A few points of P, far apart, a little within it: certainly so, as its planes tell.
+  std::vector<Eigen::Vector3d> pointsApart() const;
 
   /// Whether no connected part of the mesh fits within P, so that where triangles meet P they meet
   /// its surface.
@@ -91,6 +96,7 @@ class WhitenedFan {
 
  protected:
   const std::vector<Eigen::Vector3d>& normals() const { return normals_; }
+  double sign() const { return sign_; }
   /// Margins are this share of P's offset.
   double share() const { return share_; }
 

@@ -125,8 +125,10 @@ TEST_CASE("the planes of P ⊕ T hold it, and what is within their margins", "[c
       const auto& tree = body_is_a ? scene_meshes.tree_a : scene_meshes.tree_b;
       REQUIRE(tree->parts[0].fan);
       const Eigen::Matrix3d linear = scene_meshes.whitening.matrix();
+      const PatchedMesh pieces(body_is_a ? scene_meshes.pair.b : scene_meshes.pair.a,
+                               scene_meshes.objectOf(!body_is_a), linear);
       FatObstacles obstacles(scene_meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
-                             linear);
+                             linear, pieces);
       REQUIRE(obstacles.usable());
       std::vector<ObstaclePlane> planes = obstacles.otherPlanes(0);
       obstacles.faceOffsets(0);

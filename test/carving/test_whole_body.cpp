@@ -141,10 +141,13 @@ TEST_CASE("boxes clear of nodes hold nothing of them", "[whole]") {
     const bool body_is_a = scene % 2 == 0;
     const WhitenedMeshes meshes(body_is_a ? body : other, body_is_a ? other : body);
     const auto& tree = body_is_a ? meshes.tree_a : meshes.tree_b;
+    const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
+    const PatchedMesh pieces(body_is_a ? meshes.pair.b : meshes.pair.a, meshes.objectOf(!body_is_a),
+                             matrix);
     const FatObstacles obstacles(meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
-                                 meshes.whitening.matrix());
-    const NodeReach reach(obstacles);
-    const auto& nodes = obstacles.mesh().tree->nodes;
+                                 matrix, pieces);
+    const NodeReach reach(obstacles, pieces);
+    const auto& nodes = pieces.nodes();
     for (int i = 0; i < 40; ++i) {
       const Eigen::Vector3d middle = 0.6 * random.normalVector();
       const Eigen::Vector3d half = Eigen::Vector3d::Constant(random.logUniform(1e-3, 0.3));
@@ -152,7 +155,7 @@ TEST_CASE("boxes clear of nodes hold nothing of them", "[whole]") {
       for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
         if (!reach.isClearOf(lowest, node)) continue;
         ++clear;
-        if (!nodes[node].isLeaf()) {
+        if (nodes[node].left >= 0) {
           CHECK(reach.isClearOf(lowest, nodes[node].left));
           CHECK(reach.isClearOf(lowest, nodes[node].right));
           continue;

@@ -19,6 +19,10 @@ struct WhitenedMeshes {
                                       {tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}},
                                       whitening)) {}
 
+  fcl_prob::detail::PartitionObject objectOf(bool is_a) const {
+    return {(is_a ? tree_a : tree_b).get(), {{fcl::Transform3d::Identity(), nullptr}}};
+  }
+
   std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_a;
   std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> model_b;
   std::shared_ptr<const fcl_prob::detail::PieceTree> tree_a;

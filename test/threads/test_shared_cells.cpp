@@ -120,10 +120,12 @@ TEST_CASE("threads divide cells over one table of obstacles", "[threads]") {
 TEST_CASE("threads carve cells along the planes of one set of obstacles", "[threads]") {
   RandomBodies random(1);
   const WhitenedMeshes meshes(hullMesh(random.onSphere(40, 1.0)), torusMesh(2.0, 0.7, 14, 8));
-  const PartitionObject body{meshes.tree_a.get(), {{fcl::Transform3d::Identity(), nullptr}}};
+  const PartitionObject body = meshes.objectOf(true);
+  const PartitionObject other = meshes.objectOf(false);
   REQUIRE(meshes.tree_a->parts[0].fan);
   const Eigen::Matrix3d matrix = meshes.whitening.matrix();
-  FatMembers alone(meshes.pair, body, true, matrix), shared(meshes.pair, body, true, matrix);
+  FatMembers alone(meshes.pair, body, other, true, matrix);
+  FatMembers shared(meshes.pair, body, other, true, matrix);
   std::atomic<std::size_t> list_memory{0};
   const std::vector<double> expected = carved(alone, list_memory);
   CHECK(expected.size() > 10 * kDivided);
