@@ -111,24 +111,35 @@ TEST_CASE("Claims of meshes of hundreds of triangles, closed and open, as surfac
 }
 
 TEST_CASE("The checker finds claims that are wrong") {
-  // Told of a ball that is a little larger or smaller than the one asked about.
-  const fcl::Boxd box(1, 1, 1);
-  const fcl::Sphered ball(0.5), larger(0.501), smaller(0.499);
+  // Told of a shape that is a little larger or smaller than the one asked about.
+  const auto box = makeModel<fcl::OBBRSSd>(boxMesh({0.5, 0.5, 0.5}));
+  const fcl::Sphered ball(0.5), larger(0.505), smaller(0.495);
+  const auto bumpy = [](double size) {
+    return makeModel<fcl::OBBRSSd>(bumpyMesh(0.5 * size, 8, 10, 1));
+  };
+  const auto mesh = bumpy(1.0), larger_mesh = bumpy(1.002), smaller_mesh = bumpy(0.998);
   const fcl::Transform3d at_origin = fcl::Transform3d::Identity();
   fcl::Transform3d beside = at_origin;
   beside.translation() = Eigen::Vector3d(1.1, 0.2, 0.1);
   const GaussianDisplacement error(Eigen::Vector3d::Zero(), 0.01 * Eigen::Matrix3d::Identity());
-  const auto violations = [&](const fcl::Sphered& told) {
-    const oracle::Scene scene({&told, at_origin}, {&box, beside}, oracle::Contact::surface);
+  const auto violations = [&](const fcl::CollisionGeometryd& asked,
+                              const fcl::CollisionGeometryd& told) {
+    const oracle::Scene scene({&told, at_origin}, {box.get(), beside}, oracle::Contact::surface);
+    ProbabilityRequest request = interval();
+    request.relative_tolerance = 1e-4;
     fcl_prob::ProbabilityResult result;
     const auto query = [&] {
-      fcl_prob::collisionProbability(&ball, at_origin, &box, beside, error, interval(), result);
+      fcl_prob::collisionProbability(&asked, at_origin, box.get(), beside, error, request, result);
     };
     return checkClaims(scene, query, ClaimBudget{}, 5).total().violated;
   };
-  CHECK(violations(ball) == 0);
-  CHECK(violations(larger) > 0);
-  CHECK(violations(smaller) > 0);
+  CHECK(violations(*mesh, *mesh) == 0);
+  CHECK(violations(*mesh, *larger_mesh) > 0);
+  CHECK(violations(*mesh, *smaller_mesh) > 0);
+  // By the quadric of the ball, too.
+  CHECK(violations(ball, ball) == 0);
+  CHECK(violations(ball, larger) > 0);
+  CHECK(violations(ball, smaller) > 0);
 }
 
 TEST_CASE("Claims of convex meshes that are taken whole") {
