@@ -251,6 +251,26 @@ TEST_CASE("the sum of independent displacements keeps small common axes and find
             .rank() == 0);
 }
 
+TEST_CASE("without its last axis a displacement varies along the others as before") {
+  const Vector3d mean(1, 2, 3);
+  const Matrix3d axes = Eigen::Quaterniond(1, 2, -1, 3).normalized().toRotationMatrix();
+  GaussianDisplacement all(mean, axes * diagonal(4.0, 1.0, 1e-6) * axes.transpose());
+  for (int rank = 3; rank > 0; --rank) {
+    const GaussianDisplacement less = all.withoutLastAxis();
+    CHECK(less.rank() == rank - 1);
+    CHECK(less.mean() == mean);
+    CHECK(less.axes() == all.axes());
+    const Vector3d last = all.axes().col(rank - 1);
+    CHECK(last.dot(less.covariance() * last) == Approx(0.0).margin(1e-15));
+    const double variance = all.standardDeviations()[rank - 1] * all.standardDeviations()[rank - 1];
+    CHECK((less.covariance() + variance * last * last.transpose() - all.covariance()).norm() <
+          1e-14);
+    all = less;
+  }
+  CHECK(all.withoutLastAxis().rank() == 0);
+  CHECK(all.withoutLastAxis().covariance().isZero(0.0));
+}
+
 TEST_CASE("reversing mirrors the mean, rotating turns mean, axes and covariance") {
   std::mt19937 random(8);
   for (int i = 0; i < 200; ++i) {
