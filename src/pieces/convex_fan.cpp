@@ -236,7 +236,7 @@ class FanBuilder {
     return above == others || below == others;
   }
 
-  const MeshView& view_;
+  const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<int> welded_;
   std::vector<Eigen::Vector3i> corners_;  // welded, of the triangles with three different ones
