@@ -157,7 +157,7 @@ class CutSearch {
     points_.erase(std::remove_if(points_.begin(), points_.end(), beyond), points_.end());
   }
 
-  const MeshView& view_;
+  const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   const ConvexPolytope& hull_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();

@@ -72,7 +72,7 @@ class ReachSearch {
   }
 
   const ConvexFan& fan_;
-  const MeshView& view_;
+  const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<std::pair<Eigen::Vector3d, double>> planes_;  ///< normals, how far P reaches
   std::vector<Eigen::Vector3d> directions_;                 ///< of the edges of P

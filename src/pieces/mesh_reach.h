@@ -19,7 +19,7 @@ class SurroundingMesh {
   /// \param vertices  the mesh's, perhaps moved; those of `view` tell rounding
   /// \param moved_by  vertices[i] is view.vertices[i] less this, up to rounding
   ///
-  /// Keeps references to the first two. \throws OpenMesh
+  /// Keeps what the view is of, and the vertices, by reference. \throws OpenMesh
   SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
                   const Eigen::Vector3d& moved_by);
 
@@ -34,7 +34,7 @@ class SurroundingMesh {
  private:
   double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
 
-  const MeshView& view_;
+  const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   Eigen::Vector3d moved_by_;
   ClosedMesh solid_;

@@ -170,7 +170,7 @@ class PatchSearch {
     return mesh_.surrounds(*fan, {}) ? fan : nullptr;
   }
 
-  const MeshView& view_;
+  const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   const SurroundingMesh& mesh_;
   Eigen::Vector3d apex_;
