@@ -137,9 +137,45 @@ NodeBox FatObstacles::obstacleBoxOf(int piece) const {
   return result;
 }
 
-// Where the arc between the normals of two faces crosses the plane across an edge of the triangle,
-// on the side away from the triangle, V has a facet.
-void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& into) {
+// Where the arc between the normals of two faces of P crosses the plane across an edge of the other
+// body, V may have a facet. \param length  of `along`
+template <typename IsFacet, typename Extent>
+void FatObstacles::addArcCrossings(const Eigen::Vector3d& along, double length, double parallel,
+                                   const IsFacet& isFacet, const Extent& extentAlong,
+                                   Details& into) const {
+  const Eigen::VectorXd on_normals = heightsAlong(along);
+  for (const auto& [f, g] : arcs()) {
+    const double at_f = on_normals[f];
+    const double at_g = on_normals[g];
+    const double lean = std::fabs(at_f) + std::fabs(at_g);
+    if (lean <= parallel * length) {
+      const double sum = (normals()[f] + normals()[g]).norm();
+      const double loss =
+          sum > kSharpest ? 8 * (lean / length) * (4 / (sum * sum)) * reach() : kNever;
+      into.loss = std::max(into.loss, loss);
+      continue;
+    }
+    if ((at_f > 0.0) == (at_g > 0.0)) continue;
+    const double of_f = std::fabs(at_g);
+    const double of_g = std::fabs(at_f);
+    const Eigen::Vector3d crossing = of_f * normals()[f] + of_g * normals()[g];
+    const double size = crossing.norm();
+    if (!isFacet(crossing, size, lean)) continue;
+    if (!(size > kSharpest * lean)) {
+      into.loss = kNever;
+      return;
+    }
+    const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
+    const Eigen::Vector3d n = crossing / size;
+    ObstaclePlane plane = planeAcross(extentAlong(n), n, of_p);
+    const double gap = (normals()[f] - normals()[g]).norm();
+    plane.margin += 64 * kEpsilon * gap * (length / size) * reach();
+    into.planes.push_back(plane);
+  }
+}
+
+// A facet is on the side away from the triangle.
+void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& into) const {
   const Eigen::Vector3d& from = corners.col(edge);
   const Eigen::Vector3d along = corners.col((edge + 1) % 3) - from;
   const Eigen::Vector3d opposite = corners.col((edge + 2) % 3) - from;
@@ -148,35 +184,13 @@ void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& in
     into.loss = kNever;
     return;
   }
-  const Eigen::VectorXd on_normals = heightsAlong(along);
-  const double parallel = kParallel * length;
-  for (const auto& [f, g] : arcs()) {
-    const double at_f = on_normals[f];
-    const double at_g = on_normals[g];
-    const double lean = std::fabs(at_f) + std::fabs(at_g);
-    if (lean <= parallel) {
-      const double sum = (normals()[f] + normals()[g]).norm();
-      const double loss = sum > kSharpest ? 8 * (lean / length) * (2 / sum) * reach() : kNever;
-      into.loss = std::max(into.loss, loss);
-      continue;
-    }
-    if ((at_f > 0.0) == (at_g > 0.0)) continue;
-    const double of_f = std::fabs(at_g);
-    const double of_g = std::fabs(at_f);
-    const Eigen::Vector3d crossing = of_f * normals()[f] + of_g * normals()[g];
-    if (crossing.dot(opposite) > kOnPlane * crossing.norm() * opposite.norm()) continue;
-    const double size = crossing.norm();
-    if (!(size > kSharpest * lean)) {
-      into.loss = kNever;
-      continue;
-    }
-    const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
-    const Eigen::Vector3d n = crossing / size;
-    ObstaclePlane plane = planeAcross((n.transpose() * corners).maxCoeff(), n, of_p);
-    const double gap = (normals()[f] - normals()[g]).norm();
-    plane.margin += 64 * kEpsilon * gap * (length / lean) * (lean / size) * reach();
-    into.planes.push_back(plane);
-  }
+  const auto isFacet = [&](const Eigen::Vector3d& crossing, double size, double /*lean*/) {
+    return !(crossing.dot(opposite) > kOnPlane * size * opposite.norm());
+  };
+  const auto extentAlong = [&](const Eigen::Vector3d& n) {
+    return (n.transpose() * corners).maxCoeff();
+  };
+  addArcCrossings(along, length, kParallel, isFacet, extentAlong, into);
 }
 
 void FatObstacles::buildPatch(int piece, Details& into) {
@@ -192,7 +206,7 @@ void FatObstacles::buildPatch(int piece, Details& into) {
   }
 }
 
-// As of a triangle, where the arc of P crosses that between the two normals.
+// A facet is between the two normals.
 void FatObstacles::addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
                                 Details& into) const {
   const double sine = n0.cross(n1).norm();
@@ -203,35 +217,13 @@ void FatObstacles::addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eige
   const Eigen::Vector3d along = n0.cross(n1) / sine;
   const Eigen::Vector3d from_n0 = along.cross(n0);
   const Eigen::Vector3d from_n1 = n1.cross(along);
-  const Eigen::VectorXd on_normals = heightsAlong(along);
-  const double parallel = std::max(kParallel, 64 * kEpsilon / sine);
-  for (const auto& [f, g] : arcs()) {
-    const double at_f = on_normals[f];
-    const double at_g = on_normals[g];
-    const double lean = std::fabs(at_f) + std::fabs(at_g);
-    if (lean <= parallel) {
-      const double sum = (normals()[f] + normals()[g]).norm();
-      const double loss = sum > kSharpest ? 8 * lean * (4 / (sum * sum)) * reach() : kNever;
-      into.loss = std::max(into.loss, loss);
-      continue;
-    }
-    if ((at_f > 0.0) == (at_g > 0.0)) continue;
-    const double of_f = std::fabs(at_g);
-    const double of_g = std::fabs(at_f);
-    const Eigen::Vector3d crossing = of_f * normals()[f] + of_g * normals()[g];
-    const double size = crossing.norm();
+  const auto isFacet = [&](const Eigen::Vector3d& crossing, double size, double lean) {
     const double beyond = (kOnPlane + 32 * kEpsilon / lean) * size;
-    if (crossing.dot(from_n0) < -beyond || crossing.dot(from_n1) < -beyond) continue;
-    if (!(size > kSharpest * lean)) {
-      into.loss = kNever;
-      return;
-    }
-    const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
-    const Eigen::Vector3d n = crossing / size;
-    ObstaclePlane plane = planeAcross(extent(piece, n), n, of_p);
-    plane.margin += 64 * kEpsilon * (normals()[f] - normals()[g]).norm() / size * reach();
-    into.planes.push_back(plane);
-  }
+    return !(crossing.dot(from_n0) < -beyond || crossing.dot(from_n1) < -beyond);
+  };
+  const auto extentAlong = [&](const Eigen::Vector3d& n) { return extent(piece, n); };
+  const double parallel = std::max(kParallel, 64 * kEpsilon / sine);
+  addArcCrossings(along, 1.0, parallel, isFacet, extentAlong, into);
 }
 
 }  // namespace fcl_prob::detail

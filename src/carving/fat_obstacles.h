@@ -111,10 +111,13 @@ class FatObstacles : public WhitenedFan {
   void buildTriangle(int piece, Details& into);
   void buildPatch(int piece, Details& into);
   void addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const;
-  void addEdge(const Eigen::Matrix3d& corners, int edge, Details& into);
+  void addEdge(const Eigen::Matrix3d& corners, int edge, Details& into) const;
   /// Of two neighbouring normals of a patch, n0 and n1.
   void addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
                     Details& into) const;
+  template <typename IsFacet, typename Extent>
+  void addArcCrossings(const Eigen::Vector3d& along, double length, double parallel,
+                       const IsFacet& isFacet, const Extent& extentAlong, Details& into) const;
   ObstaclePlane planeAcross(double extent, const Eigen::Vector3d& n, double of_p) const;
 
   const PatchedMesh& pieces_;
