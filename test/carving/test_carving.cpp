@@ -265,18 +265,11 @@ void checkScenes(int scenes, int samples, unsigned seed) {
     if (i % 7 == 5) other = hullMesh(random.onSphere(20, 0.3));
     const bool solid = i % 3 == 0 && i % 7 != 3;
     const bool swapped = i % 4 == 1;
-    PartitionQuery query(swapped ? other : body, swapped ? body : other);
-    if (solid) query.makeSolid();
-    query.placeAtRandom(0.0, 0.9, random);
-    const auto displacement = fcl_prob_test::obliqueDisplacement(0.03, 0.2, random);
-    fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
-    const ProbabilityResult result = query.run(displacement, request);
-    carved += isCarved(result);
     RandomBodies draws(1000 + seed + static_cast<unsigned>(i));
-    const double p = fcl_prob_test::sampledContact(
-        query, swapped ? other : body, swapped ? body : other, displacement, solid, samples, draws);
-    INFO("scene " << i << (solid ? " solid" : "") << " carved " << isCarved(result));
-    fcl_prob_test::checkHoldsSampled(result, p, samples);
+    INFO("scene " << i);
+    const ProbabilityResult result = fcl_prob_test::checkedInterval(
+        {body, other, swapped, solid, 0.0, 0.9, 0.03, 0.2, 0.01}, random, samples, draws);
+    carved += isCarved(result);
   }
   CHECK(carved > scenes / 4);
 }

@@ -267,17 +267,11 @@ void checkPatchedScenes(int scenes, int samples, unsigned seed) {
     if (i % 9 == 8) other.triangles.pop_back();
     const bool solid = i % 3 == 0 && i % 9 != 8;
     const bool swapped = i % 4 == 1;
-    PartitionQuery query(swapped ? other : body, swapped ? body : other);
-    if (solid) query.makeSolid();
-    query.placeAtRandom(0.0, 0.6, random);
-    const auto displacement = fcl_prob_test::obliqueDisplacement(0.02, 0.15, random);
-    const ProbabilityResult result = query.run(displacement, fcl_prob_test::intervalRequest(0.01));
-    patched += fcl_prob_test::planMentions(result, "convex patches");
     RandomBodies draws(1000 + seed + static_cast<unsigned>(i));
-    const double p = fcl_prob_test::sampledContact(
-        query, swapped ? other : body, swapped ? body : other, displacement, solid, samples, draws);
-    INFO("scene " << i << (solid ? " solid" : ""));
-    fcl_prob_test::checkHoldsSampled(result, p, samples);
+    INFO("scene " << i);
+    const ProbabilityResult result = fcl_prob_test::checkedInterval(
+        {body, other, swapped, solid, 0.0, 0.6, 0.02, 0.15, 0.01}, random, samples, draws);
+    patched += fcl_prob_test::planMentions(result, "convex patches");
   }
   CHECK(patched > scenes / 4);
 }

@@ -147,19 +147,11 @@ void checkDentedScenes(int scenes, int samples, unsigned seed) {
     const TriangleMesh other =
         bumpyMesh(random.uniform(0.2, 0.5), 10, 14, static_cast<std::uint64_t>(i));
     const bool swapped = i % 4 == 1;
-    const TriangleMesh& a = swapped ? other : body;
-    const TriangleMesh& b = swapped ? body : other;
-    PartitionQuery query(a, b);
-    if (solid) query.makeSolid();
-    query.placeAtRandom(0.2, 0.9, random);
-    const auto displacement = fcl_prob_test::obliqueDisplacement(0.03, 0.2, random);
-    const ProbabilityResult result =
-        query.run(displacement, fcl_prob_test::intervalRequest(i % 2 ? 0.1 : 0.03));
+    const double tolerance = i % 2 ? 0.1 : 0.03;
+    INFO("scene " << i);
+    const ProbabilityResult result = fcl_prob_test::checkedInterval(
+        {body, other, swapped, solid, 0.2, 0.9, 0.03, 0.2, tolerance}, random, samples, random);
     between_two += isBetweenTwo(result);
-    const double p =
-        fcl_prob_test::sampledContact(query, a, b, displacement, solid, samples, random);
-    INFO("scene " << i << (solid ? " solid" : "") << " between two " << isBetweenTwo(result));
-    fcl_prob_test::checkHoldsSampled(result, p, samples);
   }
   CHECK(between_two > scenes / 4);
 }

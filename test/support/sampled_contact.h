@@ -62,4 +62,32 @@ inline void checkHoldsSampled(const fcl_prob::ProbabilityResult& result, double 
   CHECK(p <= *result.upper + error);
 }
 
+/// Two meshes that are placed at random, and what is asked of them.
+struct RandomScene {
+  const TriangleMesh &body, &other;
+  bool swapped, solid;
+  double nearest, farthest;                   ///< of where they are placed
+  double least_deviation, largest_deviation;  ///< of the displacement
+  double tolerance;
+};
+
+/// The interval of a scene, held against as many samples. \param draws  what they are from
+inline fcl_prob::ProbabilityResult checkedInterval(const RandomScene& scene, RandomBodies& random,
+                                                   int samples, RandomBodies& draws) {
+  const TriangleMesh& a = scene.swapped ? scene.other : scene.body;
+  const TriangleMesh& b = scene.swapped ? scene.body : scene.other;
+  PartitionQuery query(a, b);
+  if (scene.solid) query.makeSolid();
+  query.placeAtRandom(scene.nearest, scene.farthest, random);
+  const auto displacement =
+      obliqueDisplacement(scene.least_deviation, scene.largest_deviation, random);
+  const fcl_prob::ProbabilityResult result =
+      query.run(displacement, intervalRequest(scene.tolerance));
+  const double p = sampledContact(query, a, b, displacement, scene.solid, samples, draws);
+  INFO("body " << (scene.swapped ? "second" : "first") << (scene.solid ? ", solid" : ""));
+  for (const std::string& line : result.plan) UNSCOPED_INFO(line);
+  checkHoldsSampled(result, p, samples);
+  return result;
+}
+
 }  // namespace fcl_prob_test
