@@ -62,7 +62,7 @@ class PolygonFlux {
 
   // With ρ = 4 / x, x the half length h times 1 + d, points of the ellipse are no farther than
   // hρ/2 = 2 / (1 + d) off the side, along it or in imaginary direction: there |F| is at most
-  // exp(2 - d²/2) / √2π.
+  // exp(2 - d²/2) / √2π. Far behind the origin F changes with x alone, and so does the side's h.
   void addSide(const Vector2d& from, const Vector2d& to) {
     const double distance = distanceOfSide(from, to);
     if (distance > kFarthestOfSides) {
@@ -70,7 +70,8 @@ class PolygonFlux {
       return;
     }
     const double length = (to - from).norm();
-    const double bend = 0.5 * length * (1.0 + distance);
+    const bool behind = std::max(from.y(), to.y()) < -kFarthestOfSides;
+    const double bend = 0.5 * (behind ? std::abs(to.x() - from.x()) : length) * (1.0 + distance);
     if (bend > kLongestHalf) {
       const Vector2d middle = 0.5 * (from + to);
       addSide(from, middle);
@@ -83,7 +84,7 @@ class PolygonFlux {
                                   GaussRule::kFewest, GaussRule::kMost);
     error_ += 7.0 * std::abs(to.x() - from.x()) * density * std::exp(-2.0 * points * log_ellipse);
     addRule(from, to, GaussRule::ofSize(points));
-    addLayer(distance, length);
+    addLayer(behind ? kFarthestOfSides : distance, length);
   }
 
   Bounds mass() const {
@@ -99,12 +100,15 @@ class PolygonFlux {
       const double field = rule.weight[k] * gaussianExp(x.x()) * std::erfc(x.y() * kInverseSqrtTwo);
       const double term = 0.5 * kInverseSqrtTwoPi * half.x() * field;
       sum_ += term;
-      error_ += std::abs(term) * (kSideRounding + kSideRoundingOfSquare * (1.0 + x.squaredNorm())) +
+      // For y < 0 the relative slope of erfc(y) is below that of exp(-x²/2) at 1.
+      const double square = x.x() * x.x() + std::pow(std::max(0.0, x.y()), 2);
+      error_ += std::abs(term) * (kSideRounding + kSideRoundingOfSquare * (1.0 + square)) +
                 kSideUnderflow;
     }
   }
 
-  /// What a side may sweep when its corners move, and what sums are rounded by.
+  /// What a side at that distance or more may sweep when its corners move, and what sums are
+  /// rounded by.
   void addLayer(double distance, double length) {
     const double near = std::max(0.0, distance - displacement_);
     error_ += kInverseSqrtTwoPi * kInverseSqrtTwoPi * std::exp(-0.5 * near * near) * displacement_ *

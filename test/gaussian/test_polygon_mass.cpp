@@ -67,6 +67,25 @@ TEST_CASE("masses of rectangles with divided sides against products of tails") {
   CHECK(large > 100);
 }
 
+// Sides that reach 1e10 deviations behind the origin must not be divided along all of that.
+TEST_CASE("masses of triangles that are half-planes but for what is far away") {
+  std::mt19937 random(9);
+  for (int k = 0; k < 200; ++k) {
+    const double size = logUniform(random, 1e3, 1e10), distance = uniform(random, 0.0, 5.0);
+    const double angle = uniform(random, 0.0, 6.3);
+    const Vector2d out(std::cos(angle), std::sin(angle)), along(-out.y(), out.x());
+    const detail::Polygon2 triangle = {distance * out - size * along, distance * out + size * along,
+                                       -uniform(random, 0.5, 2.0) * size * out};
+    const Bounds mass = detail::polygonMass(triangle, 0.0);
+    const double truth = 0.5 * std::erfc(-distance / std::sqrt(2.0));
+    CAPTURE(size, distance, angle, mass.lower, mass.upper, truth);
+    // Corners so far away are rounded by an ε of that.
+    REQUIRE(mass.lower <= truth * (1.0 + 1e-15 * size));
+    REQUIRE(mass.upper >= truth * (1.0 - 1e-15 * size));
+    REQUIRE(mass.width() <= 1e-12 + 2e-13 * size);
+  }
+}
+
 TEST_CASE("a polygon's mass holds those of the polygons next to it") {
   std::mt19937 random(8);
   const double displacement = 1e-6;
