@@ -15,8 +15,31 @@ namespace {
 // Masses of cells are not computed to more digits than a tolerance of this needs.
 constexpr double kLeastTolerance = 1e-4;
 
-// Pieces of nearly convex meshes may take one part in so many of the memory.
+// Pieces of nearly convex meshes, and patches of the other one, may take one part in so many of the
+// memory.
 constexpr std::size_t kShareOfPieces = 8;
+constexpr std::size_t kShareOfPatches = 4;
+
+PatchUse patchUse(const PartitionObject& mesh, const ProbabilityRequest& request) {
+  const std::size_t most = MeshPatches::mostMemory(mesh.tree->triangles.size());
+  return request.patches && most <= request.max_memory / kShareOfPatches ? PatchUse::taken
+                                                                         : PatchUse::left_out;
+}
+
+// Nothing where there are none to be had.
+std::optional<std::string> patchNote(const FatMembers& obstacles, const PartitionObject& mesh, bool mesh_is_a,
+                      const ProbabilityRequest& request) {
+  const std::string name = std::string("object ") + (mesh_is_a ? "A" : "B");
+  if (!request.patches) return name + ": convex patches left out, as asked";
+  if (patchUse(mesh, request) == PatchUse::left_out) {
+    return name + ": convex patches left out, for want of memory";
+  }
+  const PatchedMesh& pieces = obstacles.pieces();
+  if (pieces.patchCount() == 0) return std::nullopt;
+  return name + ": " + std::to_string(pieces.trianglesOfPatches()) + " of its " +
+         std::to_string(mesh.tree->triangles.size()) + " triangles in " +
+         std::to_string(pieces.patchCount()) + " convex patches";
+}
 
 std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
   const std::string name = fan_is_a ? "A" : "B";
@@ -59,7 +82,7 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
   const Whitening whitening(displacement, unit);
   const WhitenedPair pair = whiten(a, b, whitening);
-  FatMembers obstacles(pair, body, mesh, fan_is_a, whitening.matrix());
+  FatMembers obstacles(pair, body, mesh, fan_is_a, whitening.matrix(), patchUse(mesh, request));
   if (!obstacles.usable()) return false;
   if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
     obstacles.keepHullsClosed();
@@ -82,13 +105,8 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   result.plan.push_back("partition of the displacement space along the C-obstacles' own planes: " +
                         std::to_string(result.statistics.cells) + " cells, " +
                         std::to_string(result.statistics.leaf_pairs) + " C-obstacles");
-  const PatchedMesh& pieces = obstacles.pieces();
-  if (pieces.patchCount() > 0) {
-    const std::size_t held = pieces.trianglesOfPatches();
-    result.plan.push_back(std::string("object ") + (fan_is_a ? "B" : "A") + ": " +
-                          std::to_string(held) + " of its " +
-                          std::to_string(mesh.tree->triangles.size()) + " triangles in " +
-                          std::to_string(pieces.patchCount()) + " convex patches");
+  if (const auto note = patchNote(obstacles, mesh, !fan_is_a, request)) {
+    result.plan.push_back(*note);
   }
   if (solids) result.plan.push_back("containment decided once for every free cell");
   return true;

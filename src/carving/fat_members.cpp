@@ -8,12 +8,13 @@
 namespace fcl_prob::detail {
 
 FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body,
-                       const PartitionObject& mesh, bool fan_is_a, const Eigen::Matrix3d& matrix)
+                       const PartitionObject& mesh, bool fan_is_a, const Eigen::Matrix3d& matrix,
+                       PatchUse patches)
     : pair_(pair),
       body_(body),
       fan_is_a_(fan_is_a),
       matrix_(matrix),
-      pieces_(fan_is_a ? pair.b : pair.a, mesh, matrix),
+      pieces_(fan_is_a ? pair.b : pair.a, mesh, matrix, patches),
       first_faces_{0} {
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     const PieceTree::Part& part = body.tree->parts[i];

@@ -38,7 +38,7 @@ class FatMembers {
   ///
   /// Keeps references to the pair and the body.
   FatMembers(const WhitenedPair& pair, const PartitionObject& body, const PartitionObject& mesh,
-             bool fan_is_a, const Eigen::Matrix3d& matrix);
+             bool fan_is_a, const Eigen::Matrix3d& matrix, PatchUse patches);
 
   /// Of one that has not been asked for anything.
   static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);

@@ -132,6 +132,7 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   apply(arguments.seed, request.seed);
   apply(arguments.threads, request.threads);
   if (arguments.gradient) request.gradient = true;
+  if (arguments.no_patches) request.patches = false;
 }
 
 /// A mesh, a map, or what was made of a cloud, by the ending of the file's name.
@@ -233,6 +234,8 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
       .add_option("--contact", arguments.contact,
                   "fcl: meshes are surfaces; solid: closed meshes are solids")
       ->check(CLI::IsMember({"fcl", "solid"}));
+  command.add_flag("--no-patches", arguments.no_patches,
+                   "Prepare no convex patches of meshes: for a single query of a large one");
 }
 
 Scene sceneFrom(const SceneArguments& arguments) {

@@ -31,6 +31,9 @@ class BoxTree {
     return visit([&](const Box& box) { return box.intersects(other); }, function);
   }
 
+  /// Bytes.
+  std::size_t memory() const { return nodes_.capacity() * sizeof(Node); }
+
  private:
   // Splitting at the median makes the depth at most the number of bits of an int.
   static constexpr std::size_t kStackSize = 64;

@@ -42,6 +42,13 @@ class ClosedMesh {
   /// partPoints(); -1 of a vertex in no triangle.
   const std::vector<int>& partOfVertex() const { return part_of_vertex_; }
 
+  /// Bytes.
+  std::size_t memory() const {
+    return triangles_.capacity() * sizeof(Triangle) + tree_.memory() +
+           part_points_.capacity() * sizeof(Eigen::Vector3d) +
+           part_of_vertex_.capacity() * sizeof(int);
+  }
+
  private:
   struct Triangle {
     Eigen::Vector3d corners[3];

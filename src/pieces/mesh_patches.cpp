@@ -238,7 +238,7 @@ std::unique_ptr<const MeshPatches> patchesIn(const TriangleMesh& mesh) try {
 }  // namespace
 
 std::size_t MeshPatches::memory() const {
-  std::size_t bytes = nodes.capacity() * sizeof(Node);
+  std::size_t bytes = nodes.capacity() * sizeof(Node) + solid.memory();
   for (const MeshPatch& patch : patches) {
     bytes += sizeof(MeshPatch) +
              (patch.triangles.capacity() + patch.vertices.capacity()) * sizeof(int) +

@@ -39,7 +39,11 @@ struct MeshPatches {
   std::vector<Node> nodes;  ///< nodes[0] is the root
   ClosedMesh solid;         ///< the mesh
 
+  /// Bytes.
   std::size_t memory() const;
+
+  /// About what that is at the most, of a mesh of so many triangles: if they are in pairs.
+  static std::size_t mostMemory(std::size_t triangles) { return 500 * triangles; }
 };
 
 /// Made when they are first asked for, by any of several threads.

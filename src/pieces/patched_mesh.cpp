@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "base/constants.h"
@@ -32,19 +33,21 @@ NodeBox boxOfBoth(const NodeBox& one, const NodeBox& other) {
 }  // namespace
 
 PatchedMesh::PatchedMesh(const WhitenedTree& mesh, const PartitionObject& object,
-                         const Eigen::Matrix3d& matrix)
+                         const Eigen::Matrix3d& matrix, PatchUse use)
     : mesh_(mesh) {
   nodes_.reserve(mesh.tree->nodes.size());
   boxes_.reserve(mesh.tree->nodes.size());
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
-    addPart(object.tree->parts[i], object.parts[i], matrix);
+    addPart(object.tree->parts[i], object.parts[i], matrix, use);
   }
+  countMemory();
 }
 
 void PatchedMesh::addPart(const PieceTree::Part& part, const PlacedPart& placed,
-                          const Eigen::Matrix3d& matrix) {
+                          const Eigen::Matrix3d& matrix, PatchUse use) {
   const Eigen::Matrix3d linear = matrix * placed.pose.linear();
-  const MeshPatches* const patches = mesh_.tree->patchesOf(part);
+  const MeshPatches* const patches =
+      use == PatchUse::taken ? mesh_.tree->patchesOf(part) : nullptr;
   const auto root = static_cast<int>(nodes_.size());
   parts_.push_back({patches, placed.solid != nullptr, root, part.vertices.begin,
                     part.triangles.begin, linear, linear.inverse()});
@@ -72,6 +75,14 @@ void PatchedMesh::addPart(const PieceTree::Part& part, const PlacedPart& placed,
     nodes_.push_back(node);
   }
   fitBoxes(root);
+}
+
+// Parts of the same geometry share theirs.
+void PatchedMesh::countMemory() {
+  std::set<const MeshPatches*> counted{nullptr};
+  for (const PlacedPatches& part : parts_) {
+    if (counted.insert(part.patches).second) memory_of_patches_ += part.patches->memory();
+  }
 }
 
 int PatchedMesh::copyNodes(int node) {

@@ -19,6 +19,8 @@ struct WhitenedPatch {
   double loss;  ///< K is known but for so much along any normal; infinite: not well enough
 };
 
+enum class PatchUse { taken, left_out };
+
 /// Pieces are the triangles of a mesh, by their indices, and behind them the patches of all its
 /// parts. What touches a patch touches the solid that its part encloses.
 class PatchedMesh {
@@ -30,7 +32,7 @@ class PatchedMesh {
   ///
   /// Keeps references to the first two.
   PatchedMesh(const WhitenedTree& mesh, const PartitionObject& object,
-              const Eigen::Matrix3d& matrix);
+              const Eigen::Matrix3d& matrix, PatchUse use);
 
   int triangleCount() const { return static_cast<int>(mesh_.tree->triangles.size()); }
   int pieceCount() const { return triangleCount() + patchCount(); }
@@ -77,9 +79,10 @@ class PatchedMesh {
   /// coordinates of the mesh's vertices.
   bool isOutside(std::size_t part, const NodeBox& box) const;
 
+  /// With that of the patches, which other queries may use, too.
   std::size_t memory() const {
     return nodes_.capacity() * (sizeof(Node) + sizeof(NodeBox)) +
-           patches_.capacity() * sizeof(Place);
+           patches_.capacity() * sizeof(Place) + memory_of_patches_;
   }
 
   /// Bounds for a mesh of so many triangles.
@@ -104,7 +107,8 @@ class PatchedMesh {
 
   const Place& placeOf(int patch) const { return patches_[patch - triangleCount()]; }
   void addPart(const PieceTree::Part& part, const PlacedPart& placed,
-               const Eigen::Matrix3d& matrix);
+               const Eigen::Matrix3d& matrix, PatchUse use);
+  void countMemory();
   int copyNodes(int node);
   void fitBoxes(int root);
 
@@ -114,6 +118,7 @@ class PatchedMesh {
   std::vector<int> roots_;
   std::vector<Node> nodes_;
   std::vector<NodeBox> boxes_;
+  std::size_t memory_of_patches_ = 0;
 };
 
 }  // namespace fcl_prob::detail

@@ -84,10 +84,11 @@ void setThreads(Question& question, py::handle value) {
   question.threads_are_given = true;
 }
 
-void setGradient(Question& question, py::handle value) {
+template <bool ProbabilityRequest::*field>
+void setTruth(Question& question, py::handle value, const char* /*name*/) {
   const int truth = PyObject_IsTrue(value.ptr());
   if (truth < 0) throw py::error_already_set();
-  question.request.gradient = truth == 1;
+  question.request.*field = truth == 1;
 }
 
 template <double ProbabilityRequest::*field>
@@ -127,7 +128,7 @@ struct Keyword {
 
 using R = ProbabilityRequest;
 
-constexpr std::array<Keyword, 16> kKeywords = {{
+constexpr std::array<Keyword, 17> kKeywords = {{
     {"method", [](Question& q, py::handle v, const char*) { setMethod(q, v); }},
     {"contact", [](Question& q, py::handle v, const char*) { setContact(q, v); }},
     {"relative_tolerance", setNumber<&R::relative_tolerance>},
@@ -141,7 +142,8 @@ constexpr std::array<Keyword, 16> kKeywords = {{
     {"seed", [](Question& q, py::handle v,
                 const char* name) { q.request.seed = countFrom<std::uint64_t>(name, v); }},
     {"threads", [](Question& q, py::handle v, const char*) { setThreads(q, v); }},
-    {"gradient", [](Question& q, py::handle v, const char*) { setGradient(q, v); }},
+    {"gradient", setTruth<&R::gradient>},
+    {"patches", setTruth<&R::patches>},
     {"band_a", setBand<&R::band_a>},
     {"band_b", setBand<&R::band_b>},
     {"on_progress",

@@ -205,7 +205,7 @@ TEST_CASE("the planes of P ⊕ a patch hold it, and what is within their margins
     const auto& other_tree = body_is_a ? meshes.tree_b : meshes.tree_a;
     const Eigen::Matrix3d linear = meshes.whitening.matrix();
     const PatchedMesh pieces(body_is_a ? meshes.pair.b : meshes.pair.a, meshes.objectOf(!body_is_a),
-                             linear);
+                             linear, PatchUse::taken);
     FatObstacles obstacles(meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a, linear,
                            pieces);
     const Eigen::Vector3d apart_by =
@@ -285,4 +285,35 @@ TEST_CASE("intervals by patches hold sampled probabilities on random scenes", "[
 TEST_CASE("intervals by patches hold sampled probabilities on 5,000 scenes",
           "[patches][random][long]") {
   checkPatchedScenes(5'000, 3'000, 35);
+}
+
+TEST_CASE("patches can be left out, and count as memory", "[patches]") {
+  const TriangleMesh body = hullMesh(RandomBodies(3).onSphere(30, 0.3));
+  PartitionQuery query(body, bumpyMesh(0.5, 20, 30, 1));
+  query.pose_b.translation() = Eigen::Vector3d(0.75, 0.1, 0.0);
+  const auto displacement =
+      fcl_prob::GaussianDisplacement::fromStandardDeviations({0.05, 0.08, 0.1}, {1, 0, 0, 0});
+  fcl_prob::ProbabilityRequest request = fcl_prob_test::intervalRequest(0.01);
+  const PieceTree& tree = *query.b().tree;
+  const std::size_t of_patches = tree.patchesOf(tree.parts[0])->memory();
+  const ProbabilityResult with = query.run(displacement, request);
+  CHECK(fcl_prob_test::planMentions(with, " triangles in "));
+  CHECK(with.statistics.peak_memory > of_patches);
+  CHECK(of_patches <= MeshPatches::mostMemory(tree.triangles.size()));
+
+  SECTION("as asked") {
+    request.patches = false;
+    const ProbabilityResult without = query.run(displacement, request);
+    CHECK(fcl_prob_test::planMentions(without, "patches left out, as asked"));
+    CHECK_FALSE(fcl_prob_test::planMentions(without, " triangles in "));
+    CHECK(*without.lower <= *with.upper);
+    CHECK(*without.upper >= *with.lower);
+  }
+  SECTION("for want of memory") {
+    request.max_memory = 3 * MeshPatches::mostMemory(tree.triangles.size());
+    const ProbabilityResult without = query.run(displacement, request);
+    CHECK(fcl_prob_test::planMentions(without, "patches left out, for want of memory"));
+    CHECK(*without.lower <= *with.upper);
+    CHECK(*without.upper >= *with.lower);
+  }
 }

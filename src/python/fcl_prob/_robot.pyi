@@ -97,6 +97,7 @@ class RobotQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
+        patches: bool = True,
         on_progress: Optional[QueryProgress] = None,
     ) -> RobotResult: ...
     def motion(
@@ -119,6 +120,7 @@ class RobotQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
+        patches: bool = True,
         on_progress: Optional[QueryProgress] = None,
     ) -> RobotResult: ...
 
