@@ -20,25 +20,39 @@ constexpr double kLeastTolerance = 1e-4;
 constexpr std::size_t kShareOfPieces = 8;
 constexpr std::size_t kShareOfPatches = 4;
 
+// Planes of polygons may be off by this share of a tolerance, and of one for decisions, in standard
+// deviations.
+constexpr double kShareOfTolerance = 0.05;
+constexpr double kToleranceOfDecision = 1e-3;
+constexpr double kMostLoss = 1e-4;
+
 PatchUse patchUse(const PartitionObject& mesh, const ProbabilityRequest& request) {
   const std::size_t most = MeshPatches::mostMemory(mesh.tree->triangles.size());
-  return request.patches && most <= request.max_memory / kShareOfPatches ? PatchUse::taken
-                                                                         : PatchUse::left_out;
+  const double tolerance = request.threshold ? kToleranceOfDecision : request.relative_tolerance;
+  return {request.patches && most <= request.max_memory / kShareOfPatches,
+          std::min(kMostLoss, kShareOfTolerance * tolerance)};
 }
 
 // Nothing where there are none to be had.
-std::optional<std::string> patchNote(const FatMembers& obstacles, const PartitionObject& mesh, bool mesh_is_a,
-                      const ProbabilityRequest& request) {
+std::optional<std::string> patchNote(const FatMembers& obstacles, const PartitionObject& mesh,
+                                     bool mesh_is_a, const ProbabilityRequest& request) {
   const std::string name = std::string("object ") + (mesh_is_a ? "A" : "B");
   if (!request.patches) return name + ": convex patches left out, as asked";
-  if (patchUse(mesh, request) == PatchUse::left_out) {
+  if (!patchUse(mesh, request).taken) {
     return name + ": convex patches left out, for want of memory";
   }
-  const PatchedMesh& pieces = obstacles.pieces();
-  if (pieces.patchCount() == 0) return std::nullopt;
-  return name + ": " + std::to_string(pieces.trianglesOfPatches()) + " of its " +
-         std::to_string(mesh.tree->triangles.size()) + " triangles in " +
-         std::to_string(pieces.patchCount()) + " convex patches";
+  const PatchedMesh::Held patches = obstacles.pieces().heldByPatches();
+  const PatchedMesh::Held polygons = obstacles.pieces().heldByPolygons();
+  const auto held = [](const PatchedMesh::Held& by, const char* kind) {
+    return std::to_string(by.triangles) + " in " + std::to_string(by.pieces) + kind;
+  };
+  if (patches.pieces + polygons.pieces == 0) return std::nullopt;
+  std::string note =
+      name + ": of its " + std::to_string(mesh.tree->triangles.size()) + " triangles ";
+  if (polygons.pieces > 0) note += held(polygons, " convex polygons");
+  if (polygons.pieces > 0 && patches.pieces > 0) note += ", ";
+  if (patches.pieces > 0) note += held(patches, " convex patches");
+  return note;
 }
 
 std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {

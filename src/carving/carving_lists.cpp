@@ -56,6 +56,8 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     if (obstacles_.reachOf(member).isClearOf(lowest_[member], node)) continue;
     const PatchedMesh::Node& in_tree = pieces.nodes()[node];
     const bool is_small = !to_leaves && pieces.box(node).size() < kOpenRatio * size;
+    const bool is_large_piece = !to_leaves && !is_small && in_tree.piece >= 0;
+    if (is_large_piece && isBeside(box, {member, in_tree.piece})) continue;
     if (is_small || (in_tree.piece >= 0 && takesPiece(box, member, in_tree.piece))) {
       gathered_.push_back({member, node});
     } else {
@@ -65,10 +67,24 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
   }
 }
 
-// A triangle, or a patch that need not be taken by its triangles.
+// A box around what is large, flat and oblique tells little of it.
+bool CellCarver::isBeside(const Cell& box, FatObstacle obstacle) {
+  FatObstacles& body = obstacles_.of(obstacle.member);
+  const std::vector<ObstaclePlane>& planes = body.otherPlanes(obstacle.piece);
+  const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
+  const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
+  return std::any_of(planes.begin(), planes.begin() + body.ownPlanes(obstacle.piece),
+                     [&](const ObstaclePlane& plane) {
+                       const double lowest = plane.n.dot(middle) - plane.n.cwiseAbs().dot(half);
+                       return lowest > plane.outer;
+                     });
+}
+
+// A triangle, a polygon, or a patch that need not be taken by its pieces.
 bool CellCarver::takesPiece(const Cell& box, int member, int piece) {
   const PatchedMesh& pieces = obstacles_.pieces();
-  if (!pieces.isPatch(piece)) return true;
+  if (pieces.isTriangle(piece)) return true;
+  if (!pieces.isPatch(piece)) return obstacles_.of(member).mayTakePolygon(piece);
   const std::size_t part = pieces.partOfPatch(piece);
   std::optional<bool>& taken = patches_taken_[member * pieces.partCount() + part];
   if (!taken) taken = obstacles_.mayTakePatches(member, part, box, points_tried_[member]);
@@ -134,7 +150,7 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.piece);
   const double margin = body.mostMargin(obstacle.piece);
   if (body.hasFailed(obstacle.piece)) {
-    return addTriangles(obstacle, [&](FatObstacle each) { return addFromBox(box, each, into); });
+    return addPieces(obstacle, [&](FatObstacle each) { return addFromBox(box, each, into); });
   }
   const Eigen::Map<const Eigen::Vector3d> middle(box.center);
   const Eigen::Map<const Eigen::Vector3d> half(box.half);
@@ -160,17 +176,18 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   return addEntry(obstacle, first, into);
 }
 
-// Of a patch of which nothing is known those of its triangles; of a triangle there is nothing else.
+// Of a patch or polygon of which nothing is known those of its pieces; of a triangle there is
+// nothing else.
 template <typename Add>
-CellCarver::Relation CellCarver::addTriangles(FatObstacle obstacle, const Add& add) {
-  if (!obstacles_.pieces().isPatch(obstacle.piece)) {
+CellCarver::Relation CellCarver::addPieces(FatObstacle obstacle, const Add& add) {
+  if (obstacles_.pieces().isTriangle(obstacle.piece)) {
     failed_ = true;
     return Relation::cut;
   }
   Relation relation = Relation::free;
-  obstacles_.pieces().visitTriangles(obstacle.piece, [&](int triangle) {
+  obstacles_.pieces().visitPieces(obstacle.piece, [&](int piece) {
     if (relation == Relation::covered) return;
-    const Relation of_one = add({obstacle.member, triangle});
+    const Relation of_one = add({obstacle.member, piece});
     if (of_one != Relation::free) relation = of_one;
   });
   return relation;
@@ -230,7 +247,7 @@ CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) 
       const FatObstacle obstacle{piece, hull.obstacle.piece};
       if (isClear(obstacle, box)) continue;
       const Relation relation =
-          isSurface(obstacle.piece) ? addTriangles(obstacle, add) : add(obstacle);
+          isSurface(obstacle.piece) ? addPieces(obstacle, add) : add(obstacle);
       if (relation == Relation::covered) return Relation::covered;
     }
   }
@@ -268,8 +285,8 @@ CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, const Cel
   const std::size_t first = into.planes.size();
   const auto others = static_cast<int>(member.otherPlanes(obstacle.piece).size());
   if (member.hasFailed(obstacle.piece)) {
-    return addTriangles(obstacle,
-                        [&](FatObstacle each) { return addFromBody(body, box, each, into); });
+    return addPieces(obstacle,
+                     [&](FatObstacle each) { return addFromBody(body, box, each, into); });
   }
   const FatObstacles::Planes planes = member.planesOf(obstacle.piece);
   bool may_meet = true;

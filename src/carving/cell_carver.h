@@ -108,12 +108,13 @@ class CellCarver {
   void divideBox(CarvedCell&& cell);
   void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves);
   bool takesPiece(const Cell& box, int member, int piece);
+  bool isBeside(const Cell& box, FatObstacle obstacle);
   void resolve(CarvedCell&& cell);
   Relation listBox(const CarvedCell& cell, List& into);
   void rangeFaces(const CellBox& box, int member);
   Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
   template <typename Add>
-  Relation addTriangles(FatObstacle obstacle, const Add& add);
+  Relation addPieces(FatObstacle obstacle, const Add& add);
   bool isSurface(int piece) const;
   Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);

@@ -27,6 +27,28 @@ constexpr double kSmallestTurn = 1e-7;
 // A triangle whose normal is known no better than this covers nothing.
 constexpr double kPoorNormal = 1e-6;
 
+// Whether each corner of a polygon, seen along n, is to the left of all its sides but its own.
+bool isConvexAround(const Eigen::Vector3d& n, const Eigen::Matrix3Xd& corners) {
+  const Eigen::Index count = corners.cols();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Vector3d along = corners.col((i + 1) % count) - corners.col(i);
+    for (Eigen::Index j = 2; j < count; ++j) {
+      const Eigen::Vector3d to = corners.col((i + j) % count) - corners.col(i);
+      if (!(n.dot(along.cross(to)) > 64 * kEpsilon * along.norm() * to.norm())) return false;
+    }
+  }
+  return true;
+}
+
+Eigen::Vector3d areaOf(const Eigen::Matrix3Xd& corners) {
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 2; i < corners.cols(); ++i) {
+    const Eigen::Vector3d first = corners.col(i - 1) - corners.col(0);
+    area += first.cross(corners.col(i) - corners.col(0));
+  }
+  return area;
+}
+
 }  // namespace
 
 FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part,
@@ -57,7 +79,7 @@ FatObstacles::Details* FatObstacles::newDetails(int piece) {
   of_faces.setConstant(-kInfinity);
   pieces_.visitCorners(
       piece, [&](int vertex) { of_faces = of_faces.cwiseMax(heightsAlong(corner(vertex))); });
-  of_faces += offsets();
+  of_faces += (offsets().array() + pieces_.offOf(piece)).matrix();
   ++built_;
   memory_ += sizeof(Details) + made->offsets.capacity() * sizeof(double);
   return made.release();
@@ -78,10 +100,12 @@ const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int piece) {
 }
 
 void FatObstacles::buildPlanes(int piece, Details& into) {
-  if (pieces_.isPatch(piece)) {
+  if (pieces_.isTriangle(piece)) {
+    buildTriangle(piece, into);
+  } else if (pieces_.isPatch(piece)) {
     buildPatch(piece, into);
   } else {
-    buildTriangle(piece, into);
+    buildPolygon(piece, into);
   }
   for (ObstaclePlane& plane : into.planes) plane.margin += into.loss;
   into.planes.shrink_to_fit();
@@ -91,7 +115,10 @@ void FatObstacles::buildPlanes(int piece, Details& into) {
 void FatObstacles::buildTriangle(int piece, Details& into) {
   const Eigen::Matrix3d t = corners(piece);
   addTriangleNormal(t, into);
-  for (int edge = 0; edge < 3; ++edge) addEdge(t, edge, into);
+  for (int edge = 0; edge < 3; ++edge) {
+    const Eigen::Vector3d& from = t.col(edge);
+    addEdge(t, 0.0, t.col((edge + 1) % 3) - from, t.col((edge + 2) % 3) - from, into);
+  }
   if (!(into.loss < kNever)) failed_ = true;
 }
 
@@ -115,6 +142,7 @@ void FatObstacles::addTriangleNormal(const Eigen::Matrix3d& corners, Details& in
     into.planes.push_back(planeAcross((n.transpose() * corners).maxCoeff(), n, support(n)));
     into.planes.back().margin += turned * reach();
   }
+  into.own = 2;
 }
 
 Eigen::Vector3d FatObstacles::middle(int piece) const {
@@ -174,33 +202,64 @@ void FatObstacles::addArcCrossings(const Eigen::Vector3d& along, double length, 
   }
 }
 
-// A facet is on the side away from the triangle.
-void FatObstacles::addEdge(const Eigen::Matrix3d& corners, int edge, Details& into) const {
-  const Eigen::Vector3d& from = corners.col(edge);
-  const Eigen::Vector3d along = corners.col((edge + 1) % 3) - from;
-  const Eigen::Vector3d opposite = corners.col((edge + 2) % 3) - from;
+template <typename Corners>
+void FatObstacles::addEdge(const Corners& corners, double off, const Eigen::Vector3d& along,
+                           const Eigen::Vector3d& inward, Details& into) const {
   const double length = along.norm();
   if (!(length > 0.0)) {
     into.loss = kNever;
     return;
   }
   const auto isFacet = [&](const Eigen::Vector3d& crossing, double size, double /*lean*/) {
-    return !(crossing.dot(opposite) > kOnPlane * size * opposite.norm());
+    return !(crossing.dot(inward) > kOnPlane * size * inward.norm());
   };
   const auto extentAlong = [&](const Eigen::Vector3d& n) {
-    return (n.transpose() * corners).maxCoeff();
+    return (n.transpose() * corners).maxCoeff() + off;
   };
   addArcCrossings(along, length, kParallel, isFacet, extentAlong, into);
 }
 
+// The corners are put into a plane across n along n. What is within all planes but for their
+// margins is in Q ⊕ (1 - μ) P, with Q the polygon there, whose points are nowhere farther off its
+// triangles than μ P is wide around 0.
+void FatObstacles::buildPolygon(int piece, Details& into) {
+  const double off = pieces_.offOf(piece);
+  into.loss = mayTakePolygon(piece) ? lossOf(piece) : kNever;
+  if (!(into.loss < kNever)) return;
+  const Eigen::Matrix3Xd corners = cornersOf(piece);
+  Eigen::Vector3d n = pieces_.normalOf(piece);
+  if (n.dot(areaOf(corners)) < 0.0) n = -n;
+  if (!isConvexAround(n, corners)) {
+    into.loss = kNever;
+    return;
+  }
+  for (const Eigen::Vector3d& across : {n, Eigen::Vector3d(-n)}) {
+    into.planes.push_back(planeAcross(extent(piece, across), across, support(across)));
+  }
+  into.own = 2;
+  for (int i = 0; i < corners.cols(); ++i) {
+    Eigen::Vector3d along = corners.col((i + 1) % corners.cols()) - corners.col(i);
+    along -= n.dot(along) * n;
+    addEdge(corners, off, along, n.cross(along), into);
+  }
+}
+
+Eigen::Matrix3Xd FatObstacles::cornersOf(int polygon) const {
+  std::vector<Eigen::Vector3d> corners;
+  pieces_.visitCorners(polygon, [&](int vertex) { corners.push_back(corner(vertex)); });
+  return Eigen::Map<const Eigen::Matrix3Xd>(corners[0].data(), 3,
+                                            static_cast<Eigen::Index>(corners.size()));
+}
+
 void FatObstacles::buildPatch(int piece, Details& into) {
   const WhitenedPatch patch = pieces_.whitened(piece);
-  into.loss = std::min(patch.loss, kNever);
+  into.loss = std::min(patch.loss + pieces_.offOf(piece), kNever);
   if (!(into.loss < kNever)) return;
   for (const Eigen::Vector3d& normal : patch.normals) {
     const Eigen::Vector3d n = sign() * normal;
     into.planes.push_back(planeAcross(extent(piece, n), n, support(n)));
   }
+  into.own = static_cast<int>(into.planes.size());
   for (const auto& [f, g] : patch.arcs) {
     addPatchEdge(piece, sign() * patch.normals[f], sign() * patch.normals[g], into);
   }

@@ -26,11 +26,11 @@ struct ObstaclePlane {
   double inner() const { return outer - margin; }
 };
 
-/// V_t = P ⊕ T_t for every piece t of the mesh, a triangle or a patch (docs/rounding.md tells what
-/// its planes are): planes across the normals of P, offset by the piece's extent, are shared by
-/// all; those across an edge of the piece and one of P, and the piece's own, are made when they are
-/// first asked for, by any of several threads. All is relative to the centre of P, which is within
-/// P.
+/// V_t = P ⊕ T_t for every piece t of the mesh, a triangle, a polygon or a patch (docs/rounding.md
+/// tells what its planes are): planes across the normals of P, offset by the piece's extent, are
+/// shared by all; those across an edge of the piece and one of P, and the piece's own, are made
+/// when they are first asked for, by any of several threads. All is relative to the centre of P,
+/// which is within P.
 class FatObstacles : public WhitenedFan {
  public:
   FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
@@ -46,6 +46,9 @@ class FatObstacles : public WhitenedFan {
   /// All other planes.
   const std::vector<ObstaclePlane>& otherPlanes(int piece);
 
+  /// How many of these are across the normals of the piece itself: the first ones.
+  int ownPlanes(int piece) const { return known(piece).own; }
+
   /// All planes of V_t, by index: the faces', and from faceCount() on the others.
   class Planes;
 
@@ -54,6 +57,9 @@ class FatObstacles : public WhitenedFan {
 
   /// Not below the margin of any face plane of V_t.
   double mostMargin(int piece) const { return largestMargin() + known(piece).loss; }
+
+  /// Whether a polygon is known well enough.
+  bool mayTakePolygon(int polygon) const { return lossOf(polygon) <= pieces_.mostLoss(); }
 
   /// Whether the piece or an edge of it turned out too degenerate for anything to be said of what
   /// its obstacle contains.
@@ -65,12 +71,12 @@ class FatObstacles : public WhitenedFan {
   /// In which half of the doubled middle of T ⊕ P: a point of V_t.
   Eigen::Vector3d middle(int piece) const;
 
-  /// The largest n·y on T_t.
+  /// The largest n·y on T_t, and what is off that.
   double extent(int piece, const Eigen::Vector3d& n) const {
     double highest = -kInfinity;
     pieces_.visitCorners(piece,
                          [&](int vertex) { highest = std::max(highest, n.dot(corner(vertex))); });
-    return highest;
+    return highest + pieces_.offOf(piece);
   }
 
   /// Box of P ⊕ T_t.
@@ -84,10 +90,14 @@ class FatObstacles : public WhitenedFan {
  private:
   static constexpr double kNever = 1e300;
 
+  // What a polygon is off, as a share of P around 0: more than that, as P is shrunk besides.
+  static constexpr double kMoreThanShare = 1.01;
+
   struct Details {
     std::vector<double> offsets;
     std::vector<ObstaclePlane> planes;
     std::atomic<bool> has_planes{false};
+    int own = 0;        ///< of the planes
     double loss = 0.0;  ///< added to all margins
   };
 
@@ -109,9 +119,18 @@ class FatObstacles : public WhitenedFan {
   Details* newDetails(int piece);
   void buildPlanes(int piece, Details& into);
   void buildTriangle(int piece, Details& into);
+  void buildPolygon(int piece, Details& into);
   void buildPatch(int piece, Details& into);
   void addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const;
-  void addEdge(const Eigen::Matrix3d& corners, int edge, Details& into) const;
+  /// Of a triangle or polygon, which lies on the side of `inward` of an edge.
+  template <typename Corners>
+  void addEdge(const Corners& corners, double off, const Eigen::Vector3d& along,
+               const Eigen::Vector3d& inward, Details& into) const;
+  Eigen::Matrix3Xd cornersOf(int polygon) const;
+  /// What is added to its margins.
+  double lossOf(int polygon) const {
+    return (2 + kMoreThanShare * roundness()) * pieces_.offOf(polygon);
+  }
   /// Of two neighbouring normals of a patch, n0 and n1.
   void addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
                     Details& into) const;

@@ -4,19 +4,21 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
 #include "geometry/surface_caps.h"
+#include "pieces/coplanar_triangles.h"
 #include "pieces/mesh_reach.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// Triangles of a patch. Beside an arm of 2,000 triangles 16 and 64 took the same time, 16 being
-// found sooner.
+// Triangles and polygons of a patch. Beside an arm of 2,000 triangles 16 and 64 took the same time,
+// 16 being found sooner.
 constexpr std::size_t kMostOfPatch = 16;
 
 // A patch is convex if none of its corners is farther beyond one of its planes, as a share of the
@@ -26,33 +28,49 @@ constexpr double kConvexPatch = 1e-12;
 // Of K nothing is known within this share of it, at the most.
 constexpr double kDeepest = 1e-7;
 
+// Polygons of more corners are in no patch, and no patch has more than twice as many.
+constexpr std::size_t kMostCornersOfPatch = 48;
+
+// Of the triangles of a polygon that is not folded the areas as vectors add up to as much.
+constexpr double kUnfolded = 0.999;
+
+/// Of pieces: the triangles of a mesh, and behind them polygons that some of them are in.
 class MeshPatchSearch {
  public:
-  MeshPatchSearch(const TriangleMesh& mesh, const MeshView& view)
-      : mesh_(mesh), welded_(weldVertices(view)), surrounding_(view, mesh.vertices, {0, 0, 0}) {
+  MeshPatchSearch(const TriangleMesh& mesh, const MeshView& view, const std::vector<int>& welded,
+                  const std::vector<FlatPolygon>& polygons)
+      : mesh_(mesh),
+        welded_(welded),
+        polygons_(polygons),
+        surrounding_(view, mesh.vertices, {0, 0, 0}) {
     for (const Eigen::Vector3d& v : mesh.vertices) size_ = std::max(size_, v.norm());
-    for (int t = 0; t < count(); ++t) {
-      normals_.emplace_back((corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)));
+    for (int t = 0; t < triangleCount(); ++t) {
+      const std::array<int, 3> corners = cornersOf(t);
+      const Eigen::Vector3d first = at(corners[1]) - at(corners[0]);
+      normals_.emplace_back(first.cross(at(corners[2]) - at(corners[0])));
       areas_.push_back(normals_.back().norm());
       if (areas_.back() > 0.0) normals_.back() /= areas_.back();
     }
+    held_.assign(mesh.triangles.size() + polygons.size(), false);
+    piece_of_.resize(mesh.triangles.size());
+    std::iota(piece_of_.begin(), piece_of_.end(), 0);
+    for (const FlatPolygon& polygon : polygons) addPolygon(polygon);
     findNeighbours();
   }
 
-  /// Large triangles first: around them patches are largest.
+  /// Large ones first: around them patches are largest.
   std::vector<MeshPatch> run() {
-    std::vector<int> order(mesh_.triangles.size());
+    std::vector<int> order(held_.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [this](int x, int y) {
       return areas_[x] != areas_[y] ? areas_[x] > areas_[y] : x < y;
     });
-    held_.assign(mesh_.triangles.size(), false);
     std::vector<MeshPatch> patches;
-    for (const int t : order) {
-      if (held_[t] || !(areas_[t] > 0.0)) continue;
-      MeshPatch patch = largestOf(around(t));
-      for (const int each : patch.triangles) held_[each] = true;
-      if (!patch.triangles.empty()) patches.push_back(std::move(patch));
+    for (const int piece : order) {
+      if (held_[piece] || !(areas_[piece] > 0.0)) continue;
+      MeshPatch patch = largestOf(around(piece));
+      for (const int each : patch.pieces) held_[each] = true;
+      if (!patch.pieces.empty()) patches.push_back(std::move(patch));
     }
     return patches;
   }
@@ -60,34 +78,72 @@ class MeshPatchSearch {
   const ClosedMesh& solid() const { return surrounding_.solid(); }
 
  private:
-  int count() const { return static_cast<int>(mesh_.triangles.size()); }
-  int vertex(int t, int k) const { return welded_[mesh_.triangles[t][k]]; }
-  const Eigen::Vector3d& corner(int t, int k) const { return mesh_.vertices[vertex(t, k)]; }
+  int triangleCount() const { return static_cast<int>(mesh_.triangles.size()); }
+  const Eigen::Vector3d& at(int vertex) const { return mesh_.vertices[vertex]; }
+
+  std::array<int, 3> cornersOf(int t) const {
+    const fcl::Triangle& corners = mesh_.triangles[t];
+    return {welded_[corners[0]], welded_[corners[1]], welded_[corners[2]]};
+  }
+
+  template <typename Function>
+  void visitCorners(int piece, const Function& function) const {
+    if (piece < triangleCount()) {
+      for (const int v : cornersOf(piece)) function(v);
+    } else {
+      for (const int v : polygons_[piece - triangleCount()].corners) function(v);
+    }
+  }
+
+  // Its triangles are held by it. The normal is outward as theirs is: what is folded onto itself
+  // is left alone.
+  void addPolygon(const FlatPolygon& polygon) {
+    const auto piece = static_cast<int>(areas_.size());
+    Eigen::Vector3d area = Eigen::Vector3d::Zero();
+    double size = 0.0;
+    for (const int t : polygon.triangles) {
+      area += areas_[t] * normals_[t];
+      size += areas_[t];
+      held_[t] = true;
+      piece_of_[t] = piece;
+    }
+    normals_.push_back(area.normalized());
+    areas_.push_back(area.norm());
+    held_[piece] =
+        polygon.corners.size() > kMostCornersOfPatch || !(area.norm() > kUnfolded * size);
+  }
 
   // Of triangles with three different corners, as the mesh is closed.
   void findNeighbours() {
     std::vector<DirectedEdge> edges;
-    for (int t = 0; t < count(); ++t) {
-      if (!(areas_[t] > 0.0) && hasEqualCorners(t)) continue;
-      for (int k = 0; k < 3; ++k) edges.push_back({vertex(t, k), vertex(t, (k + 1) % 3), t});
+    for (int t = 0; t < triangleCount(); ++t) {
+      const auto [a, b, c] = cornersOf(t);
+      if (a == b || b == c || c == a) continue;
+      edges.push_back({a, b, t});
+      edges.push_back({b, c, t});
+      edges.push_back({c, a, t});
     }
-    neighbours_.resize(mesh_.triangles.size());
+    neighbours_.resize(held_.size());
     for (const EdgeMatch& match : pairEdges(std::move(edges)).matches) {
-      neighbours_[match.forward.polygon].push_back(match.backward.polygon);
-      neighbours_[match.backward.polygon].push_back(match.forward.polygon);
+      const int one = piece_of_[match.forward.polygon];
+      const int other = piece_of_[match.backward.polygon];
+      if (one == other) continue;
+      neighbours_[one].push_back(other);
+      neighbours_[other].push_back(one);
     }
   }
 
-  bool hasEqualCorners(int t) const {
-    return vertex(t, 0) == vertex(t, 1) || vertex(t, 1) == vertex(t, 2) ||
-           vertex(t, 2) == vertex(t, 0);
-  }
-
-  bool isBehind(int t, int plane) const {
+  bool isBehind(int piece, int plane) const {
     const Eigen::Vector3d& n = normals_[plane];
-    const double level = n.dot(corner(plane, 0)) + kConvexPatch * size_;
-    return n.dot(corner(t, 0)) <= level && n.dot(corner(t, 1)) <= level &&
-           n.dot(corner(t, 2)) <= level;
+    double level = 0.0;
+    bool is_first = true;
+    visitCorners(plane, [&](int v) {
+      if (is_first) level = n.dot(at(v)) + kConvexPatch * size_;
+      is_first = false;
+    });
+    bool is_behind = true;
+    visitCorners(piece, [&](int v) { is_behind = is_behind && n.dot(at(v)) <= level; });
+    return is_behind;
   }
 
   // By rings, as long as all of it is on its hull (Ehmann and Lin 2001).
@@ -98,59 +154,65 @@ class MeshPatchSearch {
         if (patch.size() == kMostOfPatch) return patch;
         if (held_[next] || !(areas_[next] > 0.0)) continue;
         if (std::find(patch.begin(), patch.end(), next) != patch.end()) continue;
-        const auto fits = [&](int t) { return isBehind(t, next) && isBehind(next, t); };
+        const auto fits = [&](int piece) { return isBehind(piece, next) && isBehind(next, piece); };
         if (std::all_of(patch.begin(), patch.end(), fits)) patch.push_back(next);
       }
     }
     return patch;
   }
 
-  // Of the first of the triangles: all of them, or as many as halving the difference finds to have
-  // a hull within the mesh. Empty if there are not even two.
-  MeshPatch largestOf(const std::vector<int>& triangles) const {
+  // Of the first of the pieces: all of them, or as many as halving the difference finds to have a
+  // hull within the mesh. Empty if there are not even two.
+  MeshPatch largestOf(const std::vector<int>& pieces) const {
     MeshPatch best;
-    std::size_t most = triangles.size() + 1;
-    std::size_t tried = triangles.size();
-    while (tried > std::max<std::size_t>(1, best.triangles.size())) {
-      MeshPatch patch = patchOf({triangles.begin(), triangles.begin() + tried});
-      if (patch.triangles.empty()) {
+    std::size_t most = pieces.size() + 1;
+    std::size_t tried = pieces.size();
+    while (tried > std::max<std::size_t>(1, best.pieces.size())) {
+      MeshPatch patch = patchOf({pieces.begin(), pieces.begin() + tried});
+      if (patch.pieces.empty()) {
         most = tried;
       } else {
         best = std::move(patch);
       }
-      tried = (std::max<std::size_t>(1, best.triangles.size()) + most) / 2;
+      tried = (std::max<std::size_t>(1, best.pieces.size()) + most) / 2;
     }
     return best;
   }
 
-  MeshPatch patchOf(std::vector<int> triangles) const {
+  MeshPatch patchOf(std::vector<int> pieces) const {
     MeshPatch patch;
-    for (const int t : triangles) {
-      for (int k = 0; k < 3; ++k) patch.vertices.push_back(vertex(t, k));
+    for (const int piece : pieces) {
+      visitCorners(piece, [&](int v) { patch.vertices.push_back(v); });
+      if (piece >= triangleCount()) {
+        patch.off = std::max(patch.off, polygons_[piece - triangleCount()].off);
+      }
     }
     std::sort(patch.vertices.begin(), patch.vertices.end());
     patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()),
                          patch.vertices.end());
+    if (patch.vertices.size() > 2 * kMostCornersOfPatch) return {};
     std::vector<Eigen::Vector3d> points;
-    for (const int v : patch.vertices) points.push_back(mesh_.vertices[v]);
+    for (const int v : patch.vertices) points.push_back(at(v));
     const auto fan = convexFanAround(points);
     if (!fan) return {};
     patch.fan = *fan;
-    if (!surrounding_.surrounds(patch.fan, {})) return {};
+    if (!surrounding_.surrounds(patch.fan, {}, kDeepest)) return {};
     for (std::size_t f = 0; f < fan->normals.size(); ++f) {
       if (!(patch.fan.depths[f] < kDeepest * patch.fan.offsets[f])) return {};
     }
     patch.fan.vertices = {};
-    patch.triangles = std::move(triangles);
+    patch.pieces = std::move(pieces);
     return patch;
   }
 
   const TriangleMesh& mesh_;
-  std::vector<int> welded_;
+  const std::vector<int>& welded_;
+  const std::vector<FlatPolygon>& polygons_;
   SurroundingMesh surrounding_;
   double size_ = 0.0;
-  std::vector<Eigen::Vector3d> normals_;
-  std::vector<double> areas_;  // doubled
+  std::vector<Eigen::Vector3d> normals_;  // by piece
+  std::vector<double> areas_;             // doubled
+  std::vector<int> piece_of_;             // of every triangle
   std::vector<std::vector<int>> neighbours_;
   std::vector<bool> held_;
 };
@@ -158,18 +220,21 @@ class MeshPatchSearch {
 /// Halves of what has middles, down to what has a piece.
 class PatchTreeBuilder {
  public:
-  PatchTreeBuilder(const TriangleMesh& mesh, MeshPatches& into) : mesh_(mesh), into_(into) {}
+  PatchTreeBuilder(const TriangleMesh& mesh, MeshPatches& into)
+      : mesh_(mesh),
+        first_polygon_(static_cast<int>(mesh.triangles.size())),
+        first_patch_(first_polygon_ + static_cast<int>(into.polygons.size())),
+        into_(into) {}
 
   void run() {
-    const auto triangles = static_cast<int>(mesh_.triangles.size());
-    std::vector<bool> held(mesh_.triangles.size(), false);
-    std::vector<Item> items;
-    for (std::size_t i = 0; i < into_.patches.size(); ++i) {
-      for (const int t : into_.patches[i].triangles) held[t] = true;
-      items.push_back({middleOf(into_.patches[i].triangles), triangles + static_cast<int>(i)});
+    const int count = first_patch_ + static_cast<int>(into_.patches.size());
+    std::vector<bool> held(static_cast<std::size_t>(count), false);
+    for (int piece = first_polygon_; piece < count; ++piece) {
+      for (const int below : piecesOf(piece)) held[below] = true;
     }
-    for (int t = 0; t < triangles; ++t) {
-      if (!held[t]) items.push_back({middleOf({t}), t});
+    std::vector<Item> items;
+    for (int piece = count; piece-- > 0;) {
+      if (!held[piece]) items.push_back({middleOf(piece), piece});
     }
     into_.nodes.reserve(2 * mesh_.triangles.size());
     add(items.data(), items.data() + items.size());
@@ -181,11 +246,22 @@ class PatchTreeBuilder {
     int piece;
   };
 
-  Eigen::Vector3d middleOf(const std::vector<int>& triangles) const {
-    Eigen::AlignedBox3d box;
-    for (const int t : triangles) {
-      for (int k = 0; k < 3; ++k) box.extend(mesh_.vertices[mesh_.triangles[t][k]]);
+  const std::vector<int>& piecesOf(int piece) const {
+    return piece < first_patch_ ? into_.polygons[piece - first_polygon_].triangles
+                                : into_.patches[piece - first_patch_].pieces;
+  }
+
+  void extend(Eigen::AlignedBox3d& box, int piece) const {
+    if (piece >= first_polygon_) {
+      for (const int below : piecesOf(piece)) extend(box, below);
+      return;
     }
+    for (int k = 0; k < 3; ++k) box.extend(mesh_.vertices[mesh_.triangles[piece][k]]);
+  }
+
+  Eigen::Vector3d middleOf(int piece) const {
+    Eigen::AlignedBox3d box;
+    extend(box, piece);
     return box.center();
   }
 
@@ -197,10 +273,9 @@ class PatchTreeBuilder {
       return index;
     }
     into_.nodes[index].piece = first->piece;
-    const int patch = first->piece - static_cast<int>(mesh_.triangles.size());
-    if (patch < 0) return index;
+    if (first->piece < first_polygon_) return index;
     std::vector<Item> below;
-    for (const int t : into_.patches[patch].triangles) below.push_back({middleOf({t}), t});
+    for (const int piece : piecesOf(first->piece)) below.push_back({middleOf(piece), piece});
     addChildren(index, below.data(), below.data() + below.size());
     return index;
   }
@@ -221,27 +296,40 @@ class PatchTreeBuilder {
   }
 
   const TriangleMesh& mesh_;
+  const int first_polygon_;
+  const int first_patch_;
   MeshPatches& into_;
 };
 
-std::unique_ptr<const MeshPatches> patchesIn(const TriangleMesh& mesh) try {
-  MeshPatchSearch search(mesh, viewOf(mesh));
-  std::vector<MeshPatch> patches = search.run();
-  if (patches.empty()) return nullptr;
-  auto made = std::make_unique<MeshPatches>(MeshPatches{std::move(patches), {}, search.solid()});
+// Of what is open there are only polygons.
+void findPatches(const TriangleMesh& mesh, const std::vector<int>& welded, MeshPatches& into) try {
+  MeshPatchSearch search(mesh, viewOf(mesh), welded, into.polygons);
+  into.patches = search.run();
+  if (!into.patches.empty()) into.solid = search.solid();
+} catch (const OpenMesh&) {
+}
+
+std::unique_ptr<const MeshPatches> patchesIn(const TriangleMesh& mesh) {
+  const std::vector<int> welded = weldVertices(viewOf(mesh));
+  auto made = std::make_unique<MeshPatches>();
+  made->polygons = flatPolygonsIn(mesh, welded);
+  findPatches(mesh, welded, *made);
+  if (made->polygons.empty() && made->patches.empty()) return nullptr;
   PatchTreeBuilder(mesh, *made).run();
   return made;
-} catch (const OpenMesh&) {
-  return nullptr;
 }
 
 }  // namespace
 
 std::size_t MeshPatches::memory() const {
-  std::size_t bytes = nodes.capacity() * sizeof(Node) + solid.memory();
+  std::size_t bytes = nodes.capacity() * sizeof(Node) + (solid ? solid->memory() : 0);
+  for (const FlatPolygon& polygon : polygons) {
+    bytes += sizeof(FlatPolygon) +
+             (polygon.triangles.capacity() + polygon.corners.capacity()) * sizeof(int);
+  }
   for (const MeshPatch& patch : patches) {
     bytes += sizeof(MeshPatch) +
-             (patch.triangles.capacity() + patch.vertices.capacity()) * sizeof(int) +
+             (patch.pieces.capacity() + patch.vertices.capacity()) * sizeof(int) +
              patch.fan.normals.size() * (sizeof(Eigen::Vector3d) + 2 * sizeof(double)) +
              patch.fan.arcs.size() * 2 * sizeof(int);
   }

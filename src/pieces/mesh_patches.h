@@ -1,43 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Triangles of a closed mesh taken together in convex bodies within it.
+// Triangles of a mesh taken together: coplanar ones in convex polygons, and of a closed mesh these
+// and others in convex bodies within it.
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "fcl_prob/triangle_mesh.h"
 #include "geometry/closed_mesh.h"
 #include "pieces/convex_fan.h"
+#include "pieces/flat_polygon.h"
 
 namespace fcl_prob::detail {
 
-/// Some triangles of a mesh and the hull K of their corners.
+/// Some triangles and polygons of a mesh, and the hull K of their corners.
 struct MeshPatch {
-  std::vector<int> triangles;
+  std::vector<int> pieces;    ///< triangles, or behind all those polygons
   std::vector<int> vertices;  ///< of which K is the hull
+  double off = 0.0;           ///< metres: its triangles stick out of K by no more
 
   /// K: the mesh winds around it, and no triangle of the mesh reaches farther into it than the
   /// depths tell. Without vertices.
   ConvexFan fan;
 };
 
-/// The patches of a mesh, with the triangles that are in none of them, in a tree of their own.
+/// The polygons and patches of a mesh, with the triangles that are in none of them, in a tree of
+/// their own.
 struct MeshPatches {
-  /// A node without children has a triangle; one that has a piece besides is a patch, and what is
-  /// below it are its triangles.
+  /// A node without children has a triangle; one that has a piece besides is a polygon or a patch,
+  /// and what is below it is what that consists of.
   struct Node {
     int left = -1;   ///< index of the first child, always greater than the node's own
     int right = -1;  ///< index of the second child
-    int piece = -1;  ///< a triangle, or behind all those a patch
+    int piece = -1;  ///< a triangle, behind all those a polygon, behind all these a patch
   };
 
+  std::vector<FlatPolygon> polygons;
   std::vector<MeshPatch> patches;
-  std::vector<Node> nodes;  ///< nodes[0] is the root
-  ClosedMesh solid;         ///< the mesh
+  std::vector<Node> nodes;          ///< nodes[0] is the root
+  std::optional<ClosedMesh> solid;  ///< the mesh, if there are patches
 
   /// Bytes.
   std::size_t memory() const;
@@ -49,7 +55,7 @@ struct MeshPatches {
 /// Made when they are first asked for, by any of several threads.
 class PatchesOfMesh {
  public:
-  /// Null where the mesh is not closed or has no patches.
+  /// Null where there are neither polygons nor patches.
   /// \param mesh  makes it: the same one in all calls
   const MeshPatches* of(const std::function<TriangleMesh()>& mesh) const;
 

@@ -11,9 +11,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-// The farthest that the mesh may reach into a body, as a share of it.
-constexpr double kMostReach = 1e-5;
-
 // Planes that separate as well as this, but for rounding, are not improved upon.
 constexpr double kLittleReach = 1e-12;
 
@@ -96,10 +93,10 @@ SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::
   boxes_ = BoxTree(boxes);
 }
 
-// The share λ of P that the mesh reaches into; where it is more than kMostReach it means no more
+// The share λ of P that the mesh reaches into; where it is more than `most` it means no more
 // than that. What is clear of a box around P by more than rounding does not reach into it.
-double SurroundingMesh::reachInto(const ConvexFan& fan,
-                                  const std::vector<Eigen::Vector3d>& normals) const {
+double SurroundingMesh::reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
+                                  double most) const {
   BoxTree::Box box;
   for (const Eigen::Vector3d& v : fan.vertices) box.extend(fan.centre + v);
   const double rounding = 64 * kEpsilon * (fan.radius + fan.centre.norm() + 2 * largest_);
@@ -108,14 +105,15 @@ double SurroundingMesh::reachInto(const ConvexFan& fan,
   double farthest = 0.0;
   boxes_.visitBox(around, [&](int t) {
     farthest = std::max(farthest, search.of(t));
-    return farthest <= kMostReach;
+    return farthest <= most;
   });
   return farthest;
 }
 
-bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const {
-  const double reach = reachInto(fan, normals);
-  if (!(reach <= kMostReach) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
+bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
+                                double most) const {
+  const double reach = reachInto(fan, normals, most);
+  if (!(reach <= most) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
   for (std::size_t f = 0; f < fan.depths.size(); ++f) {
     fan.depths[f] = std::max(fan.depths[f], reach * fan.offsets[f]);
   }

@@ -16,6 +16,8 @@ namespace fcl_prob::detail {
 /// A closed mesh around bodies, with what is needed to see that it is.
 class SurroundingMesh {
  public:
+  static constexpr double kMostReach = 1e-5;
+
   /// \param vertices  the mesh's, perhaps moved; those of `view` tell rounding
   /// \param moved_by  vertices[i] is view.vertices[i] less this, up to rounding
   ///
@@ -24,15 +26,17 @@ class SurroundingMesh {
                   const Eigen::Vector3d& moved_by);
 
   /// Whether the mesh winds around P and hardly reaches into it: no triangle meets the inside of P
-  /// shrunk about its centre by a share of 1e-5 at the most, since there is a plane between the
+  /// shrunk about its centre by a share of `most` at the most, since there is a plane between the
   /// two. The depths are then no smaller than that share of P, so that what is told of P's inside
   /// is told of what the mesh does not reach. \param normals  of planes to try beside those of P
-  bool surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
+  bool surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
+                 double most = kMostReach) const;
 
   const ClosedMesh& solid() const { return solid_; }
 
  private:
-  double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
+  double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
+                   double most) const;
 
   const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -34,47 +33,73 @@ NodeBox boxOfBoth(const NodeBox& one, const NodeBox& other) {
 
 PatchedMesh::PatchedMesh(const WhitenedTree& mesh, const PartitionObject& object,
                          const Eigen::Matrix3d& matrix, PatchUse use)
-    : mesh_(mesh) {
+    : mesh_(mesh), use_(use) {
   nodes_.reserve(mesh.tree->nodes.size());
   boxes_.reserve(mesh.tree->nodes.size());
   for (std::size_t i = 0; i < object.parts.size(); ++i) {
-    addPart(object.tree->parts[i], object.parts[i], matrix, use);
+    addPart(object.tree->parts[i], object.parts[i], matrix);
   }
   countMemory();
 }
 
 void PatchedMesh::addPart(const PieceTree::Part& part, const PlacedPart& placed,
-                          const Eigen::Matrix3d& matrix, PatchUse use) {
+                          const Eigen::Matrix3d& matrix) {
   const Eigen::Matrix3d linear = matrix * placed.pose.linear();
-  const MeshPatches* const patches =
-      use == PatchUse::taken ? mesh_.tree->patchesOf(part) : nullptr;
+  const MeshPatches* const patches = use_.taken ? mesh_.tree->patchesOf(part) : nullptr;
   const auto root = static_cast<int>(nodes_.size());
+  const auto of_part = part.triangles.end - part.triangles.begin;
   parts_.push_back({patches, placed.solid != nullptr, root, part.vertices.begin,
-                    part.triangles.begin, linear, linear.inverse()});
+                    part.triangles.begin, of_part, pieceCount(), linear, linear.inverse()});
   if (part.root < 0) return;
   roots_.push_back(root);
   if (!patches) {
     copyNodes(part.root);
     return;
   }
-  const auto of_part = part.triangles.end - part.triangles.begin;
-  const int first_patch = pieceCount();
-  for (const MeshPatch& patch : patches->patches) {
-    patches_.push_back({&patch, parts_.size() - 1});
-  }
+  addPlaces(*patches);
   for (Node node : patches->nodes) {
     if (node.left >= 0) {
       node.left += root;
       node.right += root;
     }
-    if (node.piece >= of_part) {
-      node.piece += first_patch - of_part;
-    } else if (node.piece >= 0) {
-      node.piece += part.triangles.begin;
-    }
+    if (node.piece >= 0) node.piece = parts_.back().pieceOf(node.piece);
     nodes_.push_back(node);
   }
   fitBoxes(root);
+}
+
+// Of the last part.
+void PatchedMesh::addPlaces(const MeshPatches& patches) {
+  const PlacedPatches& part = parts_.back();
+  const Eigen::Matrix3d unturned = part.inverse.transpose();
+  for (const FlatPolygon& polygon : patches.polygons) {
+    const Eigen::Vector3d n = (unturned * polygon.normal).normalized();
+    places_.push_back({nullptr, &polygon, parts_.size() - 1, offOf(polygon, part, n), n});
+  }
+  for (const MeshPatch& patch : patches.patches) {
+    places_.push_back({&patch, nullptr, parts_.size() - 1});
+    if (patch.off > 0.0) {
+      places_.back().off = part.linear.norm() * patch.off + 4 * mesh_.error.norm();
+    }
+  }
+}
+
+// By how much its corners leave a plane across n, and what its triangles may be off their hull
+// besides, here.
+double PatchedMesh::offOf(const FlatPolygon& polygon, const PlacedPatches& part,
+                          const Eigen::Vector3d& n) const {
+  const Eigen::Vector3d& from = mesh_.vertices[part.first_vertex + polygon.corners[0]];
+  double lowest = 0.0;
+  double highest = 0.0;
+  double size = 0.0;
+  for (const int v : polygon.corners) {
+    const Eigen::Vector3d to = mesh_.vertices[part.first_vertex + v] - from;
+    lowest = std::min(lowest, n.dot(to));
+    highest = std::max(highest, n.dot(to));
+    size = std::max(size, to.norm());
+  }
+  return (highest - lowest) + 16 * kEpsilon * size + part.linear.norm() * polygon.off +
+         4 * mesh_.error.norm();
 }
 
 // Parts of the same geometry share theirs.
@@ -113,19 +138,35 @@ void PatchedMesh::fitBoxes(int root) {
   }
 }
 
-std::size_t PatchedMesh::trianglesOfPatches() const {
-  return std::accumulate(
-      patches_.begin(), patches_.end(), std::size_t{0},
-      [](std::size_t sum, const Place& place) { return sum + place.patch->triangles.size(); });
+PatchedMesh::Held PatchedMesh::heldByPolygons() const {
+  Held held{0, 0};
+  for (const Place& place : places_) {
+    if (!place.polygon) continue;
+    ++held.pieces;
+    held.triangles += place.polygon->triangles.size();
+  }
+  return held;
+}
+
+PatchedMesh::Held PatchedMesh::heldByPatches() const {
+  Held held{0, 0};
+  for (int piece = triangleCount(); piece < pieceCount(); ++piece) {
+    if (!isPatch(piece)) continue;
+    ++held.pieces;
+    visitPieces(piece, [&](int each) {
+      held.triangles += isTriangle(each) ? 1 : placeOf(each).polygon->triangles.size();
+    });
+  }
+  return held;
 }
 
 // As WhitenedFan has the other object: in the whitened frame a normal n of the fan has the
 // direction m with Lᵀm ∥ n; however m was rounded, the offset follows from how far Lᵀm is off n.
 WhitenedPatch PatchedMesh::whitened(int patch) const {
-  const auto& [of, part] = placeOf(patch);
-  const ConvexFan& fan = of->fan;
-  const Eigen::Matrix3d& linear = parts_[part].linear;
-  const Eigen::Matrix3d unturned = parts_[part].inverse.transpose();
+  const Place& place = placeOf(patch);
+  const ConvexFan& fan = place.patch->fan;
+  const Eigen::Matrix3d& linear = parts_[place.part].linear;
+  const Eigen::Matrix3d unturned = parts_[place.part].inverse.transpose();
   const double size = linear.cwiseAbs().sum();
   WhitenedPatch whitened{{}, fan.arcs, 0.0};
   double share = 0.0;
@@ -154,7 +195,8 @@ bool PatchedMesh::isOutside(std::size_t part, const NodeBox& box) const {
     const int node = open.back();
     open.pop_back();
     if (isClearOf(boxes_[node], box.lo, box.hi)) continue;
-    if (nodes_[node].piece >= 0) return false;
+    const int piece = nodes_[node].piece;
+    if (piece >= 0 && (isTriangle(piece) || isPatch(piece))) return false;
     open.push_back(nodes_[node].right);
     open.push_back(nodes_[node].left);
   }
@@ -166,7 +208,7 @@ bool PatchedMesh::isOutside(std::size_t part, const NodeBox& box) const {
   if (!((hi - lo).minCoeff() > kThinnestBox * size)) return false;
   const Eigen::Vector3d point =
       mesh_.tree->vertices[placed.first_vertex] + placed.inverse * to_middle;
-  return placed.patches->solid.contains(point) == Containment::outside;
+  return placed.patches->solid->contains(point) == Containment::outside;
 }
 
 }  // namespace fcl_prob::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A mesh by its patches, in the whitened frame of one query.
+// A mesh by its polygons and patches, in the whitened frame of one query.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,16 @@ struct WhitenedPatch {
   double loss;  ///< K is known but for so much along any normal; infinite: not well enough
 };
 
-enum class PatchUse { taken, left_out };
+/// Which polygons and patches are used.
+struct PatchUse {
+  bool taken = true;  ///< false: none
+  /// Polygons that move planes by no more than so many standard deviations.
+  double most_loss = 1e-4;
+};
 
-/// Pieces are the triangles of a mesh, by their indices, and behind them the patches of all its
-/// parts. What touches a patch touches the solid that its part encloses.
+/// Pieces are the triangles of a mesh, by their indices, and behind them the polygons and patches
+/// of all its parts. What touches a patch touches the solid that its part encloses. A polygon is
+/// the hull of its corners, put into a plane across its normal.
 class PatchedMesh {
  public:
   using Node = MeshPatches::Node;
@@ -35,31 +41,51 @@ class PatchedMesh {
               const Eigen::Matrix3d& matrix, PatchUse use);
 
   int triangleCount() const { return static_cast<int>(mesh_.tree->triangles.size()); }
-  int pieceCount() const { return triangleCount() + patchCount(); }
-  int patchCount() const { return static_cast<int>(patches_.size()); }
-  bool isPatch(int piece) const { return piece >= triangleCount(); }
+  int pieceCount() const { return triangleCount() + static_cast<int>(places_.size()); }
+  bool isTriangle(int piece) const { return piece < triangleCount(); }
+  bool isPatch(int piece) const { return !isTriangle(piece) && placeOf(piece).patch; }
 
-  /// The triangles of all patches, counted.
-  std::size_t trianglesOfPatches() const;
+  /// Of all patches, or of all polygons: their number, and that of their triangles.
+  struct Held {
+    std::size_t pieces;
+    std::size_t triangles;
+  };
+  Held heldByPatches() const;
+  Held heldByPolygons() const;
 
   /// Calls `function(vertex)` for all corners of a piece.
   template <typename Function>
   void visitCorners(int piece, const Function& function) const {
-    if (isPatch(piece)) {
-      const auto& [patch, part] = placeOf(piece);
-      for (const int v : patch->vertices) function(parts_[part].first_vertex + v);
-    } else {
+    if (isTriangle(piece)) {
       const Eigen::Vector3i& t = mesh_.tree->triangles[piece];
       for (int k = 0; k < 3; ++k) function(t[k]);
+      return;
+    }
+    const Place& place = placeOf(piece);
+    const int first = parts_[place.part].first_vertex;
+    for (const int v : place.patch ? place.patch->vertices : place.polygon->corners) {
+      function(first + v);
     }
   }
 
-  /// Calls `function(triangle)` for all triangles of a patch.
+  /// Calls `function(piece)` for all triangles of a polygon, or all pieces of a patch.
   template <typename Function>
-  void visitTriangles(int patch, const Function& function) const {
-    const auto& [of, part] = placeOf(patch);
-    for (const int t : of->triangles) function(parts_[part].first_triangle + t);
+  void visitPieces(int piece, const Function& function) const {
+    const Place& place = placeOf(piece);
+    const PlacedPatches& part = parts_[place.part];
+    for (const int each : place.patch ? place.patch->pieces : place.polygon->triangles) {
+      function(part.pieceOf(each));
+    }
   }
+
+  /// The hull of a piece's corners holds its triangles but for so much; of a polygon, they are also
+  /// nowhere farther from it.
+  double offOf(int piece) const { return isTriangle(piece) ? 0.0 : placeOf(piece).off; }
+
+  double mostLoss() const { return use_.most_loss; }
+
+  /// Of a polygon, unit.
+  const Eigen::Vector3d& normalOf(int polygon) const { return placeOf(polygon).normal; }
 
   WhitenedPatch whitened(int patch) const;
 
@@ -82,17 +108,21 @@ class PatchedMesh {
   /// With that of the patches, which other queries may use, too.
   std::size_t memory() const {
     return nodes_.capacity() * (sizeof(Node) + sizeof(NodeBox)) +
-           patches_.capacity() * sizeof(Place) + memory_of_patches_;
+           places_.capacity() * sizeof(Place) + memory_of_patches_;
   }
 
   /// Bounds for a mesh of so many triangles.
-  static std::size_t mostPieces(std::size_t triangles) { return triangles + triangles / 2; }
+  static std::size_t mostPieces(std::size_t triangles) { return 2 * triangles; }
   static std::size_t mostNodes(std::size_t triangles) { return 2 * triangles; }
 
  private:
+  /// One of the two.
   struct Place {
     const MeshPatch* patch;
+    const FlatPolygon* polygon;
     std::size_t part;
+    double off = 0.0;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
   struct PlacedPatches {
@@ -101,20 +131,31 @@ class PatchedMesh {
     int root;
     int first_vertex;
     int first_triangle;
+    int triangles;            ///< of the part
+    int first_place;          ///< a piece: its first polygon or patch
     Eigen::Matrix3d linear;   ///< from the part's frame to the whitened one
     Eigen::Matrix3d inverse;  ///< the other way
+
+    /// By its index in the part.
+    int pieceOf(int index) const {
+      return index < triangles ? first_triangle + index : first_place + index - triangles;
+    }
   };
 
-  const Place& placeOf(int patch) const { return patches_[patch - triangleCount()]; }
+  const Place& placeOf(int piece) const { return places_[piece - triangleCount()]; }
   void addPart(const PieceTree::Part& part, const PlacedPart& placed,
-               const Eigen::Matrix3d& matrix, PatchUse use);
+               const Eigen::Matrix3d& matrix);
+  void addPlaces(const MeshPatches& patches);
+  double offOf(const FlatPolygon& polygon, const PlacedPatches& part,
+               const Eigen::Vector3d& n) const;
   void countMemory();
   int copyNodes(int node);
   void fitBoxes(int root);
 
   const WhitenedTree& mesh_;
+  const PatchUse use_;
   std::vector<PlacedPatches> parts_;
-  std::vector<Place> patches_;
+  std::vector<Place> places_;
   std::vector<int> roots_;
   std::vector<Node> nodes_;
   std::vector<NodeBox> boxes_;

@@ -86,12 +86,23 @@ void WhitenedFan::moveFan(const WhitenedTree& body, const PieceTree::Part& part,
     margins_.push_back(share_ * offsets_[f] + 3 * pads_[f]);
     most_margin_ = std::max(most_margin_, margins_[f]);
   }
+  measureRoundness();
 }
 
 double WhitenedFan::support(const Eigen::Vector3d& n) const {
   double highest = -kInfinity;
   for (const Eigen::Vector3d& point : points_) highest = std::max(highest, n.dot(point));
   return highest + padding(n);
+}
+
+void WhitenedFan::measureRoundness() {
+  double nearest = kInfinity;
+  double farthest = 0.0;
+  for (int f = 0; f < faceCount(); ++f) {
+    nearest = std::min(nearest, offsets_[f] + pads_[f] - margins_[f]);
+  }
+  for (const Eigen::Vector3d& point : points_) farthest = std::max(farthest, point.norm());
+  roundness_ = nearest > 0.0 ? (farthest + pad_.norm()) / nearest : kInfinity;
 }
 
 Eigen::Matrix3d WhitenedFan::corners(int triangle) const {

@@ -103,7 +103,11 @@ class WhitenedFan {
   /// Not below any face's margin.
   double largestMargin() const { return most_margin_; }
 
+  /// Not below the radius of a ball around 0 that holds P over that of one that P holds.
+  double roundness() const { return roundness_; }
+
  private:
+  void measureRoundness();
   void moveFan(const WhitenedTree& body, const PieceTree::Part& part, const ConvexFan& fan,
                const Eigen::Matrix3d& linear);
 
@@ -119,6 +123,7 @@ class WhitenedFan {
   std::vector<double> pads_;
   std::vector<double> margins_;
   double most_margin_ = 0.0;
+  double roundness_ = 0.0;
   double share_ = 0.0;
   double reach_ = 0.0;
   Eigen::Vector3d pad_;

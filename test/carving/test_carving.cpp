@@ -126,7 +126,7 @@ TEST_CASE("the planes of P ⊕ T hold it, and what is within their margins", "[c
       REQUIRE(tree->parts[0].fan);
       const Eigen::Matrix3d linear = scene_meshes.whitening.matrix();
       const PatchedMesh pieces(body_is_a ? scene_meshes.pair.b : scene_meshes.pair.a,
-                               scene_meshes.objectOf(!body_is_a), linear, PatchUse::taken);
+                               scene_meshes.objectOf(!body_is_a), linear, PatchUse{});
       FatObstacles obstacles(scene_meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
                              linear, pieces);
       REQUIRE(obstacles.usable());

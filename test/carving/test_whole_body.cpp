@@ -143,7 +143,7 @@ TEST_CASE("boxes clear of nodes hold nothing of them", "[whole]") {
     const auto& tree = body_is_a ? meshes.tree_a : meshes.tree_b;
     const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
     const PatchedMesh pieces(body_is_a ? meshes.pair.b : meshes.pair.a, meshes.objectOf(!body_is_a),
-                             matrix, PatchUse::taken);
+                             matrix, PatchUse{});
     const FatObstacles obstacles(meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
                                  matrix, pieces);
     const NodeReach reach(obstacles, pieces);
