@@ -20,8 +20,12 @@ using Vector = Eigen::Vector3d;
 constexpr double kWidestArc = -0.28;
 constexpr double kWidestFan = -0.05;
 
-/// Cosine between the middle of a sector's corners and each of them, at least: its inverse is how
-/// much more than the corners' a defect can be in between.
+/// How often a normal between others is moved, which decides about whether it is of use only.
+constexpr int kNormalSteps = 40;
+
+/// Cosine between some direction and each of a sector's corners, at least: its inverse is how much
+/// more than the corners' a defect can be in between. There is one of 0.38 where corners are no
+/// farther apart than kWidestArc and kWidestFan allow.
 constexpr double kNarrowestMiddle = 1.0 / 3.0;
 
 /// The same of sectors that few points integrate; others are divided.
@@ -51,6 +55,45 @@ struct NormalArc {
 /// Signed, of the triangle between three unit vectors (Van Oosterom and Strackee 1983).
 double solidAngle(const Vector& a, const Vector& b, const Vector& c) {
   return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+double leastCosine(const Vector& middle, const std::array<Vector, 3>& corners) {
+  const Vector unit = middle.normalized();
+  return std::min({unit.dot(corners[0]), unit.dot(corners[1]), unit.dot(corners[2])});
+}
+
+/// Of the least cap around three unit vectors, which the longest side or all three span.
+double capCosine(const std::array<Vector, 3>& corners) {
+  const auto& [n0, n1, n2] = corners;
+  const Vector across = (n1 - n0).cross(n2 - n0);
+  double widest = leastCosine(across.dot(n0) < 0.0 ? Vector(-across) : across, corners);
+  for (const Vector& side : {Vector(n0 + n1), Vector(n1 + n2), Vector(n2 + n0)}) {
+    widest = std::max(widest, leastCosine(side, corners));
+  }
+  return widest;
+}
+
+double worstOf(const Vector& vector, const std::vector<Vector>& normals) {
+  double worst = kInfinity;
+  for (const Vector& normal : normals) worst = std::min(worst, vector.dot(normal));
+  return worst;
+}
+
+/// A normal between others, which are hardly more than a right angle from it: on the way from their
+/// mean to the point of their hull that is nearest to the origin (Gilbert 1966). A sum of normals
+/// wherever it ends.
+Vector normalBetween(const std::vector<Vector>& normals) {
+  Vector sum = Vector::Zero();
+  for (const Vector& normal : normals) sum += normal / static_cast<double>(normals.size());
+  for (int step = 0; step < kNormalSteps; ++step) {
+    const Vector& next = *std::min_element(
+        normals.begin(), normals.end(),
+        [&](const Vector& x, const Vector& y) { return sum.dot(x) < sum.dot(y); });
+    if (sum.dot(next) >= 0.5 * kWidestFan * sum.norm()) break;
+    const Vector way = next - sum;
+    sum -= sum.dot(way) / way.squaredNorm() * way;
+  }
+  return sum;
 }
 
 class RoundedPartsBuilder {
@@ -302,33 +345,28 @@ class RoundedPartsBuilder {
   }
 
   std::optional<Vector> apexOf(int vertex, const std::vector<const NormalArc*>& around) {
-    Vector sum = Vector::Zero(), best = Vector::Zero();
-    double best_worst = -2.0;
-    for (const NormalArc* candidate : around) {
-      sum += candidate->first + candidate->second;
-      for (const Vector& normal : {candidate->first, candidate->second}) {
-        double worst = 1.0;
-        for (const NormalArc* arc : around) {
-          worst = std::min({worst, normal.dot(arc->first), normal.dot(arc->second)});
-        }
-        if (worst > best_worst) {
-          best_worst = worst;
-          best = normal;
-        }
-      }
+    std::vector<Vector> normals;
+    for (const NormalArc* arc : around) {
+      normals.push_back(arc->first);
+      normals.push_back(arc->second);
     }
-    if (best_worst >= kWidestFan) return best;
-    if (!(sum.norm() > 0.0)) return std::nullopt;
-    const Vector middle = sum.normalized();
+    const auto& best =
+        *std::max_element(normals.begin(), normals.end(), [&](const Vector& x, const Vector& y) {
+          return worstOf(x, normals) < worstOf(y, normals);
+        });
+    if (worstOf(best, normals) >= kWidestFan) return best;
+    const Vector between = normalBetween(normals);
+    if (!(between.norm() > 0.0)) return std::nullopt;
+    const Vector middle = between.normalized();
     worst_ = std::max(worst_, defectOf(middle, at(vertex)));
     return middle;
   }
 
   void addSector(int vertex, const Vector& n0, const Vector& n1, const Vector& n2) {
     if (n0 == n1 || n1 == n2 || n2 == n0) return;
-    const Vector middle = (n0 + n1 + n2).normalized();
-    const double cosine = std::min({middle.dot(n0), middle.dot(n1), middle.dot(n2)});
-    is_fit_ = is_fit_ && cosine >= kNarrowestMiddle;
+    const std::array<Vector, 3> corners{n0, n1, n2};
+    const double cosine = leastCosine(n0 + n1 + n2, corners);
+    is_fit_ = is_fit_ && (cosine >= kNarrowestMiddle || capCosine(corners) >= kNarrowestMiddle);
     if (cosine < kNarrowSector && is_fit_) {
       const Vector m01 = (n0 + n1).normalized(), m12 = (n1 + n2).normalized(),
                    m20 = (n2 + n0).normalized();

@@ -293,6 +293,25 @@ TEST_CASE("rounded bodies that are cut in two, under oblique covariances") {
   }
 }
 
+// The same of tetrahedra, whose corners are narrow on one side and wide on another.
+TEST_CASE("rounded tetrahedra that are cut in two") {
+  RandomBodies random(169);
+  for (int k = 0; k < 60; ++k) {
+    std::array<Vector3d, 4> v;
+    for (Vector3d& corner : v) corner = random.normalVector().cwiseProduct(Vector3d(1.0, 0.7, 0.3));
+    const Vector3d cut = 0.5 * (v[2] + v[3]);
+    const double radius = random.logUniform(0.1, 1.0);
+    const Eigen::Matrix3d whitening = Eigen::Matrix3d::Identity();
+    const Bounds whole = massOf(convexHull({v[0], v[1], v[2], v[3]}), radius, whitening, 1e-15);
+    const Bounds first = massOf(convexHull({v[0], v[1], v[2], cut}), radius, whitening, 1e-15);
+    const Bounds second = massOf(convexHull({v[0], v[1], cut, v[3]}), radius, whitening, 1e-15);
+    const Bounds both = massOf(polygon({v[0], v[1], cut}), radius, whitening, 1e-15);
+    for (const Bounds& mass : {whole, first, second, both}) isTight(mass);
+    CHECK(whole.lower + both.lower <= first.upper + second.upper);
+    CHECK(whole.upper + both.upper >= first.lower + second.lower);
+  }
+}
+
 TEST_CASE("rounded triangles under oblique covariances against samples") {
   RandomBodies random(167);
   for (int k = 0; k < 6; ++k) {
