@@ -5,16 +5,30 @@
 
 namespace fcl_prob::detail {
 
-/// Of the points y_k = point + rho_k direction: Σ weight_k exp(-|y_k|²/2), Σ weight_k rho_k
-/// exp(-|y_k|²/2), and the largest |y_k|².
-struct DensitySums {
-  double sum = 0.0, sum_of_rho = 0.0, farthest_square = 0.0;
+inline constexpr int kMostDensityNodes = 20;
+inline constexpr int kMostDensityLines = kMostDensityNodes * kMostDensityNodes;
+
+/// Lines point + ρ direction, one in every column; their number is a multiple of four: those that
+/// are not needed are points without weight.
+struct DensityLines {
+  int count = 0;
+  double point[3][kMostDensityLines], direction[3][kMostDensityLines], weight[kMostDensityLines];
 };
 
-/// A term is right to (|y|² + 40) 2^-52 of itself, and to 1e-307 of its weight. `count` is a
-/// multiple of four: what is not needed has no weight.
-using DensityKernel = DensitySums (*)(const double* point, const double* direction,
-                                      const double* rho, const double* weight, int count);
+/// Values of ρ, and their weights.
+struct DensityNodes {
+  int count = 0;
+  double rho[kMostDensityNodes], weight[kMostDensityNodes];
+};
+
+/// Of the points y of all nodes on all lines, with the products of their weights: Σ weight
+/// exp(-|y|²/2), Σ weight y exp(-|y|²/2), and the largest |y|².
+struct DensitySums {
+  double sum = 0.0, moment[3] = {0.0, 0.0, 0.0}, farthest_square = 0.0;
+};
+
+/// A term is right to (|y|² + 40) 2^-52 of itself, and to 1e-307 of its weight.
+using DensityKernel = DensitySums (*)(const DensityLines& lines, const DensityNodes& nodes);
 
 /// The fastest for the processor; all of them have identical results.
 DensityKernel densityKernel();

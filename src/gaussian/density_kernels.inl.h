@@ -39,30 +39,46 @@ inline void exponentiate(Lanes& x) {
   std::memcpy(&x, &bits, sizeof x);
 }
 
-inline DensitySums densityAlong(const double* point, const double* direction, const double* rho,
-                                const double* weight, int count) {
-  Lanes sum{}, sum_of_rho{}, farthest{};
-  for (int first = 0; first < count; first += kLanes) {
-    Lanes distance, weights;
-    std::memcpy(&distance, rho + first, sizeof distance);
-    std::memcpy(&weights, weight + first, sizeof weights);
-    const Lanes x = distance * direction[0] + point[0];
-    const Lanes y = distance * direction[1] + point[1];
-    const Lanes z = distance * direction[2] + point[2];
-    const Lanes square = x * x + y * y + z * z;
-    const Lanes least = Lanes{} - 708.0;
-    Lanes term = square * -0.5;
-    term = term > least ? term : least;
-    exponentiate(term);
-    term *= weights;
-    sum += term;
-    sum_of_rho += distance * term;
-    farthest = square > farthest ? square : farthest;
+inline void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
+
+inline double sumOf(const Lanes& lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
+
+/// Four lines at a time, node by node.
+inline DensitySums densityOfLines(const DensityLines& lines, const DensityNodes& nodes) {
+  Lanes total{}, moment[3] = {}, farthest{};
+  const Lanes least = Lanes{} - 708.0;
+  for (int first = 0; first < lines.count; first += kLanes) {
+    Lanes point[3], direction[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      load(lines.point[axis] + first, point[axis]);
+      load(lines.direction[axis] + first, direction[axis]);
+    }
+    Lanes sum{}, sum_of_rho{};
+    for (int k = 0; k < nodes.count; ++k) {
+      const double rho = nodes.rho[k];
+      const Lanes x = direction[0] * rho + point[0];
+      const Lanes y = direction[1] * rho + point[1];
+      const Lanes z = direction[2] * rho + point[2];
+      const Lanes square = x * x + y * y + z * z;
+      Lanes term = square * -0.5;
+      term = term > least ? term : least;
+      exponentiate(term);
+      term *= nodes.weight[k];
+      sum += term;
+      sum_of_rho += term * rho;
+      farthest = square > farthest ? square : farthest;
+    }
+    Lanes weight;
+    load(lines.weight + first, weight);
+    total += weight * sum;
+    for (int axis = 0; axis < 3; ++axis) {
+      moment[axis] += weight * (sum * point[axis] + sum_of_rho * direction[axis]);
+    }
   }
   DensitySums sums;
+  sums.sum = sumOf(total);
+  for (int axis = 0; axis < 3; ++axis) sums.moment[axis] = sumOf(moment[axis]);
   for (int k = 0; k < kLanes; ++k) {
-    sums.sum += sum[k];
-    sums.sum_of_rho += sum_of_rho[k];
     if (farthest[k] > sums.farthest_square) sums.farthest_square = farthest[k];
   }
   return sums;

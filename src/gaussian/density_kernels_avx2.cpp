@@ -6,7 +6,7 @@
 
 namespace fcl_prob::detail {
 
-DensityKernel densityKernelAvx2() { return densityAlong; }
+DensityKernel densityKernelAvx2() { return densityOfLines; }
 
 }  // namespace fcl_prob::detail
 #endif

@@ -10,7 +10,7 @@ DensityKernel chooseKernel() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) return densityKernelAvx2();
 #endif
-  return densityAlong;
+  return densityOfLines;
 }
 
 }  // namespace

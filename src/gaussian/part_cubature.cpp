@@ -64,13 +64,13 @@ void PartCubature::addBox(const Part& part, const ParameterBox& box, int depth) 
     for (const ParameterBox& half : halves(box, plan)) addBox(part, half, depth + 1);
     return;
   }
-  const PartTerms terms = evaluateBox(part, box, plan);
+  const DensitySums terms = evaluateBox(part, box, plan);
   const double reach = std::min(std::sqrt(terms.farthest_square), kFarthest);
   const double rounding =
       reach * part.position_error + 4.0 * kEpsilon * reach * reach + kTermRounding;
   const double rounded = terms.sum * rounding + kTermUnderflow * volumeOf(box) * real.weight;
   part_sum_.mass += terms.sum;
-  part_sum_.moment += terms.moment;
+  part_sum_.moment += Eigen::Vector3d::Map(terms.moment);
   part_sum_.error += plan.error + rounded;
   part_sum_.moment_error +=
       plan.moment_error + kFarthest * rounded + part.position_error * terms.sum;

@@ -16,7 +16,7 @@
 
 namespace fcl_prob::detail {
 
-inline constexpr unsigned kMostPartPoints = 20;
+inline constexpr unsigned kMostPartPoints = kMostDensityNodes;
 inline constexpr double kDensityScale = kInverseSqrtTwoPi * kInverseSqrtTwoPi * kInverseSqrtTwoPi;
 
 /// Of bounds, for the rounding of what they are made of.
@@ -56,7 +56,7 @@ NearPoint nearPoint(const Part& part, const ParameterBox& box) {
   const double from = box.centre[2] - box.half[2], to = box.centre[2] + box.half[2];
   const auto nearest = [&](double first, double second) -> Eigen::Vector3d {
     const PartLine line =
-        part.lineAt(box.centre[0] + first * box.half[0], box.centre[1] + second * box.half[1]);
+        part.rowAt(box.centre[1] + second * box.half[1]).at(box.centre[0] + first * box.half[0]);
     const double rho =
         std::clamp(-line.point.dot(line.direction) / line.direction.squaredNorm(), from, to);
     return line.point + rho * line.direction;
@@ -188,43 +188,51 @@ inline std::array<ParameterBox, 2> halves(const ParameterBox& box, const PartPla
   return both;
 }
 
-/// What the rules make of a box, without the factor.
-struct PartTerms {
-  double sum = 0.0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  double farthest_square = 0.0;  ///< of the nodes
-};
-
+/// The nodes of a rule for the distance.
 template <class Part>
-PartTerms evaluateBox(const Part& part, const ParameterBox& box, const PartPlan& plan) {
-  const PartRule& first = partRule(plan.points[0]);
-  const PartRule& second = partRule(plan.points[1]);
-  const PartRule& third = partRule(plan.points[2]);
-  // What is beyond the rule's points, to a multiple of four, has no weight.
-  std::array<double, kMostPartPoints> rho{}, weight{};
-  rho.fill(box.centre[2]);
-  for (std::size_t k = 0; k < third.nodes.size(); ++k) {
-    rho[k] = box.centre[2] + box.half[2] * third.nodes[k];
-    weight[k] = box.half[2] * third.weights[k];
-    for (int power = 0; power < Part::kPowerOfDistance; ++power) weight[k] *= rho[k];
+DensityNodes distanceNodes(const ParameterBox& box, const PartRule& rule) {
+  DensityNodes nodes;
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+    const double rho = box.centre[2] + box.half[2] * rule.nodes[k];
+    double weight = box.half[2] * rule.weights[k];
+    for (int power = 0; power < Part::kPowerOfDistance; ++power) weight *= rho;
+    nodes.rho[k] = rho;
+    nodes.weight[k] = weight;
   }
-  const DensityKernel kernel = densityKernel();
-  const int count = static_cast<int>((third.nodes.size() + 3) / 4 * 4);
-  PartTerms terms;
-  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
-    for (std::size_t j = 0; j < second.nodes.size(); ++j) {
-      const PartLine line = part.lineAt(box.centre[0] + box.half[0] * first.nodes[i],
-                                        box.centre[1] + box.half[1] * second.nodes[j]);
-      const DensitySums sums =
-          kernel(line.point.data(), line.direction.data(), rho.data(), weight.data(), count);
-      const double outer =
-          box.half[0] * first.weights[i] * box.half[1] * second.weights[j] * line.weight;
-      terms.sum += outer * sums.sum;
-      terms.moment += outer * (sums.sum * line.point + sums.sum_of_rho * line.direction);
-      terms.farthest_square = std::max(terms.farthest_square, sums.farthest_square);
+  nodes.count = static_cast<int>(rule.nodes.size());
+  return nodes;
+}
+
+inline void addLine(const PartLine& line, double weight, DensityLines& lines) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lines.point[axis][lines.count] = line.point[axis];
+    lines.direction[axis][lines.count] = line.direction[axis];
+  }
+  lines.weight[lines.count++] = weight;
+}
+
+/// The lines of two rules for the other parameters.
+template <class Part>
+void addLines(const Part& part, const ParameterBox& box, const PartRule& first,
+              const PartRule& second, DensityLines& lines) {
+  for (std::size_t j = 0; j < second.nodes.size(); ++j) {
+    const auto row = part.rowAt(box.centre[1] + box.half[1] * second.nodes[j]);
+    const double weight = box.half[0] * box.half[1] * second.weights[j];
+    for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+      const PartLine line = row.at(box.centre[0] + box.half[0] * first.nodes[i]);
+      addLine(line, weight * first.weights[i] * line.weight, lines);
     }
   }
-  return terms;
+  const PartLine nothing{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0};
+  while (lines.count % 4 != 0) addLine(nothing, 0.0, lines);
+}
+
+/// What the rules make of a box, without the factor.
+template <class Part>
+DensitySums evaluateBox(const Part& part, const ParameterBox& box, const PartPlan& plan) {
+  DensityLines lines;
+  addLines(part, box, partRule(plan.points[0]), partRule(plan.points[1]), lines);
+  return densityKernel()(lines, distanceNodes<Part>(box, partRule(plan.points[2])));
 }
 
 }  // namespace fcl_prob::detail

@@ -23,6 +23,9 @@ constexpr int kRoundedAttempts = 3;
 constexpr std::size_t kMostRoundedFaces = 4000;
 constexpr std::size_t kMostBoxes = 10000;
 
+/// Of the core's own width: it weighs no more than the whole.
+constexpr double kCoreEnough = 1e-10;
+
 /// Of sums over all boxes and faces.
 constexpr double kSumRounding = 2e4 * kEpsilon;
 
@@ -30,7 +33,7 @@ constexpr double kSumRounding = 2e4 * kEpsilon;
 constexpr double kLargestBody = 3e4;
 
 /// Of the mass: by how much a body may be known to grow at the most, to be computed once only.
-constexpr double kSmallGrowth = 1e-11;
+constexpr double kSmallGrowth = 2e-11;
 
 /// A core that weighs so much tells well enough what the whole weighs.
 constexpr double kKnownMass = 0.02;
@@ -67,7 +70,7 @@ CoreMass coreMass(const RoundedPolytope& body, const std::vector<Eigen::Vector3d
   double farthest = 0.0;
   for (const Eigen::Vector3d& v : image.vertices) farthest = std::max(farthest, v.norm());
   const double rounding = kEpsilon * farthest;
-  result.mass = polytopeMass(image, rounding, {0.0, effort.interruption});
+  result.mass = polytopeMass(image, rounding, {kCoreEnough, effort.interruption});
   if (effort.moment) result.moment = polytopeMoment(image, rounding);
   return result;
 }
@@ -125,10 +128,7 @@ class RoundedMassQuery {
     if (!(inner > 0.0)) return {};
     const SolidSum least = sumUpTo(inner);
     const Bounds below = massOf(least);
-    // V(inner) holds c + λ (V(outer) - c), λ = inner/outer, for any c of the core, of which the
-    // mass is at least λ³ exp(-(1 - λ) |c|²/2) that of V(outer), |·|² being convex.
-    const double growth =
-        (outer - inner) / inner * (3.0 + 0.5 * nearSquare(body_, whitening_)) * 1.001;
+    const double growth = (outer - inner) / inner * steepness(below) * 1.001;
     if (growth <= kSmallGrowth) {
       return resultOf(below, least, {below.lower, below.upper * (1.0 + 1.001 * growth)});
     }
@@ -141,6 +141,17 @@ class RoundedMassQuery {
     const double rounding = kSumRounding * (sum.mass + core_.mass.upper);
     return {core_.mass.lower + sum.mass - sum.error - rounding,
             core_.mass.upper + sum.mass + sum.error + rounding + kUnderflow};
+  }
+
+  /// By how much, at the most, the log of the mass of V(r) grows with the log of r, from where that
+  /// mass is known to another radius next to it. V(inner) holds c + λ (V(outer) - c), λ =
+  /// inner/outer, for any c of the core, of which the mass is at least λ³ exp(-(1 - λ) |c|²/2) that
+  /// of V(outer), |·|² being convex. And in r that log is concave (Prékopa 1973): it grows no
+  /// faster than on the way from the core alone.
+  double steepness(const Bounds& mass) const {
+    const double of_scale = 3.0 + 0.5 * nearSquare(body_, whitening_);
+    if (!(core_.mass.lower > kUnderflow)) return of_scale;
+    return std::min(of_scale, std::log(mass.upper / core_.mass.lower) * (1.0 + 1e-9) + 1e-9);
   }
 
   RoundedMass resultOf(const Bounds& of_moment, const SolidSum& sum, const Bounds& mass) const {

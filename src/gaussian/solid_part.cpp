@@ -26,10 +26,6 @@ Eigen::Vector3d combined(const std::array<Eigen::Vector3d, 3>& terms, double a, 
 
 }  // namespace
 
-PartLine Prism::lineAt(double a, double b) const {
-  return {corner + a * first + (triangle ? a * b : b) * second, along, triangle ? a : 1.0};
-}
-
 Prism::Cell::Cell(const Prism& part, const ParameterBox&, const Eigen::Vector3d& normal)
     : part_(part),
       corner_(normal.dot(part.corner) - part.position_error),
@@ -61,10 +57,6 @@ PartBound Prism::Cell::bound(const ComplexBox& box) const {
                        modulus * box.modulus(1) * second_length_ + box.modulus(2) * along_length_;
   return {modulus, corner_ + least + std::min(box.lo(2) * along_, box.hi(2) * along_),
           box.imaginary * box.imaginary * step, reach};
-}
-
-PartLine Wedge::lineAt(double t, double theta) const {
-  return {corner + t * edge, std::cos(theta) * p + std::sin(theta) * q, 1.0};
 }
 
 Wedge::Cell::Cell(const Wedge& part, const ParameterBox& box, const Eigen::Vector3d& normal)
@@ -99,11 +91,6 @@ PartBound Wedge::Cell::bound(const ComplexBox& box) const {
   const double reach = corner_length_ + box.modulus(0) * edge_length_ +
                        2.0 * rho * cosh * (radial_length_ + tangential_length_);
   return {rho, distance, step * step, reach};
-}
-
-PartLine Sector::lineAt(double a, double b) const {
-  const double length = combined(normals, a, b).norm();
-  return {corner, combined(whitened, a, b) / length, a / (length * length * length)};
 }
 
 Sector::Cell::Cell(const Sector& part, const ParameterBox& box, const Eigen::Vector3d& normal)

@@ -19,6 +19,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <variant>
 
 namespace fcl_prob::detail {
@@ -50,7 +51,7 @@ struct PartBound {
   double weight, distance, growth, reach;
 };
 
-/// Where a part is for fixed values of the first two parameters: point + ρ direction.
+/// Where a part is for fixed values a and b of the first two parameters: point + ρ direction.
 struct PartLine {
   Eigen::Vector3d point, direction;
   double weight;  ///< but for the power of ρ
@@ -70,8 +71,19 @@ struct Prism : SolidPart {
   Eigen::Vector3d first, second, along;
   bool triangle = false;
 
+  /// Where b is fixed.
+  struct Row {
+    Eigen::Vector3d point, step, direction;
+    bool triangle;
+
+    PartLine at(double a) const { return {point + a * step, direction, triangle ? a : 1.0}; }
+  };
+
   ParameterBox parameters() const { return {{0.5, 0.5, 0.5 * radius}, {0.5, 0.5, 0.5 * radius}}; }
-  PartLine lineAt(double a, double b) const;
+  Row rowAt(double b) const {
+    if (triangle) return {corner, first + b * second, along, true};
+    return {corner + b * second, first, along, false};
+  }
 
   class Cell {
    public:
@@ -90,10 +102,18 @@ struct Wedge : SolidPart {
   Eigen::Vector3d edge, p, q;  ///< W p, W q
   double angle = 0.0;          ///< θ from 0 to this
 
+  struct Row {
+    Eigen::Vector3d point, step, direction;
+
+    PartLine at(double t) const { return {point + t * step, direction, 1.0}; }
+  };
+
   ParameterBox parameters() const {
     return {{0.5, 0.5 * angle, 0.5 * radius}, {0.5, 0.5 * angle, 0.5 * radius}};
   }
-  PartLine lineAt(double t, double theta) const;
+  Row rowAt(double theta) const {
+    return {corner, edge, std::cos(theta) * p + std::sin(theta) * q};
+  }
 
   class Cell {
    public:
@@ -113,8 +133,20 @@ struct Sector : SolidPart {
   std::array<Eigen::Vector3d, 3> whitened;  ///< W times these
   double stretch = 0.0;                     ///< no less than |W|
 
+  struct Row {
+    Eigen::Vector3d point, normal, normal_step, direction, direction_step;
+
+    PartLine at(double a) const {
+      const double inverse = 1.0 / (normal + a * normal_step).norm();
+      return {point, (direction + a * direction_step) * inverse, a * inverse * inverse * inverse};
+    }
+  };
+
   ParameterBox parameters() const { return {{0.5, 0.5, 0.5 * radius}, {0.5, 0.5, 0.5 * radius}}; }
-  PartLine lineAt(double a, double b) const;
+  Row rowAt(double b) const {
+    return {corner, normals[0], normals[1] + b * normals[2], whitened[0],
+            whitened[1] + b * whitened[2]};
+  }
 
   class Cell {
    public:
