@@ -35,6 +35,9 @@ constexpr double kSideRoundingOfSquare = 8.0 * kEpsilon;
 /// What turning a corner and halving sides round, next to the farthest corner.
 constexpr double kTurnRounding = 8.0 * kEpsilon;
 
+/// Another direction than the nearest point's has to be worth its while.
+constexpr double kMuchLessFlux = 0.5, kHardlyMoreFlux = 1.5;
+
 /// The point of a segment that is nearest to the origin.
 Vector2d nearestOfSide(const Vector2d& from, const Vector2d& to) {
   const Vector2d way = to - from;
@@ -58,12 +61,14 @@ double distanceOfSide(const Vector2d& from, const Vector2d& to) {
 
 class PolygonFlux {
  public:
-  explicit PolygonFlux(double displacement) : displacement_(displacement) {}
+  /// \param displacement  of corners, along two axes
+  explicit PolygonFlux(const Vector2d& displacement) : displacement_(displacement) {}
 
   // With ρ = 4 / x, x the half length h times 1 + d, points of the ellipse are no farther than
   // hρ/2 = 2 / (1 + d) off the side, along it or in imaginary direction: there |F| is at most
   // exp(2 - d²/2) / √2π. Far behind the origin F changes with x alone, and so does the side's h.
-  void addSide(const Vector2d& from, const Vector2d& to) {
+  /// \param moved  how far the side may be, along its normal
+  void addSide(const Vector2d& from, const Vector2d& to, double moved) {
     const double distance = distanceOfSide(from, to);
     if (distance > kFarthestOfSides) {
       error_ += kSideUnderflow;
@@ -74,8 +79,8 @@ class PolygonFlux {
     const double bend = 0.5 * (behind ? std::abs(to.x() - from.x()) : length) * (1.0 + distance);
     if (bend > kLongestHalf) {
       const Vector2d middle = 0.5 * (from + to);
-      addSide(from, middle);
-      addSide(middle, to);
+      addSide(from, middle, moved);
+      addSide(middle, to, moved);
       return;
     }
     const double density = std::exp(-0.5 * distance * distance);
@@ -84,7 +89,7 @@ class PolygonFlux {
                                   GaussRule::kFewest, GaussRule::kMost);
     error_ += 7.0 * std::abs(to.x() - from.x()) * density * std::exp(-2.0 * points * log_ellipse);
     addRule(from, to, GaussRule::ofSize(points));
-    addLayer(behind ? kFarthestOfSides : distance, length);
+    addLayer(behind ? kFarthestOfSides : distance, length, moved);
   }
 
   Bounds mass() const {
@@ -109,14 +114,14 @@ class PolygonFlux {
 
   /// What a side at that distance or more may sweep when its corners move, and what sums are
   /// rounded by.
-  void addLayer(double distance, double length) {
-    const double near = std::max(0.0, distance - displacement_);
-    error_ += kInverseSqrtTwoPi * kInverseSqrtTwoPi * std::exp(-0.5 * near * near) * displacement_ *
-                  2.2 * (length + 2.0 * displacement_) +
+  void addLayer(double distance, double length, double moved) {
+    const double near = std::max(0.0, distance - displacement_.norm());
+    const double area = 2.2 * (length * moved + 2.0 * displacement_.x() * displacement_.y());
+    error_ += kInverseSqrtTwoPi * kInverseSqrtTwoPi * std::exp(-0.5 * near * near) * area +
               kEpsilon * std::abs(sum_);
   }
 
-  double displacement_;
+  Vector2d displacement_;
   double sum_ = 0.0, error_ = 0.0;
 };
 
@@ -130,7 +135,7 @@ bool holdsOrigin(const Polygon2& corners) {
 }
 
 /// Towards the nearest point or, from within, the first corner.
-Vector2d fieldDirection(const Polygon2& corners) {
+Vector2d nearestDirection(const Polygon2& corners) {
   Vector2d nearest = corners.front();
   if (!holdsOrigin(corners)) {
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -142,22 +147,80 @@ Vector2d fieldDirection(const Polygon2& corners) {
   return length > 0.0 ? Vector2d(nearest / length) : Vector2d(Vector2d::UnitY());
 }
 
+Vector2d longestSide(const Polygon2& corners) {
+  Vector2d longest = Vector2d::Zero();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector2d side = corners[(k + 1) % corners.size()] - corners[k];
+    if (side.squaredNorm() > longest.squaredNorm()) longest = side;
+  }
+  return longest.stableNormalized();
+}
+
+Vector2d turnedTo(const Vector2d& b, const Vector2d& p) {
+  return {b.y() * p.x() - b.x() * p.y(), b.dot(p)};
+}
+
+/// About how much goes through the sides, before it cancels.
+double grossFlux(const Polygon2& corners, const Vector2d& b) {
+  double sum = 0.0;
+  Vector2d from = turnedTo(b, corners.back());
+  for (const Vector2d& corner : corners) {
+    const Vector2d to = turnedTo(b, corner);
+    const double distance = distanceOfSide(from, to);
+    sum += std::abs(to.x() - from.x()) * std::exp(-0.5 * distance * distance);
+    from = to;
+  }
+  return sum;
+}
+
+/// Towards the nearest point or, of thin polygons, along them: little goes through their sides.
+/// Best are the axes, which no corner has to be turned for.
+Vector2d fieldDirection(const Polygon2& corners) {
+  Vector2d best = nearestDirection(corners);
+  double least = grossFlux(corners, best);
+  const auto prefer = [&](const Vector2d& b, double factor) {
+    const double flux = grossFlux(corners, b);
+    if (!(flux < factor * least)) return;
+    least = flux;
+    best = b;
+  };
+  const Vector2d along = longestSide(corners);
+  prefer(along, kMuchLessFlux);
+  prefer(-along, kMuchLessFlux);
+  for (const Vector2d& axis : {Vector2d(1.0, 0.0), Vector2d(0.0, 1.0)}) {
+    prefer(axis, kHardlyMoreFlux);
+    prefer(-axis, kHardlyMoreFlux);
+  }
+  return best;
+}
+
+Vector2d reachOf(const Polygon2& corners) {
+  Vector2d reach = Vector2d::Zero();
+  for (const Vector2d& p : corners) reach = reach.cwiseMax(p.cwiseAbs());
+  return reach;
+}
+
+/// How far turned corners and halves of sides are from where they are, along each axis.
+Vector2d turnRounding(const Polygon2& corners, const Vector2d& b) {
+  const Vector2d reach = reachOf(corners);
+  const bool is_axis = b.x() == 0.0 || b.y() == 0.0;
+  return kTurnRounding * (is_axis ? reach : Vector2d(Vector2d::Constant(reach.norm())));
+}
+
 }  // namespace
 
-Bounds polygonMass(const Polygon2& corners, double displacement) {
+Bounds polygonMass(const Polygon2& corners, const Vector2d& displacement) {
   if (corners.size() < 3) return {0.0, 0.0};
   const Vector2d b = fieldDirection(corners);
-  double reach = 1.0;
-  for (const Vector2d& p : corners) reach = std::max(reach, p.norm());
-  const auto turned = [&](const Vector2d& p) {
-    return Vector2d(b.y() * p.x() - b.x() * p.y(), b.dot(p));
-  };
-  PolygonFlux flux(displacement + kTurnRounding * reach);
-  Vector2d from = turned(corners.back());
-  for (const Vector2d& corner : corners) {
-    const Vector2d to = turned(corner);
-    flux.addSide(from, to);
-    from = to;
+  const Vector2d moved = displacement + turnRounding(corners, b);
+  PolygonFlux flux(moved);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector2d &from = corners[k], &to = corners[(k + 1) % corners.size()];
+    const Vector2d side = (to - from).cwiseAbs();
+    const double length = side.norm();
+    const double along_normal =
+        length > 0.0 ? (side.y() * moved.x() + side.x() * moved.y()) / length : moved.norm();
+    flux.addSide(turnedTo(b, from), turnedTo(b, to), along_normal);
   }
   return flux.mass();
 }

@@ -33,7 +33,7 @@ constexpr double kPoorRelativeWidth = 9e-11;
 constexpr double kSliverRelativeWidth = 1e-3;
 constexpr int kMaxPieces = 512;
 constexpr int kMaxExactPieces = 4096;
-constexpr double kMostTetrahedra = 6e4;
+constexpr double kMostTetrahedra = 4e5;
 
 // Planes of a body that are tried for its narrowest side.
 constexpr std::size_t kMostPlanes = 1024;

@@ -15,6 +15,7 @@
 #include "narrowphase/ellipsoid_polytope.h"
 #include "narrowphase/layered_mass.h"
 #include "narrowphase/pair_bounds.h"
+#include "narrowphase/polytope_section.h"
 #include "narrowphase/rounded_pair.h"
 #include "narrowphase/section_mass.h"
 
@@ -74,6 +75,10 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
     return known.width() <= width * known.upper;
   };
   if (obstacle->isPolytope()) {
+    if (frame.rank == 1 || frame.rank == 2) {
+      known = polytopeSectionMass(a, pose_a, b, pose_b, displacement, interruption);
+      if (known.width() <= std::max(kRoundingWidth * known.upper, kNothing)) return known;
+    }
     if (is_flat) narrowByLayers(kRoundingWidth, kMostSections);
     return agreed(known, pair.mass(*obstacle, {0.0, interruption}));
   }

@@ -200,7 +200,7 @@ Bounds SectionPolygons::massOf(const Polygon2& corners, double share) const {
     image.push_back(whitened(p, share));
     reach = std::max(reach, image.back().norm());
   }
-  return polygonMass(image, kEpsilon * reach);
+  return polygonMass(image, Vector2d::Constant(kEpsilon * reach));
 }
 
 }  // namespace fcl_prob::detail

@@ -50,7 +50,8 @@ TEST_CASE("masses of rectangles with divided sides against products of tails") {
     const HighPrecision truth =
         trueIntervalMass(lower.x(), upper.x()) * trueIntervalMass(lower.y(), upper.y());
     if (truth < 1e-280) continue;
-    const Bounds mass = detail::polygonMass(rectangle(lower, upper, 1 + k % 5, random), 0.0);
+    const Bounds mass =
+        detail::polygonMass(rectangle(lower, upper, 1 + k % 5, random), Vector2d::Zero());
     const double about = truth.convert_to<double>();
     CAPTURE(lower.transpose(), upper.transpose(), mass.lower, mass.upper, about);
     REQUIRE(HighPrecision(mass.lower) <= truth);
@@ -90,10 +91,12 @@ TEST_CASE("a polygon's mass holds those of the polygons next to it") {
   std::mt19937 random(8);
   const double displacement = 1e-6;
   const Vector2d lower(1.0, -0.5), upper(2.0, 0.7);
-  const Bounds mass = detail::polygonMass(rectangle(lower, upper, 3, random), displacement);
+  const Bounds mass =
+      detail::polygonMass(rectangle(lower, upper, 3, random), Vector2d::Constant(displacement));
   for (const double moved : {-displacement, displacement}) {
     const Vector2d by(moved / std::sqrt(2.0), moved / std::sqrt(2.0));
-    const Bounds other = detail::polygonMass(rectangle(lower - by, upper + by, 1, random), 0.0);
+    const Bounds other =
+        detail::polygonMass(rectangle(lower - by, upper + by, 1, random), Vector2d::Zero());
     CHECK(mass.lower <= other.lower);
     CHECK(mass.upper >= other.upper);
   }
