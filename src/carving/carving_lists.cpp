@@ -14,6 +14,9 @@ namespace {
 // A node of the mesh's tree is opened in a box if it is this many times larger.
 constexpr double kOpenRatio = 2.0;
 
+// A piece is looked at more closely than by the box around it if that is so many times larger.
+constexpr double kBesideRatio = 6.0;
+
 }  // namespace
 
 void CellCarver::divideBox(CarvedCell&& cell) {
@@ -56,7 +59,7 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     if (obstacles_.reachOf(member).isClearOf(lowest_[member], node)) continue;
     const PatchedMesh::Node& in_tree = pieces.nodes()[node];
     const bool is_small = !to_leaves && pieces.box(node).size() < kOpenRatio * size;
-    const bool is_large_piece = !to_leaves && !is_small && in_tree.piece >= 0;
+    const bool is_large_piece = in_tree.piece >= 0 && pieces.box(node).size() > kBesideRatio * size;
     if (is_large_piece && isBeside(box, {member, in_tree.piece})) continue;
     if (is_small || (in_tree.piece >= 0 && takesPiece(box, member, in_tree.piece))) {
       gathered_.push_back({member, node});

@@ -21,6 +21,11 @@ constexpr double kFlatShare = 4 * 5.96e-8;
 // Where more triangles than these share an edge, not all pairs of them are looked at.
 constexpr std::size_t kMostAtEdge = 6;
 
+// Borders of which lengths differ by less than one part in so many are about as long, and so of
+// their directions.
+constexpr double kSameLength = 1000.0;
+constexpr double kSameDirection = 100.0;
+
 class CoplanarSearch {
  public:
   CoplanarSearch(const TriangleMesh& mesh, const std::vector<int>& welded)
@@ -59,7 +64,7 @@ class CoplanarSearch {
   struct Pair {
     int from;
     int to;
-    double length;  ///< of the edge
+    Eigen::Vector3d edge;
   };
 
   /// Triangles of a region, and the polygon of more than one.
@@ -73,6 +78,8 @@ class CoplanarSearch {
     int one;
     int other;
     double length;
+    double along;  ///< the first edge of the region, as far as it goes there
+    std::pair<long, long> rank;
   };
 
   struct Side {
@@ -88,17 +95,23 @@ class CoplanarSearch {
   int vertex(int t, int k) const { return welded_[mesh_.triangles[t][k]]; }
   const Eigen::Vector3d& at(int t, int k) const { return mesh_.vertices[vertex(t, k)]; }
 
-  bool isInPlaneOf(int plane, int t) const {
-    const Eigen::Vector3d& n = normals_[plane];
+  struct Plane {
+    Eigen::Vector3d n;
+    double level;
+  };
+
+  Plane planeOf(int t) const { return {normals_[t], normals_[t].dot(at(t, 0))}; }
+
+  bool isIn(const Plane& plane, int t) const {
     for (int k = 0; k < 3; ++k) {
-      if (!(std::fabs(n.dot(at(t, k) - at(plane, 0))) <= tolerance_)) return false;
+      if (!(std::fabs(plane.n.dot(at(t, k)) - plane.level) <= tolerance_)) return false;
     }
     return true;
   }
 
   bool arePair(int s, int t) const {
     const bool first = areas_[s] >= areas_[t];
-    return areas_[first ? s : t] > 0.0 && (first ? isInPlaneOf(s, t) : isInPlaneOf(t, s));
+    return areas_[first ? s : t] > 0.0 && (first ? isIn(planeOf(s), t) : isIn(planeOf(t), s));
   }
 
   void findPairs() {
@@ -127,9 +140,9 @@ class CoplanarSearch {
 
   void addPair(const Side& one, const Side& other) {
     if (one.triangle == other.triangle || !arePair(one.triangle, other.triangle)) return;
-    const double length = (mesh_.vertices[one.high] - mesh_.vertices[one.low]).norm();
-    pairs_.push_back({one.triangle, other.triangle, length});
-    pairs_.push_back({other.triangle, one.triangle, length});
+    const Eigen::Vector3d edge = mesh_.vertices[one.high] - mesh_.vertices[one.low];
+    pairs_.push_back({one.triangle, other.triangle, edge});
+    pairs_.push_back({other.triangle, one.triangle, edge});
   }
 
   template <typename Function>
@@ -137,18 +150,45 @@ class CoplanarSearch {
     for (int i = first_pair_[t]; i < first_pair_[t + 1]; ++i) function(pairs_[i]);
   }
 
-  // All that hang together in the plane of a triangle.
+  // All that hang together in the plane of a triangle, or in that of all that did so far, which is
+  // known better the larger they are.
   std::vector<int> regionAround(int seed) {
+    std::vector<int> region = grown(seed, planeOf(seed));
+    for (std::size_t before = 1; region.size() > before + before / 4;) {
+      before = region.size();
+      for (const int t : region) region_of_[t] = -1;
+      region = grown(seed, planeAmid(region));
+    }
+    return region;
+  }
+
+  std::vector<int> grown(int seed, const Plane& plane) {
     std::vector<int> region{seed};
     region_of_[seed] = seed;
     for (std::size_t i = 0; i < region.size(); ++i) {
       visitPairs(region[i], [&](const Pair& pair) {
-        if (region_of_[pair.to] >= 0 || !isInPlaneOf(seed, pair.to)) return;
+        if (region_of_[pair.to] >= 0 || !isIn(plane, pair.to)) return;
         region_of_[pair.to] = seed;
         region.push_back(pair.to);
       });
     }
     return region;
+  }
+
+  // The mean of those of triangles, by their areas; they walk either way round.
+  Plane planeAmid(const std::vector<int>& region) const {
+    const Eigen::Vector3d& first = normals_[region[0]];
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    for (const int t : region)
+      n += (normals_[t].dot(first) < 0.0 ? -areas_[t] : areas_[t]) * normals_[t];
+    n.normalize();
+    double level = 0.0;
+    double area = 0.0;
+    for (const int t : region) {
+      level += areas_[t] * n.dot(at(t, 0) + at(t, 1) + at(t, 2)) / 3;
+      area += areas_[t];
+    }
+    return {n, level / area};
   }
 
   void divide(const std::vector<int>& region) {
@@ -199,12 +239,19 @@ class CoplanarSearch {
     return true;
   }
 
+  // Longest first, and of those that are about as long first those in one direction, so that what
+  // is regular stays so.
   std::vector<Border> bordersIn(const std::vector<int>& region) const {
+    const Eigen::Vector3d axis = (at(region[0], 1) - at(region[0], 0)).normalized();
     std::vector<Border> borders;
     for (const int t : region) {
       visitPairs(t, [&](const Pair& pair) {
         if (region_of_[pair.to] != region_of_[t] || group_of_[t] >= group_of_[pair.to]) return;
-        borders.push_back({group_of_[t], group_of_[pair.to], pair.length});
+        borders.push_back({group_of_[t],
+                           group_of_[pair.to],
+                           pair.edge.norm(),
+                           std::fabs(axis.dot(pair.edge)),
+                           {}});
       });
     }
     std::stable_sort(borders.begin(), borders.end(), [](const Border& x, const Border& y) {
@@ -215,12 +262,17 @@ class CoplanarSearch {
       if (!joined.empty() && joined.back().one == border.one &&
           joined.back().other == border.other) {
         joined.back().length += border.length;
+        joined.back().along += border.along;
       } else {
         joined.push_back(border);
       }
     }
+    for (Border& border : joined) {
+      border.rank = {std::lround(kSameLength * std::log(std::max(border.length, 1e-300))),
+                     std::lround(kSameDirection * border.along / std::max(border.length, 1e-300))};
+    }
     std::stable_sort(joined.begin(), joined.end(),
-                     [](const Border& x, const Border& y) { return x.length > y.length; });
+                     [](const Border& x, const Border& y) { return x.rank > y.rank; });
     return joined;
   }
 

@@ -226,15 +226,19 @@ TEST_CASE("what lies in one plane is few polygons", "[coplanar]") {
   CHECK(count(gridMesh(1.0, 0.3, 100, 1)) == 1);
   CHECK(count(gridMesh(1.0, 1.0, 40, 30)) == 1);
   CHECK(count(placed(gridMesh(1.0, 1.0, 40, 30), {0.6, 0.0, 0.8}, 0.7, {3, 2, 1})) == 1);
+  // Rounded to single precision.
+  TriangleMesh rounded = placed(gridMesh(1.0, 1.0, 40, 30), {0.6, 0.0, 0.8}, 0.7, {0.3, 0.2, 0.1});
+  for (Eigen::Vector3d& v : rounded.vertices) v = v.cast<float>().cast<double>();
+  CHECK(count(rounded) == 1);
   CHECK(count(boxMesh({1, 2, 3})) == 6);
   CHECK(count(tableMesh(8)) == 5);
   // A hole amid 100 squares, a corner without one.
   TriangleMesh holed = gridMesh(1.0, 1.0, 10, 10);
   holed.triangles.erase(holed.triangles.begin() + 90, holed.triangles.begin() + 92);
-  CHECK(count(holed) <= 14);
+  CHECK(count(holed) <= 8);
   TriangleMesh notched = gridMesh(1.0, 1.0, 10, 10);
   notched.triangles.erase(notched.triangles.begin(), notched.triangles.begin() + 2);
-  CHECK(count(notched) <= 12);
+  CHECK(count(notched) <= 6);
   // Seen from both sides.
   TriangleMesh both = gridMesh(1.0, 0.3, 10, 3);
   both = joined(both, fcl_prob_test::reversed(both));
