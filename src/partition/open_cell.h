@@ -38,10 +38,11 @@ struct OpenCell {
   double gap() const { return upper - lower; }
 
   /// Bound on the standard deviation of one sample of the open mass: it is drawn from a set of mass
-  /// `drawn` and is 0 or that mass, with a mean of at most the gap.
+  /// `drawn` and is 0 or that mass, with a mean of at most the gap. Root by root, since products of
+  /// small masses vanish.
   double samplingDeviation() const {
     const double mean = std::clamp(gap(), 0.0, 0.5 * drawn);
-    return std::sqrt(mean * (drawn - mean));
+    return std::sqrt(mean) * std::sqrt(drawn - mean);
   }
   std::size_t memory() const { return sizeof(OpenCell) + front.capacity() * sizeof(FrontPair); }
 };
