@@ -17,8 +17,9 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// By what share the mass may be larger than that of the faces found.
-constexpr double kMostGrowth = 1e-6;
+/// By what share the body may reach farther out than the faces found, and its mass be larger than
+/// theirs.
+constexpr double kMostBeyond = 1e-2, kMostGrowth = 0.5;
 
 /// What may be between the mass of the C-obstacle and that of the faces found: a share of it, and
 /// what they go around once more or less.
@@ -35,9 +36,11 @@ LongVector3 middleOf(const LongPolytope& body) {
 class PolytopePair {
  public:
   PolytopePair(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
-               const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement)
+               const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
+               double inset)
       : a_(a),
         b_(b),
+        inset_(inset),
         frame_(pairFrame(a, pose_a, b, pose_b, displacement)),
         pair_(worldPair(frame_, a, pose_a, b, pose_b, displacement)) {
     whitening_ = longWhitening(displacement);
@@ -108,7 +111,7 @@ class PolytopePair {
   }
 
   /// Of a corner in the whitened frame, along each axis.
-  Eigen::Vector3d rounding() const { return whitenedLength(pair_.rounding); }
+  Eigen::Vector3d rounding() const { return whitenedLength(pair_.rounding + inset_); }
 
   /// By how much a length can change each whitened coordinate.
   Eigen::Vector3d whitenedLength(double metres) const {
@@ -128,8 +131,8 @@ class PolytopePair {
     const double distance = static_cast<double>(middle.norm());
     const double slope =
         distance * std::min(0.5 * distance, static_cast<double>(farthest) * (1.0 + 2.0 * *beyond));
-    const double share = 1.01 * *beyond * (3.0 + slope);
-    if (!(share < kMostGrowth)) return std::nullopt;
+    const double share = 1.01 * std::expm1(*beyond * (3.0 + slope));
+    if (!(*beyond < kMostBeyond && share < kMostGrowth)) return std::nullopt;
     return Growth{share, reach.foldMass(*beyond)};
   }
 
@@ -140,6 +143,7 @@ class PolytopePair {
   }
 
   const ConvexBody &a_, &b_;
+  double inset_;
   PairFrame frame_;
   WorldPair pair_;
   LongMatrix3 whitening_;
@@ -150,8 +154,10 @@ class PolytopePair {
 std::optional<PairMass> polytopePairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
                                          const ConvexBody& b, const fcl::Transform3d& pose_b,
                                          const GaussianDisplacement& displacement,
-                                         bool with_gradient, const Interruption& interruption) {
-  return PolytopePair(a, pose_a, b, pose_b, displacement).answer(with_gradient, interruption);
+                                         bool with_gradient, const Interruption& interruption,
+                                         double inset) {
+  return PolytopePair(a, pose_a, b, pose_b, displacement, inset)
+      .answer(with_gradient, interruption);
 }
 
 }  // namespace fcl_prob::detail

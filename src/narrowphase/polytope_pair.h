@@ -18,10 +18,12 @@ namespace fcl_prob::detail {
 /// of the faces found is measured: relative width 1e-10 or less from P = 1 to 1e-300 and for sizes
 /// from 1e-3 to 1e3 deviations. Nothing, if the body is flat or its faces are not all seen from
 /// its middle.
+/// \param inset  metres: by so much the bodies together may stay behind the polytopes
 /// \throws as pairFrame() does
 std::optional<PairMass> polytopePairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
                                          const ConvexBody& b, const fcl::Transform3d& pose_b,
                                          const GaussianDisplacement& displacement,
-                                         bool with_gradient, const Interruption& interruption);
+                                         bool with_gradient, const Interruption& interruption,
+                                         double inset = 0.0);
 
 }  // namespace fcl_prob::detail

@@ -14,6 +14,9 @@ namespace {
 /// A share of a body's height that is worth no search for another normal.
 constexpr long double kGoodShare = 1e-12L;
 
+/// What is farther out weighs less than the least double.
+constexpr long double kOutermost = 42.0L;
+
 /// (2π)^(-3/2), rounded up.
 constexpr double kLargestDensity = 0.0635;
 
@@ -29,6 +32,13 @@ long double distanceToSegment(const LongVector3& from, const LongVector3& to) {
   const long double square = along.squaredNorm();
   const long double t = square > 0.0L ? std::clamp(-from.dot(along) / square, 0.0L, 1.0L) : 0.0L;
   return (from + t * along).norm();
+}
+
+/// The sum of the sizes of what a determinant is the sum of.
+long double permanent(const LongMatrix3& m) {
+  return m(0, 0) * (m(1, 1) * m(2, 2) + m(1, 2) * m(2, 1)) +
+         m(0, 1) * (m(1, 0) * m(2, 2) + m(1, 2) * m(2, 0)) +
+         m(0, 2) * (m(1, 0) * m(2, 1) + m(1, 1) * m(2, 0));
 }
 
 }  // namespace
@@ -87,15 +97,15 @@ double ShellReach::foldMass(double share) const {
 
 /// In a direction in which the triangle is at x from c, V ends at (1 + share) x or before, and the
 /// shell begins at x / (1 + share) or later: so it is (1 + share)³ - (1 + share)⁻³ of the
-/// tetrahedron, and no farther from the triangle than the share of that distance.
+/// tetrahedron, and no farther from the triangle than the share of that distance. Of a long
+/// triangle only what is within reach counts, of which the base is no larger than its width times
+/// twice that.
 double ShellReach::foldMass(const Triangle& triangle, double share) const {
   const auto& [p, q, r] = triangle;
   const LongVector3 first = q - p, second = r - p;
   const long double a = first.norm(), b = second.norm(), c = p.norm(), moved = rounding_.norm();
   const long double volume = first.cross(second).dot(p);
-  const long double rounding =
-      8.0L * moved * ((a + moved) * (b + moved) + (a + b + moved) * (c + moved)) +
-      32.0L * static_cast<long double>(kLongEpsilon) * a * b * c;
+  const long double rounding = roundingOfVolume(triangle);
   if (volume > rounding) return 0.0;
   const long double distance = std::min({distanceToSegment(p + middle_, q + middle_),
                                          distanceToSegment(p + middle_, r + middle_),
@@ -105,8 +115,21 @@ double ShellReach::foldMass(const Triangle& triangle, double share) const {
   const long double width = longest > 0.0L ? first.cross(second).norm() / longest : 0.0L;
   const long double apart = width + 2.0L * moved + share * (c + longest + moved);
   const double near = static_cast<double>(std::max(0.0L, distance - apart)) * (1.0 - 1e-12);
-  return 1.01 * kLargestDensity * share * static_cast<double>(std::abs(volume) + rounding) *
-         std::exp(-0.5 * near * near);
+  const long double reach = (kOutermost + middle_.norm()) * (1.0L + share) + 2.0L * moved;
+  const long double most =
+      std::min(std::abs(volume) + rounding, 4.0L * reach * reach * (width + 2.0L * moved));
+  return 1.01 * kLargestDensity * share * static_cast<double>(most) * std::exp(-0.5 * near * near);
+}
+
+/// Along each axis sides are rounded by twice what points are. A determinant is linear in every
+/// entry, whatever the units of the axes: deviations far apart do not count for each other.
+long double ShellReach::roundingOfVolume(const Triangle& triangle) const {
+  const auto& [p, q, r] = triangle;
+  LongMatrix3 sizes, moved;
+  sizes << (q - p).cwiseAbs(), (r - p).cwiseAbs(), p.cwiseAbs();
+  moved = sizes + 2.0L * rounding_ * LongVector3::Ones().transpose();
+  const long double most = permanent(moved);
+  return (most - permanent(sizes)) + 32.0L * static_cast<long double>(kLongEpsilon) * most;
 }
 
 }  // namespace fcl_prob::detail

@@ -47,6 +47,7 @@ class ShellReach {
 
   long double shareAlong(std::size_t f, std::size_t g) const;
   double foldMass(const Triangle& triangle, double share) const;
+  long double roundingOfVolume(const Triangle& triangle) const;
   LongVector3 fromMiddle(int vertex) const;
 
   const LongPolytope& surface_;

@@ -65,8 +65,11 @@ std::optional<SummedFaces> facesOfMeshes(const PairFrame& frame, const ConvexBod
                                          const ConvexBody& b, const Interruption& interruption) {
   const ConvexMesh& mesh_b = b.set().outerMesh();
   ConvexMesh reflected;
-  // The inverse, not the transpose: the matrices need not be rotations to the last bit.
-  reflect(a.set().outerMesh(), frame.rotation_b.inverse() * frame.rotation_a, reflected);
+  // The inverse, not the transpose: the matrices need not be rotations to the last bit. Rounding
+  // would tell parallel faces apart.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (!frame.same_rotation) turn = frame.rotation_b.inverse() * frame.rotation_a;
+  reflect(a.set().outerMesh(), turn, reflected);
   MinkowskiSum sum;
   SummedFaces result;
   if (!sum.compute(mesh_b, reflected, result.faces, interruption)) return std::nullopt;
