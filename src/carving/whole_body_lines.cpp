@@ -77,6 +77,16 @@ void WholeBodyLines::addMember(const WholeBody& whole, std::size_t index, const 
   is_exact_ = is_exact_ && !part.nearly->pieces.empty();
 }
 
+double WholeBodyLines::rounding() const {
+  double most = 0.0;
+  for (const Member& member : members_) {
+    for (int f = 0; f < member.fan.faceCount(); ++f) {
+      most = std::max(most, member.fan.faceMargin(f));
+    }
+  }
+  return most;
+}
+
 WholeBodyLines::Met WholeBodyLines::everything() {
   Met met{{{-kInfinity, kInfinity}}, {}};
   for (Member& member : members_) met.visits.push_back({{&member, 0}, met.spans.front()});

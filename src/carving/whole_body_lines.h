@@ -57,6 +57,9 @@ class WholeBodyLines {
   /// convex mesh does not hold.
   bool isExact() const { return is_exact_; }
 
+  /// By so many deviations, about, rounding moves the ends of what lines have of members.
+  double rounding() const;
+
   /// A member, and a node of the other mesh.
   struct Place {
     Member* member;

@@ -178,6 +178,10 @@ bool carveInTime(const PartitionObject& a, const PartitionObject& b,
   return reached;
 }
 
+// Of the relative tolerance, by how many deviations rounding may move the ends of lines, whose
+// errors it is no part of.
+constexpr double kMostRoundingOfLines = 0.03;
+
 // The estimate by lines, where an object can be taken whole and nothing but P is asked for.
 bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
                      const GaussianDisplacement& displacement, const QueryFrame& frame,
@@ -187,6 +191,7 @@ bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
   const auto lines =
       WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
   if (!lines || !lines->isExact()) return false;
+  if (lines->rounding() > kMostRoundingOfLines * request.relative_tolerance) return false;
   const EngineLimits limits(request, result.statistics);
   const auto estimate = lineEstimate(
       *lines, request, [&limits](const Bounds& now) { return limits.interruption(now); });
