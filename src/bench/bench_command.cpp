@@ -89,7 +89,8 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
       "--only", arguments->options.only,
       "Only scenes whose name contains this; table2: also of a scene, a comma and a row");
   command.add_option("--task", arguments->options.task,
-                     "parts: only tasks whose name contains this (estimate, decision, ...)");
+                     "parts: only tasks whose name contains this (estimate, decision, ...); "
+                     "stability: only methods");
   command.add_option("--seed", arguments->options.seed, "Fixes all samples")
       ->check(CLI::NonNegativeNumber);
   command

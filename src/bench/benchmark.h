@@ -15,7 +15,7 @@ namespace fcl_prob::cli {
 struct BenchOptions {
   std::string models_folder;
   std::string only;  ///< run only scenes whose name contains this
-  std::string task;  ///< parts: only tasks whose name contains this
+  std::string task;  ///< parts, stability: only tasks, or methods, whose name contains this
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
   std::size_t cases = 50;    ///< stability: scenes of each family
