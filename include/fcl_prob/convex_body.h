@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fcl_prob/kdop26.h"
@@ -57,6 +58,8 @@ class ConvexBody {
 
   /// The convex hull of points. \throws InvalidGeometry if there are none, or one is not finite.
   explicit ConvexBody(const std::vector<Eigen::Vector3d>& points);
+
+  explicit ConvexBody(std::shared_ptr<const detail::ConvexSet> set) : set_(std::move(set)) {}
 
   /// Whether the body has flat sides only.
   bool isPolytope() const;

@@ -121,7 +121,11 @@ ConvexMesh makeConvexMesh(const ConvexPolytope& polytope) {
 }
 
 ConvexMesh makeConvexMesh(const Points& points) {
-  ConvexMesh mesh = makeConvexMesh(convexHull(points));
+  return makeConvexMesh(convexHull(points), points);
+}
+
+ConvexMesh makeConvexMesh(const ConvexPolytope& hull, const Points& points) {
+  ConvexMesh mesh = makeConvexMesh(hull);
   mesh.slack = std::max(slackOf(mesh, points), hullSlack(mesh, points));
   return mesh;
 }

@@ -46,6 +46,9 @@ ConvexMesh makeConvexMesh(const ConvexPolytope& polytope);
 /// \throws InvalidGeometry if there are none, or one is not finite.
 ConvexMesh makeConvexMesh(const std::vector<Eigen::Vector3d>& points);
 
+/// The same of a hull that is known.
+ConvexMesh makeConvexMesh(const ConvexPolytope& hull, const std::vector<Eigen::Vector3d>& points);
+
 /// A triangle, which may be degenerate to a segment or a point.
 ConvexMesh makeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c);

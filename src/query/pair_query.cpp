@@ -11,6 +11,7 @@
 #include "partition/partition.h"
 #include "partition/without_contact.h"
 #include "query/call_budget.h"
+#include "query/convex_meshes.h"
 #include "query/exact_mass.h"
 #include "query/mixture_query.h"
 #include "query/octree_cells.h"
@@ -24,6 +25,15 @@ namespace {
 /// Whether fcl::collide itself is asked at random displacements.
 bool samples(const QueryPlan& plan) {
   return plan.route == Route::monte_carlo || plan.route == Route::rare_event;
+}
+
+/// Cells that are all settled may be so by planes that are widened by more than the tolerance.
+bool leavesTooMuch(const ProbabilityResult& result, const ProbabilityRequest& request) {
+  if (result.status == ProbabilityStatus::exact) {
+    return *result.upper - *result.lower > request.toleranceAt(*result.upper);
+  }
+  return result.status == ProbabilityStatus::cell_limit ||
+         result.status == ProbabilityStatus::resolution_limit;
 }
 
 /// Both are bounds of the same probability. An estimate becomes the middle of what is left.
@@ -150,20 +160,21 @@ ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& 
   return partitionProbability(a, b, displacement, withTimeLeft(request, budget));
 }
 
-/// Far out in the tail a curved surface takes more cells than the limit; of two convex shapes it
-/// takes none.
+/// Far out in the tail a curved surface takes more cells than the limit, and where deviations are
+/// far below the size cells are widened by more than they should; of two convex shapes no cell is
+/// needed.
 ProbabilityResult PairQuery::partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
                                               const GaussianDisplacement& displacement,
                                               const ProbabilityRequest& request) const {
   const CallBudget budget(request);
   ProbabilityResult result = partition(plan, pair, displacement, request);
-  const bool unresolved = result.status == ProbabilityStatus::cell_limit ||
-                          result.status == ProbabilityStatus::resolution_limit;
-  if (!unresolved || !plan.exact_if_unresolved) return result;
-  const ProbabilityResult exact =
-      exactMass(pair, displacement, request.time_limit ? withTimeLeft(request, budget) : request);
-  if (!isAnswered(exact.status) || (request.gradient && !exact.gradient)) return result;
-  takeCertified(exact, result);
+  if (!leavesTooMuch(result, request)) return result;
+  const ProbabilityRequest rest = request.time_limit ? withTimeLeft(request, budget) : request;
+  std::optional<ProbabilityResult> exact;
+  if (plan.exact_if_unresolved) exact = exactMass(pair, displacement, rest);
+  if (plan.convex_meshes_if_unresolved) exact = convexMeshesMass(pair, displacement, rest);
+  if (!exact || !isAnswered(exact->status) || (request.gradient && !exact->gradient)) return result;
+  takeCertified(*exact, result);
   result.plan.push_back("the cells left too much open: the exact mass of the C-obstacle instead");
   return result;
 }

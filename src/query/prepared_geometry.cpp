@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "cobstacle/convex_set.h"
 #include "cobstacle/support_shape.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
@@ -75,6 +76,18 @@ const ConvexBody& PreparedGeometry::hull() const {
         std::vector<Eigen::Vector3d>(mesh.vertices, mesh.vertices + mesh.vertex_count));
   });
   return *hull_;
+}
+
+const ConvexSolid* PreparedGeometry::convexSolid() const {
+  std::call_once(convex_solid_once_, [this] {
+    if (kindOf(*geometry_) == GeometryKind::mesh) {
+      convex_solid_ = convexSolidOf(meshView(*geometry_), name_);
+    } else if (isConvex() && rootBody().isPolytope() &&
+               rootBody().set().outerMesh().faces.size() >= 4) {
+      convex_solid_ = std::make_unique<const ConvexSolid>(ConvexSolid{rootBody(), 0.0});
+    }
+  });
+  return convex_solid_.get();
 }
 
 Eigen::AlignedBox3d PreparedGeometry::localBox() const {

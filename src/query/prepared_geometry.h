@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cobstacle/convex_solid.h"
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/probability_request.h"
 #include "geometry/closed_mesh.h"
@@ -43,6 +44,9 @@ class PreparedGeometry {
   /// Whether it is a bounded convex shape, which rootBody() then is.
   bool isConvex() const;
 
+  /// Itself, of a polytope with an inside, or the polytope that a closed convex mesh is; else null.
+  const ConvexSolid* convexSolid() const;
+
   /// A box (frame of the geometry, metres) that contains all of it, up to the rounding of its own
   /// coordinates: infinite for what is unbounded, empty for an octree without occupied cells. It
   /// does not rest on `aabb_local`, which FCL computes when it is told to.
@@ -61,6 +65,8 @@ class PreparedGeometry {
   mutable std::unique_ptr<const ConvexBody> root_body_;
   mutable std::once_flag hull_once_;
   mutable std::unique_ptr<const ConvexBody> hull_;
+  mutable std::once_flag convex_solid_once_;
+  mutable std::unique_ptr<const ConvexSolid> convex_solid_;
   mutable std::once_flag solid_once_;
   mutable std::unique_ptr<const ClosedMesh> solid_;
 };

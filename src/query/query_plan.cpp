@@ -30,6 +30,9 @@ struct QueryPair {
   }
 
   bool areFlat() const { return isPolytope(typeOf(a)) && isPolytope(typeOf(b)); }
+  bool areFlatOrMeshes() const {
+    return (isMesh(a) || isPolytope(typeOf(a))) && (isMesh(b) || isPolytope(typeOf(b)));
+  }
 
   /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
   bool areCurved() const {
@@ -111,6 +114,7 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   plan.try_root_bound =
       pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
   plan.exact_if_unresolved = pair.haveExactMass(displacement);
+  plan.convex_meshes_if_unresolved = pair.anyMesh() && pair.areFlatOrMeshes() && !request.gradient;
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }

@@ -40,6 +40,9 @@ struct QueryPlan {
 
   /// Whether the exact mass is asked where the cells of a partition leave more open than that.
   bool exact_if_unresolved = false;
+
+  /// The same of meshes, if they turn out to be convex.
+  bool convex_meshes_if_unresolved = false;
 };
 
 /// \throws UnsupportedGeometry if the method asked for cannot handle the pair.
