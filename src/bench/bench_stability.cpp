@@ -29,9 +29,10 @@ are the proof that the inputs, as doubles, do not tell. `violated`: intervals an
 `failed`: exceptions, NaN, or an interval that is none. Boxes that are turned have the axes that the
 displacement reports.
 
-What is listed below falls short for another reason. An estimate's standard error comes from few
-samples a cell, and is too small where all of them happen to agree: such an estimate can be off by
-more than that, though never by more than its interval.
+An estimate's standard error comes from few samples a cell, and is too small where all of them happen
+to agree: such an estimate can be off by more than that, though never by more than its interval.
+Meshes are convex here: what cells leave open of them, far out or with σ far below the size, the
+masses of polytopes close. Of other meshes cells are all there is.
 )";
 
 struct MethodRow {
@@ -206,8 +207,8 @@ class StabilityTable {
 
   BenchReport take() {
     report_.notes = kStabilityNotes;
-    report_.notes +=
-        short_.empty() ? "\nNone falls short.\n" : "\n**What falls short:**\n\n" + short_;
+    report_.notes += short_.empty() ? "\nNone falls short for another reason.\n"
+                                    : "\n**What falls short for another reason:**\n\n" + short_;
     return std::move(report_);
   }
 
