@@ -59,7 +59,7 @@ Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& d
 Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
                               const ConvexBody& b, const fcl::Transform3d& pose_b,
                               const GaussianDisplacement& displacement,
-                              const Interruption& interruption) {
+                              const Interruption& interruption, double inset) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   const PairObstacle obstacle(frame, a.set(), b.set());
   PairBounds pair;
@@ -68,7 +68,7 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   const auto narrowByLayers = [&](double width, int most_sections) {
     const auto section = [&](const fcl::Transform3d& at_a, const fcl::Transform3d& at_b,
                              const GaussianDisplacement& across) {
-      return detail::convexPairMass(a, at_a, b, at_b, across, interruption);
+      return detail::convexPairMass(a, at_a, b, at_b, across, interruption, inset);
     };
     known = agreed(
         known, layeredMass(a, pose_a, b, pose_b, displacement, section, {width, most_sections}));
@@ -76,7 +76,7 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   };
   if (obstacle->isPolytope()) {
     if (frame.rank == 1 || frame.rank == 2) {
-      known = polytopeSectionMass(a, pose_a, b, pose_b, displacement, interruption);
+      known = polytopeSectionMass(a, pose_a, b, pose_b, displacement, interruption, inset);
       if (known.width() <= std::max(kRoundingWidth * known.upper, kNothing)) return known;
     }
     if (is_flat) narrowByLayers(kRoundingWidth, kMostSections);

@@ -9,9 +9,12 @@
 namespace fcl_prob::detail {
 
 /// convexPairMass() until the interruption is due; then what is certain by then.
+/// \param inset  metres: by so much the bodies together may stay behind polytopes; no more than
+/// what
+///   doubles are widened by for rounding
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
-                      const Interruption& interruption);
+                      const Interruption& interruption, double inset = 0.0);
 
 /// convexPcd() until the interruption is due; the bounds are then those by support values.
 ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,

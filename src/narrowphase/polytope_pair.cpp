@@ -40,9 +40,8 @@ class PolytopePair {
                double inset)
       : a_(a),
         b_(b),
-        inset_(inset),
         frame_(pairFrame(a, pose_a, b, pose_b, displacement)),
-        pair_(worldPair(frame_, a, pose_a, b, pose_b, displacement)) {
+        pair_(worldPair(frame_, a, pose_a, b, pose_b, displacement, inset)) {
     whitening_ = longWhitening(displacement);
   }
 
@@ -111,7 +110,7 @@ class PolytopePair {
   }
 
   /// Of a corner in the whitened frame, along each axis.
-  Eigen::Vector3d rounding() const { return whitenedLength(pair_.rounding + inset_); }
+  Eigen::Vector3d rounding() const { return whitenedLength(pair_.rounding); }
 
   /// By how much a length can change each whitened coordinate.
   Eigen::Vector3d whitenedLength(double metres) const {
@@ -143,7 +142,6 @@ class PolytopePair {
   }
 
   const ConvexBody &a_, &b_;
-  double inset_;
   PairFrame frame_;
   WorldPair pair_;
   LongMatrix3 whitening_;

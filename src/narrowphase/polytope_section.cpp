@@ -349,10 +349,10 @@ class PolytopeSection {
 
 Bounds polytopeSectionMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                            const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
-                           const Interruption& interruption) {
+                           const Interruption& interruption, double inset) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   if (!frame.fits || frame.rank < 1 || frame.rank > 2) return {0.0, 1.0};
-  const WorldPair pair = worldPair(frame, a, pose_a, b, pose_b, displacement);
+  const WorldPair pair = worldPair(frame, a, pose_a, b, pose_b, displacement, inset);
   PolytopeSection section(frame, pair, displacement);
   if (section.misses()) return {0.0, 0.0};
   const auto summed = summedFaces(frame, a, b, interruption);

@@ -15,10 +15,11 @@ namespace fcl_prob::detail {
 /// with it in long doubles. The polygon through the cuts has its corners in V, whatever edges were
 /// found, but for what they are rounded by; how far V reaches beyond each of its sides is measured,
 /// by the support function of V along the normal of a face through that side. So what is off is a
-/// layer along the sides. Nothing, [0, 1], where V hardly reaches through the plane. \throws as
-/// pairFrame() does
+/// layer along the sides. Nothing, [0, 1], where V hardly reaches through the plane.
+/// \param inset  metres: by so much the bodies together may stay behind the polytopes
+/// \throws as pairFrame() does
 Bounds polytopeSectionMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                            const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
-                           const Interruption& interruption);
+                           const Interruption& interruption, double inset = 0.0);
 
 }  // namespace fcl_prob::detail

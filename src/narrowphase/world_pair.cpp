@@ -85,7 +85,7 @@ std::optional<SummedFaces> facesOfMeshes(const PairFrame& frame, const ConvexBod
 
 WorldPair worldPair(const PairFrame& frame, const ConvexBody& a, const fcl::Transform3d& pose_a,
                     const ConvexBody& b, const fcl::Transform3d& pose_b,
-                    const GaussianDisplacement& displacement) {
+                    const GaussianDisplacement& displacement, double inset) {
   WorldPair pair;
   ExactPosition origin;
   origin.add(pose_b.translation());
@@ -97,7 +97,7 @@ WorldPair worldPair(const PairFrame& frame, const ConvexBody& a, const fcl::Tran
   pair.minus_a = turned(cornersOf(a), frame.rotation_a);
   for (LongVector3& p : pair.minus_a) p = -p;
   const double sum = a.set().size() + b.set().size() + static_cast<double>(pair.origin.norm());
-  pair.rounding = kCornerRoundings * kLongEpsilon * sum;
+  pair.rounding = kCornerRoundings * kLongEpsilon * sum + inset;
   return pair;
 }
 

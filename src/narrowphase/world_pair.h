@@ -19,9 +19,11 @@ struct WorldPair {
   double rounding;     ///< of a corner of the C-obstacle, also after whitening (metres)
 };
 
+/// \param inset  metres: by so much the bodies together may stay behind the polytopes; it counts as
+///   rounding
 WorldPair worldPair(const PairFrame& frame, const ConvexBody& a, const fcl::Transform3d& pose_a,
                     const ConvexBody& b, const fcl::Transform3d& pose_b,
-                    const GaussianDisplacement& displacement);
+                    const GaussianDisplacement& displacement, double inset);
 
 /// The faces of a C-obstacle about the difference of the origins, whose corners are sums of two.
 struct SummedFaces {
