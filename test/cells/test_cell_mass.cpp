@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Masses of cells under a plane, against 50 digits.
+// Masses of cells under a plane, against 50 digits, and against polytopes'.
 #include "cells/cell_mass.h"
 
 #include <cmath>
+#include <vector>
 
 #include "../gaussian/high_precision.h"
 #include "catch.h"
+#include "fcl_prob/convex_polytope.h"
+#include "fcl_prob/polytope_mass.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;
@@ -26,6 +29,27 @@ void checkHolds(const Bounds& bounds, const HighPrecision& truth) {
   CAPTURE(bounds.lower, bounds.upper, truth);
   CHECK(HighPrecision(bounds.lower) <= truth);
   CHECK(HighPrecision(bounds.upper) >= truth);
+}
+
+// The corners of a cell on one side of a plane, and where its edges cross that.
+std::vector<Eigen::Vector3d> cornersAbove(const Cell& cell, const Eigen::Vector3d& m, double s) {
+  const auto corner = [&](int bits) {
+    Eigen::Vector3d at;
+    for (int k = 0; k < 3; ++k) at[k] = (bits >> k & 1) != 0 ? cell.hi[k] : cell.lo[k];
+    return at;
+  };
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 8; ++i) {
+    const double of_i = m.dot(corner(i)) - s;
+    if (of_i >= 0) points.push_back(corner(i));
+    for (int k = 0; k < 3; ++k) {
+      const int j = i | 1 << k;
+      const double of_j = m.dot(corner(j)) - s;
+      if (j == i || of_i * of_j >= 0) continue;
+      points.push_back(corner(i) + of_i / (of_i - of_j) * (corner(j) - corner(i)));
+    }
+  }
+  return points;
 }
 
 }  // namespace
@@ -80,5 +104,32 @@ TEST_CASE("an oblique plane within a narrow cell far out: the mass is within its
     Bounds bounds = cellHalfSpaceMass(cell, m, s, kAccuracy);
     const double left_out = 1000.0 * width * width * bounds.upper;  // of the density
     checkHolds({bounds.lower - left_out, bounds.upper + left_out}, truth);
+  }
+}
+
+TEST_CASE("an oblique plane in a narrow cell leaves the mass of a polytope") {
+  RandomBodies random(33);
+  for (int i = 0; i < 500; ++i) {
+    Cell cell{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 3};
+    for (int k = 0; k < 3; ++k) {
+      setInterval(random.uniform(-4.0, 4.0), random.logUniform(0.02, 0.8), k, cell);
+    }
+    const Eigen::Vector3d m = random.direction();
+    Eigen::Vector3d inside;
+    for (int k = 0; k < 3; ++k) {
+      inside[k] = cell.lo[k] + random.uniform(0.2, 0.8) * (cell.hi[k] - cell.lo[k]);
+    }
+    const double s = m.dot(inside);
+    const Bounds truth = polytopeMass(convexHull(cornersAbove(cell, m, s)), 1e-14);
+    const double whole = cellMass(cell).upper;
+    CAPTURE(i, truth.lower, truth.upper, whole);
+    REQUIRE(truth.width() < 1e-6 * whole);
+    for (const double accuracy : {1e-3, 1e-5, 1e-11}) {
+      const Bounds mass = cellHalfSpaceMass(cell, m, s, accuracy);
+      CAPTURE(accuracy, mass.lower, mass.upper);
+      CHECK(mass.lower <= truth.upper);
+      CHECK(mass.upper >= truth.lower);
+      CHECK(mass.width() < 4 * accuracy * whole);
+    }
   }
 }
