@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "cells/cell_layer.h"
 
 namespace fcl_prob::detail {
@@ -19,7 +20,7 @@ constexpr double kSliver = kLayerMargin;
 
 // Accuracy, relative to the cell's mass, of the masses of cells that stay open and of those
 // settled.
-constexpr double kOpenAccuracy = 1e-5;
+constexpr double kOpenAccuracy = 1e-4;
 constexpr double kSettledAccuracy = 1e-11;
 
 // Cells wider than this are divided before a mass under a plane is integrated in them.
@@ -105,7 +106,8 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
       smooth_(pair, obstacles),
       solids_(solids),
       with_moments_(with_moments),
-      statistics_(statistics) {}
+      statistics_(statistics),
+      possible_(front_, cutter_) {}
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
@@ -254,9 +256,9 @@ void CellExaminer::openWithoutPlane() {
   const Cell& cell = front_.cell();
   Cell box{cell.hi, cell.lo, cell.rank};
   open.front.reserve(front_.cutting().size() + front_.coarse().size());
-  Cell part;
   const auto keep = [&](const FrontPair& pair) {
     if (!isWhole(box, cell)) {
+      Cell part = cell;
       if (!front_.clip(pair, part)) return;
       include(part, box);
     }
@@ -331,10 +333,8 @@ void CellExaminer::addPart(OpenCell& open) {
     return;
   }
   // What may collide, along the normals of all planes of the part.
-  CoveredPart possible = best.part;
-  for (int i = 0; i < possible.count; ++i) {
-    possible.planes[i].s = lowestOfFront(open, possible.planes[i].m);
-  }
+  possible_.start(open, best.part);
+  const CoveredPart possible = possible_.whole();
   const Eigen::Vector3d& m = possible.planes[0].m;
   open.possible_from = possible.planes[0].s;
   open.tells = OpenCell::PlaneTells::possible;
@@ -350,6 +350,7 @@ void CellExaminer::addPart(OpenCell& open) {
     open.upper = std::min(open.upper, PartMeasure(open.cell).massAtMost(possible, cutter_));
   open.upper = std::max(mass, open.upper);
   open.drawn = open.upper;
+  open.upper = std::max(mass, possible_.massAtMost(open, open.upper));
 }
 
 // Where turns leave no part of the cell covered a plane may still tell what is free of it: across
@@ -373,8 +374,9 @@ void CellExaminer::addPossible(OpenCell& open) {
 // The masses of an open cell with a plane that covers.
 void CellExaminer::weigh(OpenCell& open) {
   const Eigen::Vector3d& m = open.plane.m;
-  open.lower = cellHalfSpaceMass(open.cell, m, open.plane.s, kOpenAccuracy).lower;
-  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
+  const HalfSpaceMeasure measure(open.cell, kOpenAccuracy);
+  open.lower = measure.mass(m, open.plane.s).lower;
+  open.upper = measure.mass(m, open.possible_from).upper;
   open.drawn = open.gap();
   claimBelow("below what is possible", open.cell, {m, open.possible_from});
   double mass = kLeastCovered * open.gap();
@@ -382,7 +384,12 @@ void CellExaminer::weigh(OpenCell& open) {
   if (below.share <= 0.0) return;
   open.part = below.part;
   claim("part below a plane", true, open.cell, below.part);
+  CoveredPart leading;
+  leading.planes[0] = open.plane;
+  leading.count = 1;
   open.lower = std::min(open.upper, open.lower + mass);
+  possible_.start(open, leading);
+  open.upper = std::max(open.lower, possible_.massAtMost(open, open.upper));
 }
 
 // Whether what stays open of the cell is only this box.
@@ -421,10 +428,11 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   open.possible_from = leader.outer;
   open.front.push_back(leader.pair);
   Cell box{cell.hi, cell.lo, cell.rank};
+  const Cell below = layerBox(cell, m, -kInfinity, leader.inner.s);
   if (leader.layered) include(layerBox(cell, m, leader.outer, leader.inner.s), box);
   const auto keep = [&](const FrontPair& pair, double lowest) {
-    Cell part = cell;
-    if (!isWhole(box, cell)) {
+    Cell part = below;
+    if (!isWhole(box, below)) {
       if (!front_.clip(pair, part)) return;
       lowest = std::max(lowest, lowestIn(part, m));
     }
@@ -449,6 +457,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   front_.findBelow(front_.coarse(), {m, enough}, open.possible_from, kMostOpened, below_);
   settled_from = std::min(settled_from, below_.lowest_of_others);
   for (const FrontPair& pair : below_.pairs) keep(pair, below_.lowest);
+  if (open.front.size() > 1) box = layerBox(box, m, open.possible_from, leader.inner.s);
 
   const double sliver = sliverMass(cell, m, leader.inner.s - settled_from);
   result_.settled.mass.upper += sliver;

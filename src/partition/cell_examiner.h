@@ -8,6 +8,7 @@
 #include "cells/claim_observer.h"
 #include "partition/cell_front.h"
 #include "partition/crossing_witness.h"
+#include "partition/possible_parts.h"
 #include "partition/smooth_cell.h"
 #include "pieces/containment.h"
 
@@ -83,6 +84,7 @@ class CellExaminer {
   ProbabilityStatistics& statistics_;
   ClaimObserver* const observer_ = claim_observer;
   CubeCutter cutter_;
+  PossibleParts possible_;
   Examination result_;
   std::vector<FrontPair> near_;
   CellFront::PartsBelow below_;

@@ -429,10 +429,9 @@ void CellFront::findBelow(const std::vector<FrontPair>& pairs, const CellPlane& 
 
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {
   const NodeBox box = obstacleBoxOf(pair);
-  part = cell_;
   for (int k = 0; k < cell_.rank; ++k) {
-    part.lo[k] = std::max(box.lo[k], cell_.lo[k]);
-    part.hi[k] = std::min(box.hi[k], cell_.hi[k]);
+    part.lo[k] = std::max(box.lo[k], part.lo[k]);
+    part.hi[k] = std::min(box.hi[k], part.hi[k]);
   }
   if (!pair.hasObstacle()) return !part.empty();
   for (int round = 0; round < kClipRounds && !part.empty(); ++round) {

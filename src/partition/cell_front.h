@@ -75,7 +75,8 @@ class CellFront {
   void findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
                  int budget, PartsBelow& below);
 
-  /// A box around the pair's C-obstacle ∩ cell; false if that is empty.
+  /// Shrinks a part of the cell to a box around what the pair's C-obstacle has of it; false if that
+  /// is nothing.
   bool clip(const FrontPair& pair, Cell& part) const;
 
  private:

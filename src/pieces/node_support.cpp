@@ -22,6 +22,7 @@ void NodeSupport::prepare() {
 }
 
 double NodeSupport::along(const Eigen::Vector3d& m, int node) {
+  if (mesh_->tree->nodes[node].isLeaf()) return ofLeaf(m, node);
   if (parent_.empty()) prepare();
   if (m != m_) {
     m_ = m;
@@ -35,11 +36,11 @@ void NodeSupport::note(int node, double value) {
   value_[node] = value;
 }
 
-double NodeSupport::ofLeaf(int leaf) const {
+double NodeSupport::ofLeaf(const Eigen::Vector3d& m, int leaf) const {
   const Eigen::Vector3i& t = mesh_->tree->triangles[mesh_->tree->nodes[leaf].piece];
   double value = -std::numeric_limits<double>::infinity();
   for (int corner = 0; corner < 3; ++corner) {
-    value = std::max(value, m_.dot(mesh_->vertices[t[corner]]));
+    value = std::max(value, m.dot(mesh_->vertices[t[corner]]));
   }
   return value;
 }
@@ -58,7 +59,7 @@ double NodeSupport::search(int node) {
     if (bound <= best) continue;
     const PieceTree::Node& inner = tree.nodes[index];
     if (inner.isLeaf() || isKnown(index)) {
-      const double value = inner.isLeaf() ? ofLeaf(index) : value_[index];
+      const double value = inner.isLeaf() ? ofLeaf(m_, index) : value_[index];
       if (value > best) {
         best = value;
         farthest = index;

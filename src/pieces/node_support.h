@@ -26,7 +26,7 @@ class NodeSupport {
 
   void prepare();
   double search(int node);
-  double ofLeaf(int leaf) const;
+  double ofLeaf(const Eigen::Vector3d& m, int leaf) const;
   bool isKnown(int node) const { return known_in_[node] == direction_; }
   void note(int node, double value);
 
