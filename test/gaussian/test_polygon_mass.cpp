@@ -77,7 +77,7 @@ TEST_CASE("masses of triangles that are half-planes but for what is far away") {
     const Vector2d out(std::cos(angle), std::sin(angle)), along(-out.y(), out.x());
     const detail::Polygon2 triangle = {distance * out - size * along, distance * out + size * along,
                                        -uniform(random, 0.5, 2.0) * size * out};
-    const Bounds mass = detail::polygonMass(triangle, 0.0);
+    const Bounds mass = detail::polygonMass(triangle, Vector2d::Zero());
     const double truth = 0.5 * std::erfc(-distance / std::sqrt(2.0));
     CAPTURE(size, distance, angle, mass.lower, mass.upper, truth);
     // Corners so far away are rounded by an ε of that.
