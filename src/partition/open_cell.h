@@ -39,9 +39,11 @@ struct OpenCell {
 
   /// Bound on the standard deviation of one sample of the open mass: it is drawn from a set of mass
   /// `drawn` and is 0 or that mass, with a mean of at most the gap. Root by root, since products of
-  /// small masses vanish.
+  /// small masses vanish; of next to nothing none, since numbers of samples are divided by it.
   double samplingDeviation() const {
+    constexpr double kNextToNothing = 1e-300;
     const double mean = std::clamp(gap(), 0.0, 0.5 * drawn);
+    if (!(mean > kNextToNothing)) return 0.0;
     return std::sqrt(mean) * std::sqrt(drawn - mean);
   }
   std::size_t memory() const { return sizeof(OpenCell) + front.capacity() * sizeof(FrontPair); }
