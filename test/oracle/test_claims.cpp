@@ -114,7 +114,7 @@ TEST_CASE("Claims of meshes of hundreds of triangles, closed and open, as surfac
 TEST_CASE("Claims where faces of coarse meshes meet") {
   RandomBodies random(1203);
   ClaimReport sum;
-  for (int trial = 0; trial < 4; ++trial) {
+  for (int trial = 0; trial < 12; ++trial) {
     const auto a = makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 6, 8, trial));
     const auto b = makeModel<fcl::OBBRSSd>(bumpyMesh(0.6, 8, 10, trial + 10));
     ProbabilityRequest request = interval();
@@ -126,7 +126,7 @@ TEST_CASE("Claims where faces of coarse meshes meet") {
     checkReport(report);
     sum += report;
   }
-  CHECK(sum.by_method["beside two parts"].checked > 100);
+  CHECK(sum.by_method["beside two parts"].checked > 60);
 }
 
 TEST_CASE("The checker finds claims that are wrong") {

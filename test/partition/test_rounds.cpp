@@ -101,10 +101,10 @@ TEST_CASE("intervals, gradients and estimates do not depend on the threads", "[r
   for (const bool convex : {false, true}) {
     CAPTURE(convex);
     PartitionQuery query = convex ? polytopeCells() : boxCells();
-    const ProbabilityResult surfaces = sameOnAnyThreads(query, intervalRequest(0.003));
+    const ProbabilityResult surfaces = sameOnAnyThreads(query, intervalRequest(0.002));
     CHECK(surfaces.status == ProbabilityStatus::converged);
     CHECK(surfaces.statistics.cells > kAlone);
-    CHECK(*surfaces.upper - *surfaces.lower <= 0.003 * *surfaces.upper);
+    CHECK(*surfaces.upper - *surfaces.lower <= 0.002 * *surfaces.upper);
     CHECK(planMentions(surfaces, "own planes") == convex);
     sameOnAnyThreads(query, estimateRequest(0.001));
     ProbabilityRequest gradient = intervalRequest(0.01);
@@ -113,7 +113,7 @@ TEST_CASE("intervals, gradients and estimates do not depend on the threads", "[r
     gradient.method = ProbabilityMethod::estimate;
     sameOnAnyThreads(query, gradient);
     query.makeSolid();
-    CHECK(sameOnAnyThreads(query, intervalRequest(0.003)).statistics.cells > kAlone);
+    CHECK(sameOnAnyThreads(query, intervalRequest(0.002)).statistics.cells > kAlone);
     sameOnAnyThreads(query, estimateRequest(0.002));
   }
 }

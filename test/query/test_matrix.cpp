@@ -106,15 +106,15 @@ bool isWrongInFcl(const NamedGeometry& a, const NamedGeometry& b) {
          are("Convex", "Plane");
 }
 
-struct Scene {
+struct PairScene {
   Geometry a, b;
   fcl::Transform3d pose_a, pose_b;
   GaussianDisplacement displacement;
 };
 
-Scene randomScene(const NamedGeometry& a, const NamedGeometry& b, RandomBodies& random) {
-  Scene scene{a.geometry, b.geometry, fcl::Transform3d::Identity(), fcl::Transform3d::Identity(),
-              randomDisplacement(random, 0.03, 0.3)};
+PairScene randomScene(const NamedGeometry& a, const NamedGeometry& b, RandomBodies& random) {
+  PairScene scene{a.geometry, b.geometry, fcl::Transform3d::Identity(),
+                  fcl::Transform3d::Identity(), randomDisplacement(random, 0.03, 0.3)};
   scene.pose_a.linear() = random.rotation();
   scene.pose_b.linear() = random.rotation();
   scene.pose_a.translation() = random.normalVector();
@@ -123,7 +123,7 @@ Scene randomScene(const NamedGeometry& a, const NamedGeometry& b, RandomBodies& 
   return scene;
 }
 
-int sampledHits(const Scene& scene, bool with_fcl, int samples, RandomBodies& random) {
+int sampledHits(const PairScene& scene, bool with_fcl, int samples, RandomBodies& random) {
   const Eigen::Matrix3d factor =
       scene.displacement.axes() * scene.displacement.standardDeviations().asDiagonal();
   int hits = 0;
@@ -159,7 +159,7 @@ struct Outcomes {
 
 void checkScene(const NamedGeometry& a, const NamedGeometry& b, int samples, RandomBodies& random,
                 Outcomes& tally) {
-  const Scene scene = randomScene(a, b, random);
+  const PairScene scene = randomScene(a, b, random);
   ProbabilityRequest request;
   request.relative_tolerance = 0.05;
   ProbabilityResult result;
