@@ -45,7 +45,46 @@ struct Cubes {
   }
 };
 
+/// A prism of 16 sides, as an OBJ file.
+std::string prismFile(const TemporaryFolder& folder) {
+  constexpr int kSides = 16;
+  std::string obj, bottom = "f", top = "f", sides;
+  for (const char* z : {"-0.04", "0.04"}) {
+    for (int k = 0; k < kSides; ++k) {
+      const double angle = 2.0 * M_PI * k / kSides;
+      obj += "v " + std::to_string(0.03 * std::cos(angle)) + " " +
+             std::to_string(0.03 * std::sin(angle)) + " " + z + "\n";
+    }
+  }
+  const auto name = [](int corner) { return " " + std::to_string(corner); };
+  for (int k = 0; k < kSides; ++k) {
+    const int next = (k + 1) % kSides;
+    bottom += name(kSides - k);
+    top += name(kSides + 1 + k);
+    sides += "f" + name(1 + k) + name(1 + next) + name(kSides + 1 + next) + name(kSides + 1 + k);
+    sides += "\n";
+  }
+  return folder.write("prism.obj", obj + bottom + "\n" + top + "\n" + sides);
+}
+
 }  // namespace
+
+TEST_CASE("check leaves out convex patches where asked, and says so", "[cli]") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> arguments{
+      prismFile(folder), dataFile("mug.obj"),    "--pose-a", "0.1,0.01,0.02", "--sigma",
+      "0.01,0.02,0.015", "--relative-tolerance", "0.001"};
+  const json with = checkJson(arguments, folder);
+  std::vector<std::string> more = arguments;
+  more.emplace_back("--no-patches");
+  const json without = checkJson(more, folder);
+  const std::string left_out = "object B: convex patches left out, as asked";
+  CHECK(with.at("plan").dump().find(" convex patches\"") != std::string::npos);
+  CHECK(with.at("plan").dump().find(left_out) == std::string::npos);
+  CHECK(without.at("plan").dump().find(left_out) != std::string::npos);
+  CHECK(with.at("lower").get<double>() <= without.at("upper").get<double>());
+  CHECK(without.at("lower").get<double>() <= with.at("upper").get<double>());
+}
 
 TEST_CASE("check widens by bands around the shapes", "[cli]") {
   const Cubes cubes;
