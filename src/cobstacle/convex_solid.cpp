@@ -31,7 +31,7 @@ using Points = std::vector<Eigen::Vector3d>;
 Points usedVertices(const MeshView& view) {
   std::vector<bool> used(static_cast<std::size_t>(view.vertex_count), false);
   for (int t = 0; t < view.triangle_count; ++t) {
-    for (int k = 0; k < 3; ++k) used[view.triangles[t][static_cast<std::size_t>(k)]] = true;
+    for (int k = 0; k < 3; ++k) used[view.triangles[t][k]] = true;
   }
   Points points;
   for (std::size_t i = 0; i < used.size(); ++i) {
