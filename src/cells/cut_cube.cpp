@@ -8,6 +8,9 @@ namespace fcl_prob::detail {
 
 namespace {
 
+// Of a plane whose largest component is 1: a vertex on its wrong side by more is none of rounding.
+constexpr double kMostOnWrongSide = 1e-14;
+
 double leastOnCube(const Eigen::Vector3d& a) { return a.cwiseMin(0.0).sum(); }
 double mostOnCube(const Eigen::Vector3d& a) { return a.cwiseMax(0.0).sum(); }
 
@@ -39,10 +42,10 @@ std::optional<CutCube> CubeCutter::cut(const CubePlane* planes, int count) {
     if (plane.r <= leastOnCube(plane.a)) continue;
     const double length = plane.a.cwiseAbs().maxCoeff();
     if (!(length > 0.0)) return std::nullopt;
-    polytope_.cut(-plane.a / length, -plane.r / length);
+    const double wrong_side = polytope_.cut(-plane.a / length, -plane.r / length);
+    if (wrong_side > kMostOnWrongSide) return std::nullopt;
   }
   polytope_.writeTo(faces_);
-  if (!faces_.closed()) return std::nullopt;
   return integrate(faces_);
 }
 

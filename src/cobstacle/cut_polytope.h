@@ -10,18 +10,22 @@
 
 namespace fcl_prob::detail {
 
-/// Every cut keeps one side of a plane and closes the surface with a new face. The
-/// surface stays closed whatever the rounding, since a vertex is kept or cut off for all its faces.
+/// Every cut keeps one side of a plane and closes the surface with a new face. The surface stays
+/// closed whatever the rounding: a vertex is kept or cut off for all its faces, and where planes
+/// nearly meet in a point, so that rounding leaves what is kept (or cut off) in several pieces, all
+/// but one of them count as being on the other side.
 class CutPolytope {
  public:
   CutPolytope() = default;
   explicit CutPolytope(const FaceSet& faces) { start(faces); }
 
-  /// Begins anew, in the same memory.
+  /// Begins anew, in the same memory. \param faces  closed; two-sided polygons are allowed
   void start(const FaceSet& faces);
 
-  /// Keeps direction·x <= limit.
-  void cut(const Eigen::Vector3d& direction, double limit);
+  /// Keeps direction·x <= limit. Returns the largest |direction·x - limit| of a vertex that counts
+  /// as being on the other side: 0 but for the rounding told above; infinite if the surface was not
+  /// closed before, and then nothing is cut off.
+  double cut(const Eigen::Vector3d& direction, double limit);
 
   void writeTo(FaceSet& faces);
 
@@ -35,8 +39,13 @@ class CutPolytope {
     int vertex;
   };
 
+  bool isCutOff(int vertex) const { return excess_[vertex] > 0.0; }
   int crossingVertex(int kept, int cut_off);
-  void cutLoop(const Loop& loop, Loop& kept);
+  bool cutFaces();
+  bool cutLoop(const Loop& loop, Loop& kept);
+  bool closeWithCap();
+  double takeSides();
+  void markReached(int start, bool cut_off, std::vector<char>& reached) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Loop> faces_;
@@ -46,7 +55,8 @@ class CutPolytope {
   std::vector<double> excess_;  // of each vertex beyond the plane
   std::vector<Crossing> crossings_;
   std::vector<std::pair<int, int>> rim_;  // directed edges of the new face
-  Loop scratch_;
+  std::vector<Loop> cut_faces_;
+  std::size_t cut_count_ = 0;
   std::vector<int> index_;
 };
 

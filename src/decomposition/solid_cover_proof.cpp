@@ -47,13 +47,14 @@ class BoxCover {
       : thin_(0.1 * margins.depth) {
     const double rounding = kRoundingsOfCut * sizeOf(mesh, polytopes);
     most_cuts_ = static_cast<int>(0.25 * margins.depth / rounding);
+    most_on_wrong_side_ = rounding;
     for (const ConvexPolytope& polytope : polytopes) {
       solids_.emplace_back(polytope, 0.5 * margins.depth + rounding);
     }
     rests_.push_back({boxAround(mesh)});
   }
 
-  /// False if there are too many.
+  /// False if there are too many, or a cut went wrong.
   bool takeOffAll() {
     for (const LoweredPolytope& solid : solids_) {
       left_.clear();
@@ -66,7 +67,7 @@ class BoxCover {
       }
       rests_.swap(left_);
     }
-    return true;
+    return wrong_side_ <= most_on_wrong_side_;
   }
 
   const std::vector<SolidRest>& rests() const { return rests_; }
@@ -99,7 +100,7 @@ class BoxCover {
 
   SolidRest below(const CutPlane& plane, const SolidRest& whole) {
     cutter_.start(whole.surface);
-    cutter_.cut(plane.normal, plane.offset);
+    wrong_side_ = std::max(wrong_side_, cutter_.cut(plane.normal, plane.offset));
     SolidRest rest;
     rest.cuts = whole.cuts + 1;
     cutter_.writeTo(rest.surface);
@@ -108,6 +109,8 @@ class BoxCover {
 
   double thin_;
   int most_cuts_ = 0;
+  double most_on_wrong_side_ = 0.0;
+  double wrong_side_ = 0.0;  ///< the largest of any cut
   std::vector<LoweredPolytope> solids_;
   std::vector<SolidRest> rests_;
   std::vector<SolidRest> left_;
