@@ -40,23 +40,27 @@ bool CappedTree::isFreeOfMesh(const double* lo, const double* hi) {
 }
 
 // The vertices are known to `error` only (see ClosedMesh), which is the unit of length here: a ray
-// along an axis crosses a triangle or not however the axes are stretched.
+// along an axis crosses a triangle or not however the axes are stretched. It goes to the nearer end
+// of the mesh; all is mirrored where that is the lower one.
 std::optional<bool> CappedTree::isInside(const Eigen::Vector3d& point, int axis) {
   bool odd = false;
+  const NodeBox& bounds = mesh_->boxes[0];
+  const bool upwards = bounds.hi[axis] - point[axis] <= point[axis] - bounds.lo[axis];
+  const double sign = upwards ? 1.0 : -1.0;
   const auto cross = [&](const Eigen::Vector3i& triangle, const NodeBox&) {
     std::array<Eigen::Vector3d, 3> corners;
     double reach = point.cwiseAbs().cwiseQuotient(mesh_->error).maxCoeff();
     for (int k = 0; k < 3; ++k) {
-      corners[k] = (mesh_->vertices[triangle[k]] - point).cwiseQuotient(mesh_->error);
+      corners[k] = sign * (mesh_->vertices[triangle[k]] - point).cwiseQuotient(mesh_->error);
       reach = std::max(reach, corners[k].cwiseAbs().maxCoeff());
     }
     const auto crossing = rayCrossing(corners, axis, 1.0 + 8 * kEpsilon * reach);
     if (crossing && *crossing != 0) odd = !odd;
     return crossing.has_value();
   };
-  const double lo[3] = {point[0], point[1], point[2]};
+  double lo[3] = {point[0], point[1], point[2]};
   double hi[3] = {point[0], point[1], point[2]};
-  hi[axis] = kInfinity;
+  (upwards ? hi : lo)[axis] = sign * kInfinity;
   if (!visitTriangles(lo, hi, cross)) return std::nullopt;
   return odd;
 }

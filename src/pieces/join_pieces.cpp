@@ -3,7 +3,7 @@
 // One piece tree of many.
 #include <vector>
 
-#include "pieces/piece_tree.h"
+#include "pieces/leaf_order.h"
 
 namespace fcl_prob::detail {
 
@@ -19,6 +19,7 @@ class TreeJoiner {
     std::vector<int> roots = partRoots();
     if (!roots.empty()) addUpperNodes(roots, 0, roots.size());
     for (const PieceTree* tree : trees_) append(*tree);
+    if (joined_.isMesh()) tellTriangles(joined_);
     return std::move(joined_);
   }
 

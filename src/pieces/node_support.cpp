@@ -7,40 +7,48 @@
 
 namespace fcl_prob::detail {
 
+namespace {
+
+// So many triangles of a node are looked at one by one: they follow each other in memory, while
+// boxes of smaller nodes would have to be fetched.
+constexpr int kFewTriangles = 8;
+
+}  // namespace
+
 NodeSupport::NodeSupport(const WhitenedTree& mesh) : mesh_(&mesh), m_(Eigen::Vector3d::Zero()) {}
 
 void NodeSupport::prepare() {
   const std::vector<PieceTree::Node>& nodes = mesh_->tree->nodes;
-  value_.resize(nodes.size());
-  known_in_.assign(nodes.size(), 0);
-  parent_.assign(nodes.size(), -1);
+  known_.assign(nodes.size(), {});
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].isLeaf()) continue;
-    parent_[nodes[i].left] = static_cast<int>(i);
-    parent_[nodes[i].right] = static_cast<int>(i);
+    known_[nodes[i].left].parent = static_cast<int>(i);
+    known_[nodes[i].right].parent = static_cast<int>(i);
   }
 }
 
 double NodeSupport::along(const Eigen::Vector3d& m, int node) {
-  if (mesh_->tree->nodes[node].isLeaf()) return ofLeaf(m, node);
-  if (parent_.empty()) prepare();
-  if (m != m_) {
+  if (known_.empty()) prepare();
+  if (m != m_ || direction_ == 0) {
     m_ = m;
     ++direction_;
   }
-  return isKnown(node) ? value_[node] : search(node);
+  const PieceTree::Node& at = mesh_->tree->nodes[node];
+  if (at.isLeaf()) return ofTriangles(at);
+  return isKnown(node) ? known_[node].value : search(node);
 }
 
 void NodeSupport::note(int node, double value) {
-  known_in_[node] = direction_;
-  value_[node] = value;
+  known_[node].direction = direction_;
+  known_[node].value = value;
 }
 
-double NodeSupport::ofLeaf(const Eigen::Vector3d& m, int leaf) const {
-  const Eigen::Vector3i& t = mesh_->tree->triangles[mesh_->tree->nodes[leaf].piece];
+double NodeSupport::ofTriangles(const PieceTree::Node& node) const {
   double value = -std::numeric_limits<double>::infinity();
-  for (int corner = 0; corner < 3; ++corner) {
-    value = std::max(value, m.dot(mesh_->vertices[t[corner]]));
+  for (int piece = node.piece; piece <= node.last_piece; ++piece) {
+    for (const int corner : mesh_->tree->triangles[piece]) {
+      value = std::max(value, m_.dot(mesh_->vertices[corner]));
+    }
   }
   return value;
 }
@@ -52,14 +60,15 @@ double NodeSupport::search(int node) {
   const auto ofBox = [this](int index) { return mesh_->boxes[index].highestAlong(m_); };
   double best = -std::numeric_limits<double>::infinity();
   int farthest = node;
-  stack_.assign(1, {node, ofBox(node)});
+  stack_.assign(1, {node, std::numeric_limits<double>::infinity()});
   while (!stack_.empty()) {
     const auto [index, bound] = stack_.back();
     stack_.pop_back();
     if (bound <= best) continue;
     const PieceTree::Node& inner = tree.nodes[index];
-    if (inner.isLeaf() || isKnown(index)) {
-      const double value = inner.isLeaf() ? ofLeaf(m_, index) : value_[index];
+    const bool known = isKnown(index);
+    if (known || inner.last_piece - inner.piece < kFewTriangles) {
+      const double value = known ? known_[index].value : ofTriangles(inner);
       if (value > best) {
         best = value;
         farthest = index;
@@ -72,7 +81,7 @@ double NodeSupport::search(int node) {
     if (left.bound > best) stack_.push_back(left);
     if (right.bound > best) stack_.push_back(right);
   }
-  for (int i = farthest; i != node; i = parent_[i]) note(i, best);
+  for (int i = farthest; i != node; i = known_[i].parent) note(i, best);
   note(node, best);
   return best;
 }

@@ -19,6 +19,12 @@ class NodeSupport {
   double along(const Eigen::Vector3d& m, int node);
 
  private:
+  /// What is known of a node.
+  struct Known {
+    double value = 0.0;
+    unsigned direction = 0;  ///< the number of the direction for which `value` was found
+    int parent = -1;
+  };
   struct Reach {
     int node;
     double bound;  ///< of its box
@@ -26,16 +32,14 @@ class NodeSupport {
 
   void prepare();
   double search(int node);
-  double ofLeaf(const Eigen::Vector3d& m, int leaf) const;
-  bool isKnown(int node) const { return known_in_[node] == direction_; }
+  double ofTriangles(const PieceTree::Node& node) const;
+  bool isKnown(int node) const { return known_[node].direction == direction_; }
   void note(int node, double value);
 
   const WhitenedTree* mesh_;
   Eigen::Vector3d m_;
-  std::vector<int> parent_;  ///< of each node; empty until the first search
-  std::vector<double> value_;
-  std::vector<unsigned> known_in_;  ///< by node: the direction's number for which value_ was found
-  unsigned direction_ = 1;
+  unsigned direction_ = 0;
+  std::vector<Known> known_;  ///< by node; empty until the first search
   std::vector<Reach> stack_;
 };
 

@@ -12,6 +12,7 @@
 #include "geometry/length.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/surface_caps.h"
+#include "pieces/leaf_order.h"
 #include "pieces/octree_pieces.h"
 
 namespace fcl_prob::detail {
@@ -157,6 +158,7 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
     part.spans = spansOf(view);
     part.patches = std::make_shared<const PatchesOfMesh>();
+    orderByLeaves(*tree);
   } else if (kindOf(geometry) == GeometryKind::convex) {
     fillFanOfShape(*tree);
   }

@@ -39,7 +39,10 @@ struct PieceTree {
   struct Node {
     int left = -1;   ///< index of the first child, always greater than the node's own; -1 at a leaf
     int right = -1;  ///< index of the second child; -1 at a leaf
-    int piece = -1;  ///< at a leaf: its triangle; from triangles.size() on, its body
+    /// At a leaf: its triangle; from triangles.size() on, its body. Of an inner node of meshes: the
+    /// first of its triangles, which follow each other.
+    int piece = -1;
+    int last_piece = -1;  ///< of a node of meshes: the last of its triangles
     bool isLeaf() const { return left < 0; }
   };
 
@@ -61,6 +64,8 @@ struct PieceTree {
     double error = 0.0;   ///< metres: by how much coordinates differ from those of the geometry
     int root = -1;        ///< its topmost node, -1 if it has none
     Range vertices;
+    /// Of the geometry's vertices, within `vertices`; empty where they come in its order.
+    std::vector<int> places;
     Range triangles;
     Range bodies;
     Range shapes;
@@ -85,6 +90,11 @@ struct PieceTree {
 
   /// Of an octree: a cell is both occupied and free.
   bool any_cell_also_free = false;
+
+  /// Where vertex `v` of the geometry of a part is among `vertices`.
+  static int vertexOf(const Part& part, std::size_t v) {
+    return part.vertices.begin + (part.places.empty() ? static_cast<int>(v) : part.places[v]);
+  }
 
   /// Of a part that is a mesh, with indices into its own triangles and vertices; null if it has
   /// none.

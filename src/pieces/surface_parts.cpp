@@ -42,7 +42,7 @@ class PartCollector {
     std::vector<int> index(part_of.size(), -1);
     for (std::size_t v = 0; v < part_of.size(); ++v) {
       if (part_of[v] < 0) continue;
-      const int vertex = part.vertices.begin + static_cast<int>(v);
+      const int vertex = PieceTree::vertexOf(part, v);
       const NodeBox box = vertexBox(whitened_, vertex);
       int& known = index[part_of[v]];
       if (known < 0) {
