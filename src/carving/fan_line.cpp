@@ -28,6 +28,11 @@ constexpr int kMostExchangesKept = 256;
 constexpr double kLeastShare = 1e-12;
 constexpr double kLeastShareKept = 1e-4;
 
+// Nor is it exchanged if all of its change may be rounding: where a face is along T and the lines,
+// nothing else is left of its plane. Of the terms that the change is a sum of.
+constexpr double kRoundedShare = 16 * kEpsilon;
+constexpr double kRoundedShareKept = 1e-6;
+
 // Of the reach: what planes that are added up are rounded by.
 constexpr double kRoundedPlane = 1e-13;
 
@@ -111,14 +116,17 @@ void FanLine::remember(int face, double sign) {
 
 // Takes in the half-space g·z <= bound, which the place is outside of, for that of the three
 // without which t stays as small as can be (dual simplex: the first row of the inverse has the
-// multipliers, turned over). False: no place is within all four.
-bool FanLine::Vertex::exchange(const Eigen::RowVector3d& g, double bound, int plane) {
+// multipliers, turned over). False: no place is within all four. \param terms  what each of g is
+// a sum of, at least
+bool FanLine::Vertex::exchange(const Eigen::RowVector3d& g, const Eigen::RowVector3d& terms,
+                               double bound, int plane) {
   const Eigen::RowVector3d share = g * inverse;
+  const Eigen::RowVector3d of_terms = terms * inverse.cwiseAbs();
   const double largest = share.cwiseAbs().maxCoeff();
   int leaving = -1;
   double least = kInfinity;
   for (int i = 0; i < 3; ++i) {
-    if (!(share[i] > kLeastShare * largest)) continue;
+    if (!(share[i] > std::max(kLeastShare * largest, kRoundedShare * of_terms[i]))) continue;
     const double ratio = std::max(-inverse(0, i), 0.0) / share[i];
     if (ratio < least) {
       least = ratio;
@@ -133,7 +141,9 @@ bool FanLine::Vertex::exchange(const Eigen::RowVector3d& g, double bound, int pl
   inverse.col(leaving) = column;
   h[leaving] = bound;
   planes[leaving] = plane;
-  exchanges = share[leaving] > kLeastShareKept * largest ? exchanges + 1 : kMostExchangesKept;
+  const bool is_kept =
+      share[leaving] > std::max(kLeastShareKept * largest, kRoundedShareKept * of_terms[leaving]);
+  exchanges = is_kept ? exchanges + 1 : kMostExchangesKept;
   return true;
 }
 
@@ -180,13 +190,14 @@ std::optional<double> FanLine::first(int triangle, const Eigen::Vector2d& u, dou
     touched_ = base - alpha * p - std::clamp(z[2], 0.0, 1.0 - alpha) * q;
     const double edges[] = {-z[1], -z[2], z[1] + z[2] - 1.0};
     const auto edge = std::max_element(edges, edges + 3) - edges;
-    Eigen::RowVector3d g;
+    Eigen::RowVector3d g, terms;
     double bound = edge == 2 ? 1.0 : 0.0;
     int plane = kFirstEdge + static_cast<int>(edge);
     if (edges[edge] > kOutside) {
       g << (edge == 0   ? Eigen::RowVector3d(0, -1, 0)
             : edge == 1 ? Eigen::RowVector3d(0, 0, -1)
                         : Eigen::RowVector3d(0, 1, 1));
+      terms = g.cwiseAbs();
     } else {
       const Eigen::Vector3d y = base - z[1] * p - z[2] * q + Eigen::Vector3d(sign * z[0], 0, 0);
       plane = highestFace(y, sign);
@@ -194,9 +205,11 @@ std::optional<double> FanLine::first(int triangle, const Eigen::Vector2d& u, dou
       if (!(d.dot(y) > 1.0 + kOutside)) return z[0];
       remember(plane, sign);
       g << sign * d.x(), -d.dot(p), -d.dot(q);
+      terms << 1.0, p.cwiseAbs().sum(), q.cwiseAbs().sum();
+      terms *= d.cwiseAbs().maxCoeff();
       bound = 1.0 - d.dot(base);
     }
-    if (!vertex.exchange(g, bound, plane)) return std::nullopt;
+    if (!vertex.exchange(g, terms, bound, plane)) return std::nullopt;
   }
   return vertex.place()[0];
 }

@@ -63,7 +63,8 @@ class FanLine {
     int exchanges = 0;  ///< that led here
 
     Eigen::Vector3d place() const { return inverse * h; }
-    bool exchange(const Eigen::RowVector3d& g, double bound, int plane);
+    bool exchange(const Eigen::RowVector3d& g, const Eigen::RowVector3d& terms, double bound,
+                  int plane);
   };
 
   /// One corner of T, and the ways to the other two.
