@@ -87,27 +87,22 @@ bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
 }
 
 bool carve(const PartitionObject& a, const PartitionObject& b,
-           const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+           const GaussianDisplacement& displacement, const Whitening& whitening,
+           const WhitenedPair& pair, const SolidContact* solids, const ProbabilityRequest& request,
            ProbabilityResult& result) {
   const auto whole = wholeBodyOf(a, b, displacement, Convexity::nearly);
   if (!whole) return false;
   const auto& [body, mesh, fan_is_a] = *whole;
   if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
-  const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
-  const Whitening whitening(displacement, unit);
-  const WhitenedPair pair = whiten(a, b, whitening);
   FatMembers obstacles(pair, body, mesh, fan_is_a, whitening.matrix(), patchUse(mesh, request));
   if (!obstacles.usable()) return false;
   if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
     obstacles.keepHullsClosed();
   }
-  std::optional<SolidContact> solids;
-  if (a.hasSolid() || b.hasSolid()) solids.emplace(a, b, whitening, pair);
   for (int member = 0; member < obstacles.count(); ++member) {
     if (mayHoldPart(*whole, obstacles.partOf(member), obstacles.of(member))) return false;
   }
-  if (claim_observer) claim_observer->frame(whitening, displacement);
-  CarvingEngine engine(obstacles, solids ? &*solids : nullptr, request, result.statistics);
+  CarvingEngine engine(obstacles, solids, request, result.statistics);
   result.method = ProbabilityMethod::interval;
   result.status = engine.run();
   if (obstacles.failed()) return false;

@@ -32,9 +32,70 @@ void CellCarver::divideBox(CarvedCell&& cell) {
       settleFree(half);
       continue;
     }
+    if (isCovered(*half.box)) {
+      claim("one fat pair", true, CellPolytope(*half.box));
+      settle(half.mass);
+      continue;
+    }
     half.nodes = std::make_shared<const std::vector<FatNode>>(gathered_);
     push(std::move(half));
   }
+}
+
+// Whether the one obstacle that reaches farthest beyond the box, as far as planes of nodes tell,
+// covers it: then it need not be divided. After gatherNodes().
+bool CellCarver::isCovered(const Cell& box) {
+  const PatchedMesh& pieces = obstacles_.pieces();
+  const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
+  const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
+  FatNode best{-1, -1};
+  float most = 0.0F;
+  NodeReach::Heights highest;
+  int highest_of = -1;
+  for (const FatNode& each : gathered_) {
+    if (obstacles_.encloses(each.member)) continue;
+    const NodeReach& reach = obstacles_.reachOf(each.member);
+    if (highest_of != each.member) highest = reach.highestOf(middle, half);
+    highest_of = each.member;
+    const float least = reach.leastOver(highest, each.node);
+    if (!(least > most)) continue;
+    most = least;
+    best = each;
+  }
+  if (best.member < 0) return false;
+  const NodeReach& reach = obstacles_.reachOf(best.member);
+  if (highest_of != best.member) highest = reach.highestOf(middle, half);
+  for (;;) {
+    const PatchedMesh::Node& node = pieces.nodes()[best.node];
+    if (node.piece >= 0 && takesPiece(box, best.member, node.piece)) {
+      ranged_.assign(static_cast<std::size_t>(obstacles_.count()), false);
+      return covers(box.box(), {best.member, node.piece});
+    }
+    const float of_left = reach.leastOver(highest, node.left);
+    const float of_right = reach.leastOver(highest, node.right);
+    best.node = of_left > of_right ? node.left : node.right;
+    if (!(std::max(of_left, of_right) > 0.0F)) return false;
+  }
+}
+
+bool CellCarver::covers(const CellBox& box, FatObstacle obstacle) {
+  ++statistics_.pairs_tested;
+  rangeFaces(box, obstacle.member);
+  FatObstacles& body = obstacles_.of(obstacle.member);
+  const double* const face_hi = &face_hi_[obstacles_.firstFace(obstacle.member)];
+  const std::vector<double>& offsets = body.faceOffsets(obstacle.piece);
+  const int faces = body.faceCount();
+  const auto isWithin = [&](double margin) {
+    return kernels_.firstAbove(face_hi, offsets.data(), -margin, faces) == faces;
+  };
+  if (!isWithin(0.0)) return false;
+  const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.piece);
+  if (body.hasFailed(obstacle.piece) || !isWithin(body.mostMargin(obstacle.piece))) return false;
+  const Eigen::Map<const Eigen::Vector3d> middle(box.center);
+  const Eigen::Map<const Eigen::Vector3d> half(box.half);
+  return std::all_of(others.begin(), others.end(), [&](const ObstaclePlane& plane) {
+    return plane.n.dot(middle) + plane.n.cwiseAbs().dot(half) <= plane.inner();
+  });
 }
 
 // Those of the nodes, and of what is below them, that the box may meet.
@@ -54,9 +115,9 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     const auto [member, node] = stack_.back();
     stack_.pop_back();
     ++statistics_.pairs_tested;
-    const NodeBox around = obstacles_.of(member).obstacleBox(pieces.box(node));
-    if (isClearOf(around, box.lo.data(), box.hi.data())) continue;
-    if (obstacles_.reachOf(member).isClearOf(lowest_[member], node)) continue;
+    const NodeReach& reach = obstacles_.reachOf(member);
+    if (isClearOf(reach.boxOf(node), box.lo.data(), box.hi.data())) continue;
+    if (reach.isClearOf(lowest_[member], node)) continue;
     const PatchedMesh::Node& in_tree = pieces.nodes()[node];
     const bool is_small = !to_leaves && pieces.box(node).size() < kOpenRatio * size;
     const bool is_large_piece = in_tree.piece >= 0 && pieces.box(node).size() > kBesideRatio * size;
@@ -103,8 +164,6 @@ CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
 CellCarver::Relation CellCarver::listBox(const CarvedCell& cell, List& into) {
   gatherNodes(*cell.box, *cell.nodes, true);
   const CellBox box = cell.box->box();
-  face_lo_.resize(obstacles_.faceCount());
-  face_hi_.resize(obstacles_.faceCount());
   ranged_.assign(obstacles_.count(), false);
   apart_.assign(obstacles_.count(), 0);
   std::vector<std::tuple<float, int, int>> order;
@@ -129,8 +188,13 @@ void CellCarver::rangeFaces(const CellBox& box, int member) {
   const int first = obstacles_.firstFace(member);
   Eigen::Map<Eigen::VectorXd> lo(&face_lo_[first], body.faceCount());
   Eigen::Map<Eigen::VectorXd> hi(&face_hi_[first], body.faceCount());
-  lo = body.heightsAlong(middle) - body.radiiOf(half);
-  hi = body.heightsAlong(middle) + body.radiiOf(half);
+  lo = body.heightsAlong(middle);
+  hi = body.radiiOf(half);
+  for (Eigen::Index f = 0; f < lo.size(); ++f) {
+    const double height = lo[f], radius = hi[f];
+    lo[f] = height - radius;
+    hi[f] = height + radius;
+  }
 }
 
 CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obstacle, List& into) {

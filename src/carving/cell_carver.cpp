@@ -70,6 +70,8 @@ CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
       list_memory_(list_memory),
       statistics_(statistics),
       accuracy_(settledAccuracy(request)),
+      face_lo_(static_cast<std::size_t>(obstacles.faceCount())),
+      face_hi_(static_cast<std::size_t>(obstacles.faceCount())),
       points_tried_(static_cast<std::size_t>(obstacles.count()), 0),
       face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
 

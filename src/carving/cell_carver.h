@@ -109,6 +109,8 @@ class CellCarver {
   void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves);
   bool takesPiece(const Cell& box, int member, int piece);
   bool isBeside(const Cell& box, FatObstacle obstacle);
+  bool isCovered(const Cell& box);
+  bool covers(const CellBox& box, FatObstacle obstacle);
   void resolve(CarvedCell&& cell);
   Relation listBox(const CarvedCell& cell, List& into);
   void rangeFaces(const CellBox& box, int member);

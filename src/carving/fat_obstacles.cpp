@@ -165,6 +165,25 @@ NodeBox FatObstacles::obstacleBoxOf(int piece) const {
   return result;
 }
 
+// Those whose ends are on different sides, and all others that may be parallel to the edge, in
+// order: most are neither.
+std::vector<int> FatObstacles::arcsAcross(const Eigen::VectorXd& on_normals,
+                                          double parallel) const {
+  const auto faces = static_cast<std::size_t>(faceCount());
+  std::vector<unsigned char> is_above(faces);
+  for (std::size_t f = 0; f < faces; ++f) is_above[f] = on_normals[static_cast<int>(f)] > 0.0;
+  const bool may_be_parallel = !(on_normals.cwiseAbs().minCoeff() > parallel);
+  std::vector<int> found(arcs().size() + 1);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < arcs().size(); ++i) {
+    const auto& [f, g] = arcs()[i];
+    found[count] = static_cast<int>(i);
+    count += may_be_parallel || is_above[f] != is_above[g] ? 1 : 0;
+  }
+  found.resize(count);
+  return found;
+}
+
 // Where the arc between the normals of two faces of P crosses the plane across an edge of the other
 // body, V may have a facet. \param length  of `along`
 template <typename IsFacet, typename Extent>
@@ -172,7 +191,8 @@ void FatObstacles::addArcCrossings(const Eigen::Vector3d& along, double length, 
                                    const IsFacet& isFacet, const Extent& extentAlong,
                                    Details& into) const {
   const Eigen::VectorXd on_normals = heightsAlong(along);
-  for (const auto& [f, g] : arcs()) {
+  for (const int arc : arcsAcross(on_normals, parallel * length)) {
+    const auto& [f, g] = arcs()[static_cast<std::size_t>(arc)];
     const double at_f = on_normals[f];
     const double at_g = on_normals[g];
     const double lean = std::fabs(at_f) + std::fabs(at_g);

@@ -134,6 +134,7 @@ class FatObstacles : public WhitenedFan {
   /// Of two neighbouring normals of a patch, n0 and n1.
   void addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
                     Details& into) const;
+  std::vector<int> arcsAcross(const Eigen::VectorXd& on_normals, double parallel) const;
   template <typename IsFacet, typename Extent>
   void addArcCrossings(const Eigen::Vector3d& along, double length, double parallel,
                        const IsFacet& isFacet, const Extent& extentAlong, Details& into) const;

@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "carving/different_faces.h"
+#include "carving/rounded_floats.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -14,15 +15,8 @@ namespace {
 // Of the reach.
 constexpr double kRoundedPlaneEnds = 1e-13;
 
-// Three times half of what neighbouring floats differ by, and once: a float, and a difference.
-constexpr float kRoundedFloat = 1.8e-7F;
+// Half of what neighbouring floats differ by: a difference of two.
 constexpr double kRoundedDifference = 6e-8;
-
-template <typename Values>
-auto floatsBelow(const Values& values) {
-  const auto nearest = values.template cast<float>().eval();
-  return (nearest - kRoundedFloat * nearest.abs() - 1e-37F).eval();
-}
 
 double below(float difference) {
   return difference - kRoundedDifference * std::fabs(static_cast<double>(difference));

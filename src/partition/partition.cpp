@@ -164,11 +164,13 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
 
 // Polytope cells, within what is left of the limits. The interval is that of all so far.
 bool carveInTime(const PartitionObject& a, const PartitionObject& b,
-                 const GaussianDisplacement& displacement, const ProbabilityRequest& whole_request,
+                 const GaussianDisplacement& displacement, const QueryFrame& frame,
+                 const SolidContact* solids, const ProbabilityRequest& whole_request,
                  StageClock& clock, Bounds& known, ProbabilityResult& result) {
   ProbabilityRequest request = whole_request;
   if (request.time_limit) request.time_limit = clock.leftOf(*request.time_limit);
-  const bool reached = carve(a, b, displacement, request, result);
+  const bool reached =
+      carve(a, b, displacement, frame.whitening, frame.pair, solids, request, result);
   clock.finish("carving");
   known.lower = std::max(known.lower, result.lower.value_or(0.0));
   known.upper = std::min(known.upper, result.upper.value_or(1.0));
@@ -261,13 +263,6 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   ProbabilityRequest request = whole_request;
   Bounds known{0.0, 1.0};
   bool may_be_carved = !ball && !request.hasBand() && mayBeCarved(a, b, displacement, request);
-  const auto carved = [&] {
-    return carveInTime(a, b, displacement, whole_request, clock, known, result);
-  };
-  if (may_be_carved && !request.threshold) {
-    if (carved()) return result;
-    may_be_carved = false;
-  }
   const QueryFrame frame = queryFrame(a, b, displacement, request);
   std::unique_ptr<SolidContact> solids;
   if (a.hasSolid() || b.hasSolid()) {
@@ -276,14 +271,19 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const auto announceFrame = [&] {
     if (claim_observer) claim_observer->frame(frame.whitening, displacement);
   };
-  // What carving claimed, in a frame of its own, is over if it did not get there.
+  // What carving claimed is over if it did not get there.
   const auto carvedInstead = [&] {
-    const bool reached = carved();
+    const bool reached =
+        carveInTime(a, b, displacement, frame, solids.get(), whole_request, clock, known, result);
     if (!reached) announceFrame();
     return reached;
   };
   announceFrame();
   clock.finish("whitening");
+  if (may_be_carved && !request.threshold) {
+    if (carvedInstead()) return result;
+    may_be_carved = false;
+  }
 
   const bool estimate = request.method == ProbabilityMethod::estimate;
   result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;

@@ -361,6 +361,30 @@ TEST_CASE("carved cells and boxes agree", "[carving]") {
   }
 }
 
+// A box so large that only the face towards a small mesh matters: P is a tail, and nearly all that
+// is behind that face is within the obstacle of one patch, which few boxes have to tell.
+TEST_CASE("what one obstacle covers is not divided", "[carving]") {
+  constexpr double kDeviation = 0.1;
+  for (const double gap : {-0.3, -0.05, 0.05, 0.2}) {
+    const TriangleMesh other = bumpyMesh(0.2, 10, 14, 3);
+    double reach = 0.0;
+    for (const Eigen::Vector3d& v : other.vertices) reach = std::max(reach, -v.x());
+    PartitionQuery query(boxMesh({20, 20, 20}), other);
+    query.pose_b.translation() = Eigen::Vector3d(10.0 + reach + gap, 0.0, 0.0);
+    query.makeSolid();
+    const auto displacement = fcl_prob::GaussianDisplacement::fromStandardDeviations(
+        Eigen::Vector3d::Constant(kDeviation), {1, 0, 0, 0});
+    const ProbabilityResult result = query.run(displacement, fcl_prob_test::intervalRequest(0.01));
+    CAPTURE(gap);
+    REQUIRE(isCarved(result));
+    const double truth = fcl_prob::normalTailMass(gap / kDeviation);
+    CHECK(*result.lower <= truth);
+    CHECK(*result.upper >= truth);
+    // Boxes of one deviation alone would be hundreds.
+    if (gap < -2.0 * kDeviation) CHECK(result.statistics.cells < 80);
+  }
+}
+
 TEST_CASE("obstacles that would not fit into the memory that is allowed are not made",
           "[carving]") {
   const TriangleMesh body = hullMesh(RandomBodies(3).onSphere(30, 0.3));

@@ -152,7 +152,9 @@ TEST_CASE("boxes clear of nodes hold nothing of them", "[whole]") {
       const Eigen::Vector3d middle = 0.6 * random.normalVector();
       const Eigen::Vector3d half = Eigen::Vector3d::Constant(random.logUniform(1e-3, 0.3));
       const NodeReach::Heights lowest = reach.lowestOf(middle, half);
+      const NodeReach::Heights highest = reach.highestOf(middle, half);
       for (int node = 0; node < static_cast<int>(nodes.size()); ++node) {
+        CHECK(reach.leastOver(highest, node) <= reach.leastOver(lowest, node));
         if (!reach.isClearOf(lowest, node)) continue;
         ++clear;
         if (nodes[node].left >= 0) {

