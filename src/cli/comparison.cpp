@@ -92,8 +92,9 @@ class RunList {
   std::vector<ComparisonRun> runs_;
 };
 
+// By the exact mass where there is one.
 ComparisonReference certifiedReference(const PreparedScene& scene, ProbabilityRequest request) {
-  request.method = ProbabilityMethod::interval;
+  request.method = ProbabilityMethod::automatic;
   request.relative_tolerance = kReferenceTolerance;
   request.absolute_tolerance = 0.0;
   request.time_limit = kReferenceSeconds;

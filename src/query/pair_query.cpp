@@ -160,12 +160,34 @@ ProbabilityResult PairQuery::partition(const QueryPlan& plan, const PlacedPair& 
   return partitionProbability(a, b, displacement, withTimeLeft(request, budget));
 }
 
+/// Of two convex meshes neither tree nor cells are needed. Nothing where rounding leaves more of
+/// their mass open than the tolerance.
+std::optional<ProbabilityResult> PairQuery::convexMeshes(const QueryPlan& plan,
+                                                         const PlacedPair& pair,
+                                                         const GaussianDisplacement& displacement,
+                                                         const ProbabilityRequest& request) const {
+  if (!plan.convex_meshes_first) return std::nullopt;
+  auto result = convexMeshesMass(pair, displacement, request);
+  if (!result || !isAnswered(result->status)) return std::nullopt;
+  result->method = ProbabilityMethod::exact;
+  if (request.method == ProbabilityMethod::estimate) {
+    const Bounds bounds{*result->lower, *result->upper};
+    result->method = ProbabilityMethod::estimate;
+    result->estimate = bounds.middle();
+    result->standard_error = 0.5 * bounds.width();
+  }
+  result->plan.push_back(
+      "both meshes are convex: exact mass of their C-obstacle; trees and cells left out");
+  return result;
+}
+
 /// Far out in the tail a curved surface takes more cells than the limit, and where deviations are
 /// far below the size cells are widened by more than they should; of two convex shapes no cell is
 /// needed.
 ProbabilityResult PairQuery::partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
                                               const GaussianDisplacement& displacement,
                                               const ProbabilityRequest& request) const {
+  if (auto exact = convexMeshes(plan, pair, displacement, request)) return *exact;
   const CallBudget budget(request);
   ProbabilityResult result = partition(plan, pair, displacement, request);
   if (!leavesTooMuch(result, request)) return result;

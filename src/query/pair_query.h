@@ -46,6 +46,9 @@ class PairQuery {
   ProbabilityResult partition(const QueryPlan& plan, const PlacedPair& pair,
                               const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request) const;
+  std::optional<ProbabilityResult> convexMeshes(const QueryPlan& plan, const PlacedPair& pair,
+                                                const GaussianDisplacement& displacement,
+                                                const ProbabilityRequest& request) const;
   ProbabilityResult partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
                                      const GaussianDisplacement& displacement,
                                      const ProbabilityRequest& request) const;

@@ -5,11 +5,16 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/geometry_kind.h"
+#include "geometry/mesh_visitor.h"
 #include "narrowphase/curved_pair.h"
 #include "narrowphase/ellipsoid_polytope.h"
 
 namespace fcl_prob::detail {
 namespace {
+
+/// The exact mass of two convex meshes of so many triangles together takes up to some milliseconds,
+/// and an estimate of it has nothing to say.
+constexpr int kFewTriangles = 400;
 
 struct QueryPair {
   const PreparedGeometry& a;
@@ -33,6 +38,8 @@ struct QueryPair {
   bool areFlatOrMeshes() const {
     return (isMesh(a) || isPolytope(typeOf(a))) && (isMesh(b) || isPolytope(typeOf(b)));
   }
+
+  int triangleCount() const { return triangleCount(a) + triangleCount(b); }
 
   /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
   bool areCurved() const {
@@ -65,6 +72,9 @@ struct QueryPair {
   }
   static bool isMesh(const PreparedGeometry& geometry) {
     return kindOf(geometry.geometry()) == GeometryKind::mesh;
+  }
+  static int triangleCount(const PreparedGeometry& geometry) {
+    return isMesh(geometry) ? meshView(geometry.geometry()).triangle_count : 0;
   }
 };
 
@@ -115,6 +125,9 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
       pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
   plan.exact_if_unresolved = pair.haveExactMass(displacement);
   plan.convex_meshes_if_unresolved = pair.anyMesh() && pair.areFlatOrMeshes() && !request.gradient;
+  plan.convex_meshes_first = plan.convex_meshes_if_unresolved &&
+                             request.method != ProbabilityMethod::interval &&
+                             pair.triangleCount() <= kFewTriangles;
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }

@@ -43,6 +43,9 @@ struct QueryPlan {
 
   /// The same of meshes, if they turn out to be convex.
   bool convex_meshes_if_unresolved = false;
+
+  /// Of so few triangles that this is asked before any cells are.
+  bool convex_meshes_first = false;
 };
 
 /// \throws UnsupportedGeometry if the method asked for cannot handle the pair.

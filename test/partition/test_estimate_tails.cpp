@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Estimates from few cells and few samples: their standard errors say so, and are as asked for.
-#include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -14,6 +14,7 @@
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/normal_mass.h"
+#include "mesh_shapes.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;
@@ -29,6 +30,27 @@ std::shared_ptr<fcl::CollisionGeometryd> randomBox(RandomBodies& random) {
 std::shared_ptr<fcl::CollisionGeometryd> randomTriangle(RandomBodies& random) {
   const auto corner = [&random] { return Eigen::Vector3d(0.3 * random.normalVector()); };
   return std::make_shared<fcl::TrianglePd>(corner(), corner(), corner());
+}
+
+/// A box as a mesh of so many triangles that a query of two does not ask for their exact mass.
+std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> fineBox(const Eigen::Vector3d& sides) {
+  TriangleMesh mesh = fcl_prob_test::boxMesh(sides);
+  for (int round = 0; round < 3; ++round) {
+    TriangleMesh finer;
+    for (const fcl::Triangle& t : mesh.triangles) {
+      const std::size_t first = finer.vertices.size();
+      for (int k = 0; k < 3; ++k) finer.vertices.push_back(mesh.vertices[t[k]]);
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& next = mesh.vertices[t[(k + 1) % 3]];
+        finer.vertices.emplace_back(0.5 * (mesh.vertices[t[k]] + next));
+      }
+      for (const auto& [i, j, k] : {std::array{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}) {
+        finer.triangles.emplace_back(first + i, first + j, first + k);
+      }
+    }
+    mesh = finer;
+  }
+  return fcl_prob_test::makeModel<fcl::OBBRSSd>(mesh);
 }
 
 /// Of rank 1 to 3.
@@ -115,9 +137,7 @@ TEST_CASE("the standard errors of the smallest probabilities do not vanish") {
 
 TEST_CASE("lines of the smallest probabilities are drawn where they matter") {
   // Two boxes as convex meshes, far out along one axis: P is a product of interval masses.
-  const fcl::Boxd box(1.0, 1.2, 0.8);
-  const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  fcl::generateBVHModel(*mesh, box, fcl::Transform3d::Identity());
+  const auto mesh = fineBox({1.0, 1.2, 0.8});
   const PreparedQuery query(mesh, mesh);
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.15, 0.12});
   for (const double height : {20.0, 27.0, 34.0}) {

@@ -123,3 +123,56 @@ TEST_CASE("an estimate of convex meshes far out in the tail has a standard error
   CHECK(*result.estimate < 1e-200);
   CHECK(*result.standard_error <= 0.01 * *result.estimate);
 }
+
+TEST_CASE("two convex meshes of few triangles are answered without trees and cells") {
+  RandomBodies random(43);
+  const BoxMeshes boxes{{0.4, 0.3, 0.5}, {0.6, 0.2, 0.3}, {0.3, -0.1, 0.35}, {0.08, 0.05, 0.1}};
+  fcl::Transform3d pose_b = fcl::Transform3d::Identity();
+  pose_b.translation() = boxes.offset;
+  const auto displacement = GaussianDisplacement::fromStandardDeviations(boxes.sigma);
+  const auto ask = [&](const TriangleMesh& a, ProbabilityMethod method, ContactMeaning contact) {
+    ProbabilityRequest request;
+    request.method = method;
+    request.contact = contact;
+    request.absolute_tolerance = 0.0;
+    ProbabilityResult result;
+    const PreparedQuery query(makeModel<fcl::OBBRSSd>(a),
+                              makeModel<fcl::OBBRSSd>(boxMesh(boxes.b)));
+    query.collisionProbability(fcl::Transform3d::Identity(), pose_b, displacement, request, result);
+    return result;
+  };
+  const auto isWithout = [](const ProbabilityResult& result) {
+    return result.statistics.cells == 0 &&
+           std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& note) {
+             return note.find("trees and cells left out") != std::string::npos;
+           });
+  };
+  for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
+    const HighPrecision truth = boxes.truth(contact);
+    const auto known = static_cast<double>(truth);
+    const ProbabilityResult automatic =
+        ask(boxMesh(boxes.a), ProbabilityMethod::automatic, contact);
+    CHECK(isWithout(automatic));
+    CHECK(automatic.method == ProbabilityMethod::exact);
+    CHECK(HighPrecision(*automatic.lower) <= truth);
+    CHECK(HighPrecision(*automatic.upper) >= truth);
+    CHECK(*automatic.upper - *automatic.lower < 1e-9 * known);
+    const ProbabilityResult estimate = ask(boxMesh(boxes.a), ProbabilityMethod::estimate, contact);
+    CHECK(isWithout(estimate));
+    CHECK(std::abs(*estimate.estimate - known) <= *estimate.standard_error);
+    CHECK(*estimate.standard_error < 1e-9 * known);
+    // Cells that are asked for by name are had.
+    const ProbabilityResult cells = ask(boxMesh(boxes.a), ProbabilityMethod::interval, contact);
+    CHECK(cells.statistics.cells > 0);
+    CHECK(*cells.lower <= known);
+    CHECK(*cells.upper >= known);
+  }
+  // A mesh with a dent is no convex one.
+  TriangleMesh dented = boxMesh(boxes.a);
+  for (Eigen::Vector3d& v : dented.vertices) {
+    if (v.minCoeff() > 0.0) v *= 0.5;
+  }
+  const ProbabilityResult other = ask(dented, ProbabilityMethod::automatic, ContactMeaning::solid);
+  CHECK_FALSE(isWithout(other));
+  CHECK(*other.upper < boxes.truth(ContactMeaning::solid));
+}
