@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -30,6 +31,13 @@ struct Cell {
       if (!(lo[i] < hi[i])) return true;
     }
     return settled;
+  }
+
+  /// Along the axes that move.
+  double largestWidth() const {
+    double width = 0.0;
+    for (int i = 0; i < rank; ++i) width = std::max(width, hi[i] - lo[i]);
+    return width;
   }
 
   /// The largest |y_k| of its points, for each axis.

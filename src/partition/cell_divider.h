@@ -29,6 +29,7 @@ struct PartitionScene {
   const SolidContact* solids;  ///< null: surfaces only
   const BallTruncation* ball;  ///< null: the displacement is not truncated
   bool with_moments;
+  double relative_tolerance;  ///< of P
 };
 
 /// Divides one cell at a time. Several of them may work at once over one ObstacleTable.

@@ -19,9 +19,10 @@ namespace {
 constexpr double kSliver = kLayerMargin;
 
 // Accuracy, relative to the cell's mass, of the masses of cells that stay open and of those
-// settled.
+// settled. The latter adds up, and need not be better than this share of what is asked of P.
 constexpr double kOpenAccuracy = 1e-4;
 constexpr double kSettledAccuracy = 1e-11;
+constexpr double kSettledShare = 1e-4;
 
 // Cells wider than this are divided before a mass under a plane is integrated in them.
 constexpr double kWidestIntegrated = 2.5;
@@ -46,29 +47,6 @@ constexpr int kMostOpened = 300;
 // Only with longer fronts than this a proof by topology is tried. It settles deep cells that no
 // pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
 constexpr std::size_t kLongFront = 70;
-
-double largestWidth(const Cell& cell) {
-  double width = 0.0;
-  for (int i = 0; i < cell.rank; ++i) width = std::max(width, cell.hi[i] - cell.lo[i]);
-  return width;
-}
-
-// Bound on the mass of the part of a cell within `width` of a plane with normal `m`. A plane that
-// hardly leans along the axes that move cuts a wide layer out of them.
-double sliverMass(const Cell& cell, const Eigen::Vector3d& m, double width) {
-  if (!(width > 0.0)) return 0.0;
-  double exponent = 0.0;
-  for (int i = 0; i < cell.rank; ++i) {
-    const double nearest = std::max({cell.lo[i], -cell.hi[i], 0.0});
-    exponent += nearest * nearest;
-  }
-  // The density is at most (2π)^{-rank/2} <= 0.4^rank; a plane's section of a cube of side 1 is at
-  // most √2 long or large.
-  const double section = 1.5 * std::pow(largestWidth(cell), cell.rank - 1);
-  const double density = std::pow(0.4, cell.rank) * std::exp(-0.5 * exponent);
-  const double thickness = width / m.head(cell.rank).norm();
-  return std::min(cellMass(cell).upper, thickness * density * section);
-}
 
 void include(const Cell& part, Cell& box) {
   box.lo = box.lo.cwiseMin(part.lo);
@@ -99,13 +77,14 @@ double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
 }  // namespace
 
 CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
-                           const SolidContact* solids, bool with_moments,
+                           const SolidContact* solids, bool with_moments, double relative_tolerance,
                            ProbabilityStatistics& statistics)
     : pair_(pair),
       front_(pair, obstacles, statistics),
       smooth_(pair, obstacles),
       solids_(solids),
       with_moments_(with_moments),
+      relative_tolerance_(relative_tolerance),
       statistics_(statistics),
       possible_(front_, cutter_) {}
 
@@ -191,8 +170,9 @@ void CellExaminer::settle(const Cell& cell, const char* method) {
 }
 
 // The part of `cell` in the plane's half-space collides; sign -1 takes it away again.
-void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double sign) {
-  const Bounds mass = cellHalfSpaceMass(cell, plane.m, plane.s, kSettledAccuracy);
+void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double sign,
+                              double accuracy) {
+  const Bounds mass = cellHalfSpaceMass(cell, plane.m, plane.s, accuracy);
   SettledMass settled;
   settled.mass = sign > 0 ? mass : Bounds{-mass.upper, -mass.lower};
   if (with_moments_) {
@@ -230,6 +210,14 @@ bool CellExaminer::settleSmooth(const Cell& cell) {
   return mass.has_value();
 }
 
+// Of what is settled of the cell from which an open one is cut out, whose mass that may collide is
+// about its share of P.
+double CellExaminer::accuracyBeside(const OpenCell& open) const {
+  const double mass = cellMass(front_.cell()).upper;
+  const double share = mass > 0.0 ? open.upper / mass : 0.0;
+  return std::clamp(kSettledShare * relative_tolerance_ * share, kSettledAccuracy, kOpenAccuracy);
+}
+
 // What is left of the cell around `box` is free.
 void CellExaminer::settleAround(const Cell& box) {
   if (!solids_ && !observer_) return;
@@ -239,7 +227,7 @@ void CellExaminer::settleAround(const Cell& box) {
 // Whether masses under a plane may be used in the cell: not where one object may be inside the
 // other, since what lies below the plane is then not simply free.
 bool CellExaminer::maySkim(const Cell& cell) const {
-  return largestWidth(cell) <= kWidestIntegrated && !(solids_ && solids_->possible(cell));
+  return cell.largestWidth() <= kWidestIntegrated && !(solids_ && solids_->possible(cell));
 }
 
 // The pair that covers most of the cell under a single plane.
@@ -432,7 +420,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   if (leader.layered) include(layerBox(cell, m, leader.outer, leader.inner.s), box);
   const auto keep = [&](const FrontPair& pair, double lowest) {
     Cell part = below;
-    if (!isWhole(box, below)) {
+    if (lowest < enough && !isWhole(box, below)) {
       if (!front_.clip(pair, part)) return;
       lowest = std::max(lowest, lowestIn(part, m));
     }
@@ -459,22 +447,23 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   for (const FrontPair& pair : below_.pairs) keep(pair, below_.lowest);
   if (open.front.size() > 1) box = layerBox(box, m, open.possible_from, leader.inner.s);
 
-  const double sliver = sliverMass(cell, m, leader.inner.s - settled_from);
+  const double sliver = massNear(cell, m, leader.inner.s - settled_from);
   result_.settled.mass.upper += sliver;
   result_.settled.moment_error += sliver * (1.0 + kReach);
   const bool nothing_below = open.front.size() == 1 && !leader.layered;
   if (observer_) claimBeside(leader, box, settled_from, nothing_below);
-  if (nothing_below) return settlePart(cell, leader.inner, 1.0);
+  if (nothing_below) return settlePart(cell, leader.inner, 1.0, kSettledAccuracy);
 
-  open.cell = cell;
   open.tells = OpenCell::PlaneTells::covered;
   open.plane = leader.inner;
-  if (isCutBack(box)) {
-    settlePart(cell, leader.inner, 1.0);
-    settlePart(box, leader.inner, -1.0);
-    open.cell = box;
-  }
+  const bool is_cut_back = isCutBack(box);
+  open.cell = is_cut_back ? box : cell;
   weigh(open);
+  if (is_cut_back) {
+    const double accuracy = accuracyBeside(open);
+    settlePart(cell, leader.inner, 1.0, accuracy);
+    settlePart(box, leader.inner, -1.0, accuracy);
+  }
   result_.open = std::move(open);
 }
 

@@ -36,9 +36,11 @@ struct Examination {
 
 class CellExaminer {
  public:
-  /// Keeps references to all arguments. \param solids  null: surfaces only
+  /// Keeps references to all arguments.
+  /// \param solids              null: surfaces only
+  /// \param relative_tolerance  of P: settled masses are not much more accurate than that needs
   CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
-               bool with_moments, ProbabilityStatistics& statistics);
+               bool with_moments, double relative_tolerance, ProbabilityStatistics& statistics);
 
   /// Examines `cell` against the front inherited from its parent.
   Examination examine(const Cell& cell, const std::vector<FrontPair>& inherited);
@@ -52,7 +54,8 @@ class CellExaminer {
 
  private:
   void settle(const Cell& cell, const char* method);
-  void settlePart(const Cell& cell, const CellPlane& plane, double sign);
+  void settlePart(const Cell& cell, const CellPlane& plane, double sign, double accuracy);
+  double accuracyBeside(const OpenCell& open) const;
   void settleFree(const Cell& cell);
   bool settleSmooth(const Cell& cell);
   void settleAround(const Cell& box);
@@ -81,6 +84,7 @@ class CellExaminer {
   CrossingWitness::Hint hint_{-1, -1};      ///< until then
   const SolidContact* solids_;
   bool with_moments_;
+  double relative_tolerance_;
   ProbabilityStatistics& statistics_;
   ClaimObserver* const observer_ = claim_observer;
   CubeCutter cutter_;

@@ -17,30 +17,32 @@ constexpr int kFewTriangles = 8;
 
 NodeSupport::NodeSupport(const WhitenedTree& mesh) : mesh_(&mesh), m_(Eigen::Vector3d::Zero()) {}
 
-void NodeSupport::prepare() {
-  const std::vector<PieceTree::Node>& nodes = mesh_->tree->nodes;
-  known_.assign(nodes.size(), {});
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].isLeaf()) continue;
-    known_[nodes[i].left].parent = static_cast<int>(i);
-    known_[nodes[i].right].parent = static_cast<int>(i);
-  }
-}
-
 double NodeSupport::along(const Eigen::Vector3d& m, int node) {
-  if (known_.empty()) prepare();
+  if (places_.empty()) places_.assign(mesh_->tree->nodes.size(), kNone);
   if (m != m_ || direction_ == 0) {
     m_ = m;
     ++direction_;
   }
   const PieceTree::Node& at = mesh_->tree->nodes[node];
   if (at.isLeaf()) return ofTriangles(at);
-  return isKnown(node) ? known_[node].value : search(node);
+  const double* const known = valueOf(node);
+  return known ? *known : search(node);
+}
+
+// Null if it is not known for this direction.
+const double* NodeSupport::valueOf(int node) const {
+  const int place = places_[node];
+  if (place == kNone || known_[place].direction != direction_) return nullptr;
+  return &known_[place].value;
 }
 
 void NodeSupport::note(int node, double value) {
-  known_[node].direction = direction_;
-  known_[node].value = value;
+  int& place = places_[node];
+  if (place == kNone) {
+    place = static_cast<int>(known_.size());
+    known_.emplace_back();
+  }
+  known_[place] = {value, direction_};
 }
 
 double NodeSupport::ofTriangles(const PieceTree::Node& node) const {
@@ -57,32 +59,37 @@ double NodeSupport::ofTriangles(const PieceTree::Node& node) const {
 // nodes between the farthest vertex and `node` reach as far as `node` does.
 double NodeSupport::search(int node) {
   const PieceTree& tree = *mesh_->tree;
-  const auto ofBox = [this](int index) { return mesh_->boxes[index].highestAlong(m_); };
+  const auto reachOf = [this](int index, int parent) {
+    return Reach{index, parent, mesh_->boxes[index].highestAlong(m_)};
+  };
   double best = -std::numeric_limits<double>::infinity();
-  int farthest = node;
-  stack_.assign(1, {node, std::numeric_limits<double>::infinity()});
+  Opened farthest{node, kNone};
+  opened_.clear();
+  stack_.assign(1, {node, kNone, std::numeric_limits<double>::infinity()});
   while (!stack_.empty()) {
-    const auto [index, bound] = stack_.back();
+    const Reach reach = stack_.back();
     stack_.pop_back();
-    if (bound <= best) continue;
-    const PieceTree::Node& inner = tree.nodes[index];
-    const bool known = isKnown(index);
+    if (reach.bound <= best) continue;
+    const PieceTree::Node& inner = tree.nodes[reach.node];
+    const double* const known = valueOf(reach.node);
     if (known || inner.last_piece - inner.piece < kFewTriangles) {
-      const double value = known ? known_[index].value : ofTriangles(inner);
+      const double value = known ? *known : ofTriangles(inner);
       if (value > best) {
         best = value;
-        farthest = index;
+        farthest = {reach.node, reach.parent};
       }
       continue;
     }
-    Reach left{inner.left, ofBox(inner.left)};
-    Reach right{inner.right, ofBox(inner.right)};
+    const int parent = static_cast<int>(opened_.size());
+    opened_.push_back({reach.node, reach.parent});
+    Reach left = reachOf(inner.left, parent);
+    Reach right = reachOf(inner.right, parent);
     if (left.bound > right.bound) std::swap(left, right);
     if (left.bound > best) stack_.push_back(left);
     if (right.bound > best) stack_.push_back(right);
   }
-  for (int i = farthest; i != node; i = known_[i].parent) note(i, best);
-  note(node, best);
+  note(farthest.node, best);
+  for (int i = farthest.parent; i != kNone; i = opened_[i].parent) note(opened_[i].node, best);
   return best;
 }
 

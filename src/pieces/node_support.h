@@ -19,28 +19,37 @@ class NodeSupport {
   double along(const Eigen::Vector3d& m, int node);
 
  private:
+  static constexpr int kNone = -1;
+
   /// What is known of a node.
   struct Known {
-    double value = 0.0;
-    unsigned direction = 0;  ///< the number of the direction for which `value` was found
-    int parent = -1;
+    double value;
+    unsigned direction;  ///< the number of the direction for which `value` was found
   };
+  /// A node to be looked at.
   struct Reach {
     int node;
+    int parent;    ///< in `opened_`
     double bound;  ///< of its box
   };
+  /// A node of which the children were looked at.
+  struct Opened {
+    int node;
+    int parent;
+  };
 
-  void prepare();
   double search(int node);
   double ofTriangles(const PieceTree::Node& node) const;
-  bool isKnown(int node) const { return known_[node].direction == direction_; }
+  const double* valueOf(int node) const;
   void note(int node, double value);
 
   const WhitenedTree* mesh_;
   Eigen::Vector3d m_;
   unsigned direction_ = 0;
-  std::vector<Known> known_;  ///< by node; empty until the first search
+  std::vector<int> places_;  ///< by node, in `known_`; empty until the first search
+  std::vector<Known> known_;
   std::vector<Reach> stack_;
+  std::vector<Opened> opened_;  ///< by the search
 };
 
 }  // namespace fcl_prob::detail

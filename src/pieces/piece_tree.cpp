@@ -13,6 +13,7 @@
 #include "geometry/mesh_visitor.h"
 #include "geometry/surface_caps.h"
 #include "pieces/leaf_order.h"
+#include "pieces/node_slabs.h"
 #include "pieces/octree_pieces.h"
 
 namespace fcl_prob::detail {
@@ -158,6 +159,7 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
     part.spans = spansOf(view);
     part.patches = std::make_shared<const PatchesOfMesh>();
+    part.slabs = std::make_shared<const SlabsOfNodes>();
     orderByLeaves(*tree);
   } else if (kindOf(geometry) == GeometryKind::convex) {
     fillFanOfShape(*tree);

@@ -87,6 +87,8 @@ void whitenPart(const PieceTree::Part& part, const Eigen::Matrix3d& whitening,
                 WhitenedTree& result) {
   const PieceTree& tree = *result.tree;
   const Eigen::Matrix3d linear = whitening * rotation;
+  result.linear.push_back(linear);
+  result.offsets.push_back(offset);
   const Eigen::Matrix3d magnitudes = whitening.cwiseAbs() * rotation.cwiseAbs();
   for (int i = part.vertices.begin; i < part.vertices.end; ++i) {
     result.vertices.push_back(linear * tree.vertices[i] + offset);
@@ -190,6 +192,8 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
                const ExactPosition& minus_origin, WhitenedTree& result) {
   result.tree = object.tree;
   result.vertices.clear();
+  result.linear.clear();
+  result.offsets.clear();
   result.positions.clear();
   result.shapes.clear();
   result.shape_boxes.clear();

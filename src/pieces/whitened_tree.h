@@ -54,6 +54,8 @@ inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
 struct WhitenedTree {
   const PieceTree* tree = nullptr;
   std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Matrix3d> linear;     ///< of each part: maps its axes to those of the frame
+  std::vector<Eigen::Vector3d> offsets;    ///< of its origin
   std::vector<Eigen::Vector3d> positions;  ///< of tree->bodies
   std::vector<ConvexPiece> shapes;         ///< of tree->shapes
   std::vector<NodeBox> shape_boxes;        ///< around them, up to rounding
