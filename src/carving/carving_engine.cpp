@@ -163,7 +163,6 @@ double CarvingEngine::missing() const {
 }
 
 std::optional<ProbabilityStatus> CarvingEngine::limited() const {
-  if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
   return limits_.interruption(interval());
 }
 
@@ -180,6 +179,7 @@ ProbabilityStatus CarvingEngine::run() {
       status = satisfied();
     }
     if (!status && statistics_.cells >= request_.max_cells) status = ProbabilityStatus::cell_limit;
+    if (!status && memory() >= request_.max_memory) status = ProbabilityStatus::memory_limit;
     if (!status && divided >= next_poll) {
       status = limited();
       next_poll = divided + EngineLimits::kCellsBetweenPolls;

@@ -125,8 +125,9 @@ double ColumnLooks::leastOf(int column) {
   return known.least;
 }
 
-ColumnBounds columnBounds(WholeBodyLines& lines, double threshold) {
-  const std::size_t most_columns = lines.memberCount() == 1 ? kMostColumns : kMostColumnsOfGroup;
+ColumnBounds columnBounds(WholeBodyLines& lines, double threshold, std::size_t limit) {
+  const std::size_t most_columns =
+      std::min(limit, lines.memberCount() == 1 ? kMostColumns : kMostColumnsOfGroup);
   const auto most = static_cast<double>(most_columns);
   ColumnLooks looks(lines, Taken::cores);
   ColumnBounds known{{0.0, 1.0}, 0.0, 0};

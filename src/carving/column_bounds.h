@@ -64,7 +64,7 @@ class ColumnLooks {
 };
 
 /// Ends when it is certain on which side of the threshold P lies, or when that would likely
-/// take more columns than pay.
-ColumnBounds columnBounds(WholeBodyLines& lines, double threshold);
+/// take more columns than pay, or than `limit` if that is not less than those of the first look.
+ColumnBounds columnBounds(WholeBodyLines& lines, double threshold, std::size_t limit);
 
 }  // namespace fcl_prob::detail

@@ -220,7 +220,7 @@ std::optional<ColumnBounds> lookAtColumns(const PartitionObject& a, const Partit
   const auto lines =
       WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
   if (!lines) return std::nullopt;
-  const ColumnBounds columns = columnBounds(*lines, *request.threshold);
+  const ColumnBounds columns = columnBounds(*lines, *request.threshold, request.max_cells);
   known = columns.bounds;
   result.lower = known.lower;
   result.upper = known.upper;

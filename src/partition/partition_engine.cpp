@@ -279,7 +279,6 @@ bool PartitionEngine::hasCellsLeft() const {
 }
 
 std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
-  if (memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
   return limits_.interruption(interval(), estimate ? EngineLimits::kShareForDividing : 1.0);
 }
 
@@ -306,6 +305,7 @@ ProbabilityStatus PartitionEngine::run(bool estimate) {
       status = satisfied(estimate);
     }
     if (!status && !hasCellsLeft()) status = ProbabilityStatus::cell_limit;
+    if (!status && memory() >= request_.max_memory) status = ProbabilityStatus::memory_limit;
     if (!status && divided >= next_poll) {
       status = limited(estimate);
       next_poll = divided + EngineLimits::kCellsBetweenPolls;

@@ -339,6 +339,31 @@ TEST_CASE("bounds by columns hold, and decide what is clear", "[lines]") {
   CHECK(by_columns > 12);
 }
 
+// A threshold just above P takes a few hundred columns, if they are allowed.
+TEST_CASE("columns count as cells, of which there is a limit", "[lines]") {
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
+  RandomBodies random(16);
+  std::size_t most = 0;
+  for (int scene = 0; scene < 4; ++scene) {
+    PartitionQuery query(hullMesh(random.onSphere(80, 0.5)),
+                         bumpyMesh(0.7, 12, 16, static_cast<std::uint64_t>(scene)));
+    query.pose_a.translation() = 1.3 * random.direction();
+    const ProbabilityResult truth = query.run(displacement, fcl_prob_test::intervalRequest(5e-3));
+    for (const std::size_t limit : {std::size_t{2'000'000}, std::size_t{100}, std::size_t{40}}) {
+      ProbabilityRequest request = fcl_prob_test::intervalRequest(1e-9);
+      request.threshold = 1.12 * truth.probability();
+      request.max_cells = limit;
+      const ProbabilityResult result = query.run(displacement, request);
+      CAPTURE(scene, limit, result.statistics.cells);
+      CHECK(*result.lower <= *truth.upper);
+      CHECK(*result.upper >= *truth.lower);
+      CHECK(result.statistics.cells <= limit);
+      if (limit > 100) most = std::max(most, result.statistics.cells);
+    }
+  }
+  CHECK(most > 150);
+}
+
 TEST_CASE("an obstacle along the lines is not missed", "[lines]") {
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.2, 0.2, 0.2});
   RandomBodies random(3);

@@ -236,7 +236,8 @@ TEST_CASE("pieces that would not fit into the memory that is allowed are not mad
   request.max_memory = 6'000'000;
   const ProbabilityResult limited = query.run(displacement, request);
   CAPTURE(all.statistics.peak_memory, limited.statistics.peak_memory);
-  CHECK(limited.statistics.peak_memory < 6'500'000);  // limits are looked at now and then
+  // Limits are looked at between rounds, in which an array may grow by a step of its size.
+  CHECK(limited.statistics.peak_memory < 7'500'000);
   CHECK(*limited.lower <= *all.upper);
   CHECK(*limited.upper >= *all.lower);
 }
