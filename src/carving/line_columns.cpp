@@ -102,6 +102,15 @@ void LineColumns::divideOne(int node, double rest) {
   }
 }
 
+bool LineColumns::mayCollideAt(const Eigen::Vector2d& u) const {
+  int node = 0;
+  while (nodes_[node].left >= 0) {
+    const Column& low = nodes_[nodes_[node].left].column;
+    node = nodes_[node].left + ((u.array() <= low.hi.array()).all() ? 0 : 1);
+  }
+  return nodes_[node].mass() > 0.0;
+}
+
 void LineColumns::putInOrder() {
   in_order_.clear();
   std::vector<int> stack{0};

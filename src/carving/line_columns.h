@@ -39,6 +39,9 @@ class LineColumns {
   /// Indices of the columns that may collide, such that those that are near each other stand near
   /// each other.
   const std::vector<int>& inOrder() const { return in_order_; }
+  /// Whether the column at u may collide.
+  bool mayCollideAt(const Eigen::Vector2d& u) const;
+
   Node& operator[](int column) { return nodes_[column]; }
   const Node& operator[](int column) const { return nodes_[column]; }
 

@@ -339,6 +339,42 @@ TEST_CASE("bounds by columns hold, and decide what is clear", "[lines]") {
   CHECK(by_columns > 12);
 }
 
+// Along the axes of the displacement, so that lines have all or nothing of the C-obstacle, and its
+// edges are along the sides of columns: often none of the few lines of a column misses it. P is a
+// product of tails.
+TEST_CASE("edges along the sides of columns count in the standard error", "[lines]") {
+  const Eigen::Vector3d sigma(0.07, 0.06, 0.1);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations(sigma);
+  // Two corners, of which one is out of reach: not convex.
+  const Eigen::Isometry3d corner(Eigen::Translation3d(2.5, 2.5, 0));
+  const Eigen::Isometry3d far(Eigen::Translation3d(-9, 0, 0));
+  const TriangleMesh others = joined(fcl_prob_test::transformed(boxMesh({4, 4, 4}), corner),
+                                     fcl_prob_test::transformed(boxMesh({1, 1, 1}), far));
+  RandomBodies random(12);
+  double sum = 0.0, largest = 0.0;
+  int count = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    PartitionQuery query(boxMesh({0.2, 0.4, 0.3}), others);
+    const Eigen::Vector2d deviations(random.uniform(0.5, 3.0), random.uniform(0.5, 3.0));
+    query.pose_a.translation() = Eigen::Vector3d(0.5 - 0.1 - deviations[0] * sigma[0],
+                                                 0.5 - 0.2 - deviations[1] * sigma[1], 0.0);
+    const double truth =
+        normalIntervalMass(deviations[0], 40) * normalIntervalMass(deviations[1], 40);
+    for (int seed = 1; seed <= 10; ++seed) {
+      const ProbabilityResult result = query.run(displacement, estimateRequest(0.003, seed));
+      if (!isByLines(result)) continue;
+      const double off = (*result.estimate - truth) / *result.standard_error;
+      sum += off * off;
+      largest = std::max(largest, std::fabs(off));
+      ++count;
+    }
+  }
+  CAPTURE(count, largest, std::sqrt(sum / count));
+  CHECK(count > 500);
+  CHECK(std::sqrt(sum / count) < 1.2);
+  CHECK(largest < 6.5);
+}
+
 // A threshold just above P takes a few hundred columns, if they are allowed.
 TEST_CASE("columns count as cells, of which there is a limit", "[lines]") {
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
