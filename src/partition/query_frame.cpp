@@ -59,6 +59,12 @@ class BandedPair {
   PointMotion of_b_;
 };
 
+// Intervals take long enough to be worth the best frame.
+Care careFor(const ProbabilityRequest& request) {
+  const bool is_quick = request.method == ProbabilityMethod::estimate || request.threshold;
+  return is_quick ? Care::rough : Care::full;
+}
+
 }  // namespace
 
 QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
@@ -72,7 +78,8 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
     return {plain, std::move(pair)};
   }
-  const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank()));
+  const Whitening rotated =
+      plain.rotatedTo(closestApproach(pair, displacement.rank(), careFor(request)));
   banded.whiten(rotated, pair);
   return {rotated, std::move(pair)};
 }

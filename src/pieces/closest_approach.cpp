@@ -22,12 +22,23 @@ struct Candidate {
   bool operator<(const Candidate& other) const { return distance > other.distance; }
 };
 
+// Pairs of pieces that a rough search measures. The boxes it goes by are loose: of two thousand
+// steps hundreds measured pairs that were no nearer than the first few. Of estimates and decisions
+// beside robot parts the search had been a tenth and more; 6, 16 and 64 take the same time within
+// 5 %, 1 needs twice the cells of some meshes.
+constexpr int kMostMeasuredRoughly = 16;
+
 class Search {
  public:
-  Search(const WhitenedPair& pair, int rank) : pair_(pair), rank_(rank), obstacles_(pair) {}
+  Search(const WhitenedPair& pair, int rank, Care care)
+      : pair_(pair),
+        rank_(rank),
+        most_measured_(care == Care::rough ? kMostMeasuredRoughly : kMostSteps),
+        obstacles_(pair) {}
 
   Eigen::Vector3d run() {
     push({0, 0});
+    int measured = 0;
     for (int step = 0; step < kMostSteps && !queue_.empty(); ++step) {
       const Candidate next = queue_.top();
       queue_.pop();
@@ -35,6 +46,7 @@ class Search {
       if (areLeaves(pair_, next.nodes)) {
         measure(next.nodes);
         if (nearest_ == 0.0) return Eigen::Vector3d::Zero();
+        if (++measured == most_measured_) break;
       } else {
         for (const NodePair& child : childrenOf(pair_, next.nodes)) push(child);
       }
@@ -74,6 +86,7 @@ class Search {
 
   const WhitenedPair& pair_;
   int rank_;
+  int most_measured_;
   ObstacleTable obstacles_;
   std::priority_queue<Candidate> queue_;
   double nearest_ = std::numeric_limits<double>::infinity();
@@ -82,8 +95,8 @@ class Search {
 
 }  // namespace
 
-Eigen::Vector3d closestApproach(const WhitenedPair& pair, int rank) {
-  return Search(pair, rank).run();
+Eigen::Vector3d closestApproach(const WhitenedPair& pair, int rank, Care care) {
+  return Search(pair, rank, care).run();
 }
 
 }  // namespace fcl_prob::detail
