@@ -53,17 +53,35 @@ FanLine::FanLine(const WhitenedFan& fan) : fan_(fan), touched_(Eigen::Vector3d::
   }
   starts_[0].faces = {lowest};
   starts_[1].faces = {highest};
-  neighbours_begin_.assign(count + 1, 0);
-  for (const auto& [f, g] : fan.arcs()) {
-    ++neighbours_begin_[f + 1];
-    ++neighbours_begin_[g + 1];
+  packNeighbours();
+}
+
+// Blocks are filled up with the first face in them.
+void FanLine::packNeighbours() {
+  const auto count = faces_.size();
+  std::vector<int> next(count + 1, 0);
+  for (const auto& [f, g] : fan_.arcs()) {
+    ++next[f + 1];
+    ++next[g + 1];
   }
-  std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
-  std::vector<int> next = neighbours_begin_;
-  neighbours_.resize(2 * fan.arcs().size());
-  for (const auto& [f, g] : fan.arcs()) {
-    neighbours_[next[f]++] = g;
-    neighbours_[next[g]++] = f;
+  constexpr int kRow = FacesInARow::kCount;
+  for (std::size_t f = 0; f < count; ++f) {
+    next[f + 1] = next[f] + (next[f + 1] + kRow - 1) / kRow * kRow;
+  }
+  blocks_begin_.resize(count + 1);
+  for (std::size_t f = 0; f <= count; ++f) blocks_begin_[f] = next[f] / kRow;
+  std::vector<int> neighbours(next.back(), -1);
+  for (const auto& [f, g] : fan_.arcs()) {
+    neighbours[next[f]++] = g;
+    neighbours[next[g]++] = f;
+  }
+  blocks_.resize(neighbours.size() / kRow);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (int i = 0; i < kRow; ++i) {
+      const int g = neighbours[kRow * b + i];
+      blocks_[b].faces[i] = g < 0 ? blocks_[b].faces[0] : g;
+      blocks_[b].d.row(i) = faces_[blocks_[b].faces[i]];
+    }
   }
 }
 
@@ -75,11 +93,14 @@ int FanLine::highestFace(const Eigen::Vector3d& point, double sign) {
   for (bool climbs = true; climbs;) {
     climbs = false;
     const int from = highest;
-    for (int k = neighbours_begin_[from]; k < neighbours_begin_[from + 1]; ++k) {
-      const double other = faces_[neighbours_[k]].dot(point);
-      if (!(other > height)) continue;
-      height = other;
-      highest = neighbours_[k];
+    for (int b = blocks_begin_[from]; b < blocks_begin_[from + 1]; ++b) {
+      const FacesInARow& block = blocks_[b];
+      const Eigen::Array4d heights =
+          block.d.col(0) * point.x() + block.d.col(1) * point.y() + block.d.col(2) * point.z();
+      if (!(heights > height).any()) continue;
+      Eigen::Index best;
+      height = heights.maxCoeff(&best);
+      highest = block.faces[best];
       climbs = true;
     }
   }

@@ -77,6 +77,15 @@ class FanLine {
     Eigen::Vector3d c, p, q;
   };
 
+  /// A few faces, to be looked at in one go.
+  struct FacesInARow {
+    static constexpr int kCount = 4;
+
+    Eigen::Array<double, kCount, 3> d;
+    std::array<int, kCount> faces;
+  };
+
+  void packNeighbours();
   bool begin(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign,
              Vertex& vertex) const;
   int startFor(const Eigen::Matrix3d& corners, const Eigen::Vector2d& u, double sign) const;
@@ -85,8 +94,8 @@ class FanLine {
 
   const WhitenedFan& fan_;
   std::vector<Eigen::Vector3d> faces_;  ///< d: P is where d·y <= 1 for all of them
-  std::vector<int> neighbours_;         ///< of all faces
-  std::vector<int> neighbours_begin_;   ///< of each of them, and the end
+  std::vector<FacesInARow> blocks_;     ///< the neighbours of all faces
+  std::vector<int> blocks_begin_;       ///< of each of them, and the end
   std::array<Starts, 2> starts_;        ///< for lines from above and from below
   std::array<std::unordered_map<int, Vertex>, 2>
       vertices_;                  ///< at which searches ended, by triangle
