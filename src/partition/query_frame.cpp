@@ -10,6 +10,7 @@
 #include "pieces/band_margin.h"
 #include "pieces/closest_approach.h"
 #include "pieces/turning_margin.h"
+#include "pieces/whole_body.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -59,10 +60,12 @@ class BandedPair {
   PointMotion of_b_;
 };
 
-// Intervals take long enough to be worth the best frame.
-Care careFor(const ProbabilityRequest& request) {
+// Where an object can be taken whole, estimates and decisions take hardly longer than the search.
+Care careFor(const PartitionObject& a, const PartitionObject& b,
+             const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   const bool is_quick = request.method == ProbabilityMethod::estimate || request.threshold;
-  return is_quick ? Care::rough : Care::full;
+  if (!is_quick || !wholeBodyOf(a, b, displacement, Convexity::nearly)) return Care::full;
+  return Care::rough;
 }
 
 }  // namespace
@@ -78,8 +81,8 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
     return {plain, std::move(pair)};
   }
-  const Whitening rotated =
-      plain.rotatedTo(closestApproach(pair, displacement.rank(), careFor(request)));
+  const Care care = careFor(a, b, displacement, request);
+  const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank(), care));
   banded.whiten(rotated, pair);
   return {rotated, std::move(pair)};
 }
