@@ -272,15 +272,17 @@ bool CrossingWitness::avoidsCaps(Side& side, const Cell& cell) {
 std::optional<CellPlane> CrossingWitness::plane(const Cell& cell,
                                                 const std::vector<FrontPair>& near) {
   best_.reset();
+  tried_across_.clear();
   for (Side& side : sides_) {
     if (side.last_found >= 0) tryVertex(side, side.last_found, cell, nullptr);
   }
   tryNear(cell, near, nullptr);
-  for (int round = 0; round < 2 && best_; ++round) {
+  if (!best_) return std::nullopt;
+  for (int round = 0; round < 2; ++round) {
     const Eigen::Vector3d m = best_->plane.m;
     tryNear(cell, near, &m);
+    if (best_->plane.m == m) break;
   }
-  if (!best_) return std::nullopt;
   best_->side->last_found = best_->vertex;
   return best_->plane;
 }
@@ -288,6 +290,7 @@ std::optional<CellPlane> CrossingWitness::plane(const Cell& cell,
 // Tries vertices of some of the nodes: any, or with a direction m those farthest along it.
 void CrossingWitness::tryNear(const Cell& cell, const std::vector<FrontPair>& near,
                               const Eigen::Vector3d* m) {
+  tried_along_.clear();
   const std::size_t step = std::max<std::size_t>(near.size() / kTriedForPlane, 1);
   for (Side& side : sides_) {
     for (std::size_t i = step / 2; i < near.size(); i += step) {
@@ -301,13 +304,22 @@ void CrossingWitness::tryNear(const Cell& cell, const std::vector<FrontPair>& ne
   }
 }
 
-// With normal m, if given, and with one across what is touched.
+// With normal m, if given, and with one across what is touched; either once.
 void CrossingWitness::tryVertex(Side& side, int vertex, const Cell& cell,
                                 const Eigen::Vector3d* m) {
+  const auto isNew = [&](std::vector<std::pair<const Side*, int>>& tried) {
+    const std::pair<const Side*, int> one(&side, vertex);
+    if (std::find(tried.begin(), tried.end(), one) != tried.end()) return false;
+    tried.push_back(one);
+    return true;
+  };
+  const bool along = m && isNew(tried_along_);
+  const bool across = isNew(tried_across_);
+  if (!along && !across) return;
   const SweptVertex swept = sweep(side, vertex, cell);
   if (!findTouched(side, swept)) return;
-  if (m) tryPlane(side, vertex, swept, cell, *m);
-  tryPlane(side, vertex, swept, cell, acrossTouched(side));
+  if (along) tryPlane(side, vertex, swept, cell, *m);
+  if (across) tryPlane(side, vertex, swept, cell, acrossTouched(side));
 }
 
 // Whether the swept vertex touches some triangles, and not too many.

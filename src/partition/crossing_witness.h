@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "partition/open_cell.h"
@@ -92,6 +93,8 @@ class CrossingWitness {
   bool solid_;
   std::shared_ptr<const BandMargin> band_;
   std::vector<Side> sides_;
+  std::vector<std::pair<const Side*, int>> tried_along_;   ///< vertices, with the last normal
+  std::vector<std::pair<const Side*, int>> tried_across_;  ///< of this cell
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
 };
