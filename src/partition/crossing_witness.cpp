@@ -307,8 +307,8 @@ void CrossingWitness::tryNear(const Cell& cell, const std::vector<FrontPair>& ne
 // With normal m, if given, and with one across what is touched; either once.
 void CrossingWitness::tryVertex(Side& side, int vertex, const Cell& cell,
                                 const Eigen::Vector3d* m) {
-  const auto isNew = [&](std::vector<std::pair<const Side*, int>>& tried) {
-    const std::pair<const Side*, int> one(&side, vertex);
+  const auto isNew = [&](Tried& tried) {
+    const Tried::value_type one(&side, vertex);
     if (std::find(tried.begin(), tried.end(), one) != tried.end()) return false;
     tried.push_back(one);
     return true;

@@ -66,6 +66,9 @@ class CrossingWitness {
     int last_found = -1;
   };
 
+  /// Vertices that were tried, each of the inner mesh of a side.
+  using Tried = std::vector<std::pair<const Side*, int>>;
+
   struct Attempt {
     Side* side;
     int vertex;
@@ -93,8 +96,8 @@ class CrossingWitness {
   bool solid_;
   std::shared_ptr<const BandMargin> band_;
   std::vector<Side> sides_;
-  std::vector<std::pair<const Side*, int>> tried_along_;   ///< vertices, with the last normal
-  std::vector<std::pair<const Side*, int>> tried_across_;  ///< of this cell
+  Tried tried_along_;                     ///< the normal asked for last
+  Tried tried_across_;                    ///< what they touch, in this cell
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
 };
