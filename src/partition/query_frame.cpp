@@ -37,8 +37,8 @@ class BandedPair {
   BandedPair(const BandedPair&) = delete;
   BandedPair& operator=(const BandedPair&) = delete;
 
-  void whiten(const Whitening& whitening, WhitenedPair& pair) const {
-    detail::whiten(a_, b_, whitening, pair);
+  void whiten(const Whitening& whitening, KeptBoxes kept, WhitenedPair& pair) const {
+    detail::whiten(a_, b_, whitening, kept, pair);
     const Eigen::Matrix3d& w = whitening.matrix();
     if (swept_) pair.band = std::make_shared<const BandMargin>(a_, b_, w);
     pair.turning.reset();
@@ -76,14 +76,16 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   const Whitening plain(displacement, unit);
   const BandedPair banded(a, b, request);
   WhitenedPair pair;
-  banded.whiten(plain, pair);
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
+    banded.whiten(plain, KeptBoxes::all, pair);
     return {plain, std::move(pair)};
   }
+  // The search looks at a few thousand boxes.
+  banded.whiten(plain, KeptBoxes::of_many_triangles, pair);
   const Care care = careFor(a, b, displacement, request);
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank(), care));
-  banded.whiten(rotated, pair);
+  banded.whiten(rotated, KeptBoxes::all, pair);
   return {rotated, std::move(pair)};
 }
 

@@ -47,15 +47,21 @@ class Search {
         if (nearest_ == 0.0) return Eigen::Vector3d::Zero();
         if (++measured == most_measured_) break;
       } else {
-        for (const NodePair& child : childrenOf(pair_, next.nodes)) push(child);
+        open(next.nodes);
       }
     }
     return direction_;
   }
 
  private:
+  void open(NodePair nodes) {
+    const NodeBox a = pair_.a.boxOf(nodes.a);
+    const NodeBox b = pair_.b.boxOf(nodes.b);
+    for (const NodePair& child : childrenOf(pair_, nodes, a, b)) push(child);
+  }
+
   void push(NodePair nodes) {
-    const NodeBox box = obstacleBox(pair_, nodes);
+    const NodeBox box = obstacleBox(pair_.a.boxOf(nodes.a), pair_.b.boxOf(nodes.b));
     double distance = 0.0;
     for (int k = 0; k < 3; ++k) {
       const double outside = std::max({box.lo[k], -box.hi[k], 0.0});

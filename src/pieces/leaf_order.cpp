@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "pieces/leaf_order.h"
 
+#include <algorithm>
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -63,6 +65,33 @@ std::vector<Eigen::Vector3i> inOrderOfLeaves(PieceTree& mesh) {
   return triangles;
 }
 
+bool isLarge(const PieceTree::Node& node) {
+  return node.last_piece - node.piece >= PieceTree::kFewTriangles;
+}
+
+/// Nodes of few triangles last, otherwise in the order they had: a node still comes before its
+/// children, which have no more triangles.
+void orderNodes(PieceTree& mesh) {
+  const std::size_t large = std::count_if(mesh.nodes.begin(), mesh.nodes.end(), isLarge);
+  std::vector<int> places;
+  places.reserve(mesh.nodes.size());
+  int next_large = 0;
+  int next_small = static_cast<int>(large);
+  for (const PieceTree::Node& node : mesh.nodes) {
+    places.push_back(isLarge(node) ? next_large++ : next_small++);
+  }
+  std::vector<PieceTree::Node> ordered(mesh.nodes.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    PieceTree::Node& node = ordered[places[i]];
+    node = mesh.nodes[i];
+    if (node.isLeaf()) continue;
+    node.left = places[node.left];
+    node.right = places[node.right];
+  }
+  mesh.nodes.swap(ordered);
+  mesh.nodes_of_many = large;
+}
+
 }  // namespace
 
 void tellTriangles(PieceTree& meshes) {
@@ -76,6 +105,7 @@ void tellTriangles(PieceTree& meshes) {
 void orderByLeaves(PieceTree& mesh) {
   mesh.triangles = inOrderOfLeaves(mesh);
   tellTriangles(mesh);
+  orderNodes(mesh);
   VertexOrder order(mesh.vertices.size());
   for (Eigen::Vector3i& t : mesh.triangles) t = order.placesOf(t);
   order.placeRest();

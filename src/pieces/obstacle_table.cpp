@@ -223,8 +223,8 @@ Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
 }
 
 Eigen::Vector3d ObstacleTable::paddingOf(NodePair leaves, const Eigen::Vector3d& error) const {
-  const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxes[leaves.a]) +
-                                largestCoordinates(pair_.b.boxes[leaves.b]) +
+  const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxOf(leaves.a)) +
+                                largestCoordinates(pair_.b.boxOf(leaves.b)) +
                                 Eigen::Vector3d::Constant(kReach);
   return 4 * error + 32 * kEpsilon * reach;
 }

@@ -84,7 +84,11 @@ struct PieceTree {
     std::shared_ptr<const SlabsOfNodes> slabs;
   };
 
-  std::vector<Node> nodes;  ///< nodes[0] is the root
+  /// Nodes of a single mesh with no more triangles than these come last.
+  static constexpr int kFewTriangles = 8;
+
+  std::vector<Node> nodes;                   ///< nodes[0] is the root
+  std::optional<std::size_t> nodes_of_many;  ///< of a single mesh: how many of them have more
   std::vector<Part> parts;
   std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to the origin of their part
   std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
@@ -106,6 +110,9 @@ struct PieceTree {
 
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }
+
+  /// All nodes before this one but those of few triangles of a single mesh.
+  std::size_t largeNodes() const { return nodes_of_many.value_or(nodes.size()); }
   bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
   int bodyOf(int piece) const { return piece - static_cast<int>(triangles.size()); }
 

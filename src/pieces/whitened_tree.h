@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <boost/container/vector.hpp>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,10 @@ inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
   return box;
 }
 
+/// Of which nodes of a mesh that does not move boxes are kept: those of few triangles are most of
+/// them.
+enum class KeptBoxes { all, of_many_triangles };
+
 /// Vertices and node boxes of one object in the whitened frame. With A's and B's trees of one
 /// query, `b - a` over their points is the C-obstacle. All is relative to the middle of A's first
 /// part, B also to the mean.
@@ -59,7 +64,9 @@ struct WhitenedTree {
   std::vector<Eigen::Vector3d> positions;  ///< of tree->bodies
   std::vector<ConvexPiece> shapes;         ///< of tree->shapes
   std::vector<NodeBox> shape_boxes;        ///< around them, up to rounding
-  std::vector<NodeBox> boxes;              ///< of tree->nodes, padded by `error`
+
+  /// Of tree->nodes, padded by `error`. Some MB of a dense mesh, which are written only once.
+  boost::container::vector<NodeBox> boxes;
 
   /// Bound on the error of a vertex or point of a piece, for each axis.
   Eigen::Vector3d error = Eigen::Vector3d::Zero();
@@ -68,6 +75,9 @@ struct WhitenedTree {
   /// object without PointMotion or sweeps. The boxes contain it.
   std::vector<Eigen::Vector3d> node_motions;
   std::vector<Eigen::Vector3d> vertex_motions;
+
+  /// Around a node whether its box is kept or not.
+  NodeBox boxOf(int node) const;
 
   /// The error of the points of a node. Whoever uses it adds four of them; the motion needs to be
   /// in that once.
@@ -109,7 +119,7 @@ WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Wh
 
 /// The same into the memory of an earlier one, which must not be referred to any more.
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
-            WhitenedPair& result);
+            KeptBoxes kept, WhitenedPair& result);
 
 /// Bound on the error of b - a over the points of two nodes, without what `band` pays for.
 inline Eigen::Vector3d slabError(const WhitenedPair& pair, NodePair nodes) {
@@ -124,6 +134,10 @@ inline bool areLeaves(const WhitenedPair& pair, NodePair nodes) {
 
 /// The children of the larger node, each with the other node; not both may be leaves.
 std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes);
+
+/// The same, given the boxes of the nodes, where not all are kept.
+std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes, const NodeBox& box_a,
+                                   const NodeBox& box_b);
 
 /// Bounding box of the C-obstacle of two nodes: certainly contains it.
 inline NodeBox obstacleBox(const NodeBox& a, const NodeBox& b) {

@@ -5,10 +5,15 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "catch.h"
 #include "geometry/mesh_visitor.h"
 #include "mesh_shapes.h"
 #include "random_bodies.h"
+#include "whitened_meshes.h"
 
 namespace {
 
@@ -33,26 +38,40 @@ Eigen::Vector3d placeOf(const PieceTree& tree, const PieceTree::Part& part, int 
   return tree.vertices[vertex] + part.origin;
 }
 
+// Walks FCL's tree and the part's side by side.
 void checkTriangles(const PieceTree& tree, const PieceTree::Part& part, const Model& model) {
   REQUIRE(part.triangles.end - part.triangles.begin == model.num_tris);
-  for (int i = 0; i < model.getNumBVs(); ++i) {
-    const PieceTree::Node& node = tree.nodes[part.root + i];
-    if (!node.isLeaf()) continue;
-    const fcl::Triangle& t = model.tri_indices[model.getBV(i).primitiveId()];
+  std::vector<std::pair<int, int>> stack{{0, part.root}};
+  int leaves = 0;
+  while (!stack.empty()) {
+    const auto& bv = model.getBV(stack.back().first);
+    const PieceTree::Node& node = tree.nodes[stack.back().second];
+    stack.pop_back();
+    REQUIRE(node.isLeaf() == bv.isLeaf());
+    if (!node.isLeaf()) {
+      stack.emplace_back(bv.leftChild(), node.left);
+      stack.emplace_back(bv.rightChild(), node.right);
+      continue;
+    }
+    ++leaves;
+    const fcl::Triangle& t = model.tri_indices[bv.primitiveId()];
     for (int k = 0; k < 3; ++k) {
       const int vertex = PieceTree::vertexOf(part, t[k]);
       CHECK(tree.triangles[node.piece][k] == vertex);
       CHECK((placeOf(tree, part, vertex) - model.vertices[t[k]]).norm() < 1e-15);
     }
   }
+  CHECK(leaves == model.num_tris);
 }
 
 void checkNodes(const PieceTree& tree) {
-  for (const PieceTree::Node& node : tree.nodes) {
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const PieceTree::Node& node = tree.nodes[i];
     if (node.isLeaf()) {
       CHECK(node.last_piece == node.piece);
       continue;
     }
+    CHECK(std::min(node.left, node.right) > static_cast<int>(i));
     CHECK(node.piece == tree.nodes[node.left].piece);
     CHECK(node.last_piece == tree.nodes[node.right].last_piece);
     CHECK(tree.nodes[node.left].last_piece + 1 == tree.nodes[node.right].piece);
@@ -99,6 +118,39 @@ TEST_CASE("triangles follow each other as the leaves do, and mean what they mean
       }
     }
     CHECK(found == 1);
+  }
+}
+
+TEST_CASE("nodes of few triangles come last in the tree of a mesh") {
+  const auto model = makeModel<fcl::OBBRSSd>(raggedMesh());
+  const auto tree = detail::buildPieceTree(*model);
+  REQUIRE(tree->largeNodes() > 0);
+  REQUIRE(tree->largeNodes() < tree->nodes.size() / 2);
+  for (std::size_t i = 0; i < tree->nodes.size(); ++i) {
+    const int triangles = tree->nodes[i].last_piece - tree->nodes[i].piece + 1;
+    CHECK((triangles > PieceTree::kFewTriangles) == (i < tree->largeNodes()));
+  }
+  const auto both = detail::joinPieceTrees({tree.get(), tree.get()});
+  CHECK(both->largeNodes() == both->nodes.size());
+  const auto small = makeModel<fcl::OBBRSSd>(boxMesh({1, 1, 1}));
+  CHECK(detail::buildPieceTree(*small)->largeNodes() == 1);
+}
+
+TEST_CASE("boxes that are not kept are those that would be, to the bit") {
+  const WhitenedMeshes meshes(raggedMesh(), bumpyMesh(0.5, 8, 9, 5));
+  detail::WhitenedPair few;
+  const detail::PartitionObject a = meshes.objectOf(true);
+  const detail::PartitionObject b = meshes.objectOf(false);
+  detail::whiten(a, b, meshes.whitening, detail::KeptBoxes::of_many_triangles, few);
+  REQUIRE(few.a.boxes.size() == meshes.tree_a->largeNodes());
+  REQUIRE(meshes.pair.a.boxes.size() == meshes.tree_a->nodes.size());
+  for (std::size_t i = 0; i < meshes.pair.a.boxes.size(); ++i) {
+    const detail::NodeBox& kept = meshes.pair.a.boxes[i];
+    const detail::NodeBox box = few.a.boxOf(static_cast<int>(i));
+    for (int k = 0; k < 3; ++k) {
+      CHECK(box.lo[k] == kept.lo[k]);
+      CHECK(box.hi[k] == kept.hi[k]);
+    }
   }
 }
 
