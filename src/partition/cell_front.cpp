@@ -201,7 +201,7 @@ void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
     if (pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
     const NodeBox box = obstacleBox(pair_, pair.nodes);
-    if (!meetsCell(box) || !meetsLayer(pair.nodes)) continue;
+    if (!meetsCell(box)) continue;
     if (largerThanCell(pair, box, kProbeRatio)) {
       ordered_.emplace_back(eccentricity(box), BoxedPair{obstacles_.frontPair(pair.nodes), box});
     } else {
@@ -344,8 +344,8 @@ double CellFront::eccentricity(const NodeBox& box) const {
 // What a band adds to the box may collide, but does not for certain.
 bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const {
   for (int k = 0; k < cell_.rank; ++k) {
-    const double of_band = 2.0 * outwardOfBand(Eigen::Vector3d::Unit(k), pair.nodes);
-    const double own = box.hi[k] - box.lo[k] - of_band;
+    double own = box.hi[k] - box.lo[k];
+    if (pair_.band) own -= 2.0 * outwardOfBand(Eigen::Vector3d::Unit(k), pair.nodes);
     if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;
