@@ -111,8 +111,9 @@ struct PieceTree {
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }
 
-  /// All nodes before this one but those of few triangles of a single mesh.
+  /// How many nodes there are but those of few triangles of a single mesh, which come last.
   std::size_t largeNodes() const { return nodes_of_many.value_or(nodes.size()); }
+
   bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
   int bodyOf(int piece) const { return piece - static_cast<int>(triangles.size()); }
 
