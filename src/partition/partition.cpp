@@ -158,7 +158,9 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
       status = ProbabilityStatus::resolution_limit;
     }
   }
-  if (interrupted && status == ProbabilityStatus::converged) status = *interrupted;
+  // Who cancels is not asked again, by another method either, whatever limit was reached before.
+  const bool cancelled = interrupted == ProbabilityStatus::cancelled;
+  if (interrupted && (cancelled || status == ProbabilityStatus::converged)) status = *interrupted;
   return sampled;
 }
 

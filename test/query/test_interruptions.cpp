@@ -291,6 +291,20 @@ TEST_CASE("methods that run in one piece obey the limits too", "[query]") {
   }
 }
 
+TEST_CASE("who cancels an estimate that is out of cells is not asked again", "[query]") {
+  const MutableGeometry cone = std::make_shared<fcl::Coned>(0.4, 0.6);
+  const MutableGeometry capsule = std::make_shared<fcl::Capsuled>(0.2, 0.5);
+  const Ask ask = ofPair(cone, capsule, tiltedAt(0.6, 0.1, 0.1), ProbabilityMethod::estimate);
+  ProbabilityRequest request = requestWithin(0.01);
+  request.max_cells = 2;
+  int calls = 0;
+  request.on_progress = [&](const ProbabilityProgress&) { return ++calls > 1; };
+  ProbabilityResult result;
+  ask(request, result);
+  CHECK(calls == 1);
+  CHECK(result.status == ProbabilityStatus::cancelled);
+}
+
 TEST_CASE("pilot samples of rare events obey the limits too", "[query]") {
   ProbabilityRequest request = requestWithin(1e-4);
   request.samples = 100'000'000;
