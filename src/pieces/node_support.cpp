@@ -11,7 +11,7 @@ namespace {
 
 // So many triangles of a node are looked at one by one: they follow each other in memory, while
 // boxes of smaller nodes would have to be fetched.
-constexpr int kFewTriangles = PieceTree::kFewTriangles;
+constexpr int kFewTriangles = 8;
 
 }  // namespace
 
