@@ -87,8 +87,8 @@ void NodeSpans::boundNodes() {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     at_vertices.push_back(endsAt(fan_.corner(static_cast<int>(v))));
   }
-  ends_.resize(mesh.boxes.size());
-  boxes_.resize(mesh.boxes.size());
+  ends_.resize(mesh.tree->nodes.size());
+  boxes_.resize(mesh.tree->nodes.size());
   for (std::size_t i = ends_.size(); i-- > 0;) {
     const PieceTree::Node& node = mesh.tree->nodes[i];
     boxes_[i] = fan_.obstacleBox(static_cast<int>(i));

@@ -60,7 +60,7 @@ WholeBodyLines::Met WholeBodyLines::meet(const Column& column, const Met& among)
     const Visit visit = stack_.back();
     stack_.pop_back();
     const WhitenedTree& mesh = visit.place.member->fan.mesh();
-    const NodeBox& box = mesh.boxes[visit.place.node];
+    const NodeBox& box = mesh.boxOf(visit.place.node);
     const bool is_fine = box.hi[1] - box.lo[1] < fine[0] && box.hi[2] - box.lo[2] < fine[1];
     if (isWithin(visit.span, spans)) {
       met.visits.push_back(visit);

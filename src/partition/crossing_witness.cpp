@@ -77,7 +77,7 @@ int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) 
   while (!mesh.tree->nodes[node].isLeaf()) {
     const PieceTree::Node& inner = mesh.tree->nodes[node];
     const bool left =
-        mesh.boxes[inner.left].highestAlong(m) > mesh.boxes[inner.right].highestAlong(m);
+        mesh.boxOf(inner.left).highestAlong(m) > mesh.boxOf(inner.right).highestAlong(m);
     node = left ? inner.left : inner.right;
   }
   const Eigen::Vector3i& t = mesh.tree->triangles[mesh.tree->nodes[node].piece];
@@ -207,12 +207,12 @@ bool CrossingWitness::covers(const Cell& cell) {
 
 bool CrossingWitness::coversBy(Side& side, Candidate& candidate, const Cell& cell) {
   const SweptVertex swept = sweep(side, candidate.vertex, cell);
-  const NodeBox& bounds = side.outer.mesh().boxes[0];
+  const NodeBox& bounds = side.outer.mesh().boxOf(0);
   for (int k = 0; k < 3; ++k) {
     if (swept.lo[k] < bounds.lo[k] || swept.hi[k] > bounds.hi[k]) return false;
   }
   if (candidate.outside && swept.isWithin(*candidate.outside)) return false;
-  const auto no = [](const Eigen::Vector3i&, const NodeBox&) { return false; };
+  const auto no = [](const Eigen::Vector3i&) { return false; };
   if (!side.outer.visitTriangles(swept.lo, swept.hi, no)) return false;
   const std::optional<bool> inside = isInside(side, swept);
   if (inside == false) candidate.outside = swept;
@@ -244,7 +244,7 @@ bool CrossingWitness::crosses(Side& side, int vertex, const Cell& cell) {
 // Some vertex of the component is beyond the outer mesh's bounds for every displacement of the
 // cell.
 bool CrossingWitness::leaves(const Side& side, int component, const Cell& cell) const {
-  const NodeBox& bounds = side.outer.mesh().boxes[0];
+  const NodeBox& bounds = side.outer.mesh().boxOf(0);
   for (int i = 0; i < 6; ++i) {
     const SweptVertex swept = sweep(side, side.extremes[component][i], cell);
     if (i % 2 == 0 ? swept.hi[i / 2] < bounds.lo[i / 2] : swept.lo[i / 2] > bounds.hi[i / 2]) {
@@ -325,8 +325,8 @@ void CrossingWitness::tryVertex(Side& side, int vertex, const Cell& cell,
 // Whether the swept vertex touches some triangles, and not too many.
 bool CrossingWitness::findTouched(Side& side, const SweptVertex& swept) {
   touched_.clear();
-  if (isClearOf(side.outer.mesh().boxes[0], swept.lo, swept.hi)) return false;
-  const auto collect = [this](const Eigen::Vector3i& triangle, const NodeBox&) {
+  if (isClearOf(side.outer.mesh().boxOf(0), swept.lo, swept.hi)) return false;
+  const auto collect = [this](const Eigen::Vector3i& triangle) {
     touched_.push_back(triangle);
     return touched_.size() < kMostTouched;
   };
@@ -368,7 +368,7 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
   const WhitenedTree& outer = side.outer.mesh();
   const Eigen::Vector3d& p = side.inner.mesh().vertices[vertex];
   const Eigen::Vector3d upwards = side.sign * m;
-  const Eigen::Vector3d rounding = clipRounding(outer.boxes[0], p);
+  const Eigen::Vector3d rounding = clipRounding(outer.boxOf(0), p);
   double highest = -kInfinity;
   for (const Eigen::Vector3i& t : touched_) {
     std::array<Eigen::Vector3d, 3> triangle;

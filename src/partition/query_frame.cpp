@@ -37,8 +37,8 @@ class BandedPair {
   BandedPair(const BandedPair&) = delete;
   BandedPair& operator=(const BandedPair&) = delete;
 
-  void whiten(const Whitening& whitening, KeptBoxes kept, WhitenedPair& pair) const {
-    detail::whiten(a_, b_, whitening, kept, pair);
+  void whiten(const Whitening& whitening, WhitenedPair& pair) const {
+    detail::whiten(a_, b_, whitening, pair);
     const Eigen::Matrix3d& w = whitening.matrix();
     if (swept_) pair.band = std::make_shared<const BandMargin>(a_, b_, w);
     pair.turning.reset();
@@ -78,14 +78,13 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   WhitenedPair pair;
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
-    banded.whiten(plain, KeptBoxes::all, pair);
+    banded.whiten(plain, pair);
     return {plain, std::move(pair)};
   }
-  // The search looks at a few thousand boxes.
-  banded.whiten(plain, KeptBoxes::of_many_triangles, pair);
+  banded.whiten(plain, pair);
   const Care care = careFor(a, b, displacement, request);
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank(), care));
-  banded.whiten(rotated, KeptBoxes::all, pair);
+  banded.whiten(rotated, pair);
   return {rotated, std::move(pair)};
 }
 

@@ -36,7 +36,7 @@ NodeBox CappedTree::boxOfCapTriangles(int first, int last) const {
 }
 
 bool CappedTree::isFreeOfMesh(const double* lo, const double* hi) {
-  return visitMesh(lo, hi, [](const Eigen::Vector3i&, const NodeBox&) { return false; });
+  return visitMesh(lo, hi, [](const Eigen::Vector3i&) { return false; });
 }
 
 // The vertices are known to `error` only (see ClosedMesh), which is the unit of length here: a ray
@@ -44,10 +44,10 @@ bool CappedTree::isFreeOfMesh(const double* lo, const double* hi) {
 // of the mesh; all is mirrored where that is the lower one.
 std::optional<bool> CappedTree::isInside(const Eigen::Vector3d& point, int axis) {
   bool odd = false;
-  const NodeBox& bounds = mesh_->boxes[0];
+  const NodeBox& bounds = mesh_->boxOf(0);
   const bool upwards = bounds.hi[axis] - point[axis] <= point[axis] - bounds.lo[axis];
   const double sign = upwards ? 1.0 : -1.0;
-  const auto cross = [&](const Eigen::Vector3i& triangle, const NodeBox&) {
+  const auto cross = [&](const Eigen::Vector3i& triangle) {
     std::array<Eigen::Vector3d, 3> corners;
     double reach = point.cwiseAbs().cwiseQuotient(mesh_->error).maxCoeff();
     for (int k = 0; k < 3; ++k) {

@@ -21,7 +21,7 @@ class CappedTree {
   /// Around each cap.
   const std::vector<NodeBox>& capBoxes() const { return cap_boxes_; }
 
-  /// Calls `function(triangle, box)` for every triangle of the mesh and of its caps whose box meets
+  /// Calls `function(triangle)` for every triangle of the mesh and of its caps whose box meets
   /// [lo, hi]; stops and returns false as soon as one call returns false.
   template <typename Function>
   bool visitTriangles(const double* lo, const double* hi, Function&& function);
@@ -54,16 +54,18 @@ bool CappedTree::visitTriangles(const double* lo, const double* hi, Function&& f
 template <typename Function>
 bool CappedTree::visitMesh(const double* lo, const double* hi, Function&& function) {
   const PieceTree& tree = *mesh_->tree;
-  stack_.assign(1, 0);
+  stack_.clear();
+  const auto push = [&](int index) {
+    if (!isClearOf(mesh_->boxOf(index), lo, hi)) stack_.push_back(index);
+  };
+  push(0);
   while (!stack_.empty()) {
-    const int index = stack_.back();
+    const PieceTree::Node& node = tree.nodes[stack_.back()];
     stack_.pop_back();
-    if (isClearOf(mesh_->boxes[index], lo, hi)) continue;
-    const PieceTree::Node& node = tree.nodes[index];
     if (!node.isLeaf()) {
-      stack_.push_back(node.left);
-      stack_.push_back(node.right);
-    } else if (!function(tree.triangles[node.piece], mesh_->boxes[index])) {
+      push(node.left);
+      push(node.right);
+    } else if (!function(tree.triangles[node.piece])) {
       return false;
     }
   }
@@ -75,8 +77,8 @@ bool CappedTree::visitCaps(const double* lo, const double* hi, Function&& functi
   for (std::size_t cap = 0; cap < cap_boxes_.size(); ++cap) {
     if (isClearOf(cap_boxes_[cap], lo, hi)) continue;
     for (int t = caps().caps[cap].first; t < caps().caps[cap].last; ++t) {
-      const NodeBox& box = cap_triangle_boxes_[t];
-      if (!isClearOf(box, lo, hi) && !function(caps().triangles[t], box)) return false;
+      if (isClearOf(cap_triangle_boxes_[t], lo, hi)) continue;
+      if (!function(caps().triangles[t])) return false;
     }
   }
   return true;

@@ -55,13 +55,11 @@ class Search {
 
  private:
   void open(NodePair nodes) {
-    const NodeBox a = pair_.a.boxOf(nodes.a);
-    const NodeBox b = pair_.b.boxOf(nodes.b);
-    for (const NodePair& child : childrenOf(pair_, nodes, a, b)) push(child);
+    for (const NodePair& child : childrenOf(pair_, nodes)) push(child);
   }
 
   void push(NodePair nodes) {
-    const NodeBox box = obstacleBox(pair_.a.boxOf(nodes.a), pair_.b.boxOf(nodes.b));
+    const NodeBox box = obstacleBox(pair_, nodes);
     double distance = 0.0;
     for (int k = 0; k < 3; ++k) {
       const double outside = std::max({box.lo[k], -box.hi[k], 0.0});

@@ -78,7 +78,7 @@ void SolidContact::addDirections(const PartitionObject& inner,
           {unrotate * (offset + linear * part.point),
            kRoundings * kEpsilon * reach + 2 * inner.tree->parts[part.part].error});
     }
-    direction.outer_box = of_outer.boxes[outer.tree->parts[j].root];
+    direction.outer_box = of_outer.boxOf(outer.tree->parts[j].root);
     for (int k = 0; k < 3; ++k) {
       direction.outer_box.lo[k] -= motion.rounding[k];
       direction.outer_box.hi[k] += motion.rounding[k];

@@ -65,21 +65,40 @@ std::vector<Eigen::Vector3i> inOrderOfLeaves(PieceTree& mesh) {
   return triangles;
 }
 
-bool isLarge(const PieceTree::Node& node) {
-  return node.last_piece - node.piece >= PieceTree::kFewTriangles;
+bool isAboveClusters(const PieceTree::Node& node) {
+  return node.last_piece - node.piece >= PieceTree::kClusterTriangles;
 }
 
-/// Nodes of few triangles last, otherwise in the order they had: a node still comes before its
-/// children, which have no more triangles.
+enum class Place { above, cluster, below };
+
+/// Of each node, from top to bottom.
+std::vector<Place> placesAmongClusters(const PieceTree& mesh) {
+  std::vector<Place> places(mesh.nodes.size(), Place::cluster);
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    const PieceTree::Node& node = mesh.nodes[i];
+    if (isAboveClusters(node)) {
+      places[i] = Place::above;
+    } else if (!node.isLeaf()) {
+      places[node.left] = Place::below;
+      places[node.right] = Place::below;
+    }
+  }
+  return places;
+}
+
+/// Otherwise in the order they had: a node still comes before its children.
 void orderNodes(PieceTree& mesh) {
-  const std::size_t large = std::count_if(mesh.nodes.begin(), mesh.nodes.end(), isLarge);
+  const std::vector<Place> among = placesAmongClusters(mesh);
+  const auto countOf = [&](Place place) {
+    return static_cast<int>(std::count(among.begin(), among.end(), place));
+  };
+  PieceTree::Clusters& clusters = mesh.clusters.emplace();
+  clusters.begin = countOf(Place::above);
+  clusters.end = clusters.begin + countOf(Place::cluster);
+  int next[] = {0, clusters.begin, clusters.end};
   std::vector<int> places;
   places.reserve(mesh.nodes.size());
-  int next_large = 0;
-  int next_small = static_cast<int>(large);
-  for (const PieceTree::Node& node : mesh.nodes) {
-    places.push_back(isLarge(node) ? next_large++ : next_small++);
-  }
+  for (const Place place : among) places.push_back(next[static_cast<int>(place)]++);
   std::vector<PieceTree::Node> ordered(mesh.nodes.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     PieceTree::Node& node = ordered[places[i]];
@@ -89,7 +108,24 @@ void orderNodes(PieceTree& mesh) {
     node.right = places[node.right];
   }
   mesh.nodes.swap(ordered);
-  mesh.nodes_of_many = large;
+}
+
+void tellClusters(PieceTree& mesh) {
+  PieceTree::Clusters& clusters = *mesh.clusters;
+  std::vector<int> of_cluster;
+  for (int i = clusters.begin; i < clusters.end; ++i) {
+    of_cluster.clear();
+    for (int piece = mesh.nodes[i].piece; piece <= mesh.nodes[i].last_piece; ++piece) {
+      const Eigen::Vector3i& t = mesh.triangles[piece];
+      of_cluster.insert(of_cluster.end(), t.begin(), t.end());
+    }
+    std::sort(of_cluster.begin(), of_cluster.end());
+    const auto end = std::unique(of_cluster.begin(), of_cluster.end());
+    clusters.first.push_back(static_cast<int>(clusters.vertices.size()));
+    clusters.vertices.insert(clusters.vertices.end(), of_cluster.begin(), end);
+  }
+  clusters.first.push_back(static_cast<int>(clusters.vertices.size()));
+  clusters.vertices.shrink_to_fit();
 }
 
 }  // namespace
@@ -108,6 +144,7 @@ void orderByLeaves(PieceTree& mesh) {
   orderNodes(mesh);
   VertexOrder order(mesh.vertices.size());
   for (Eigen::Vector3i& t : mesh.triangles) t = order.placesOf(t);
+  tellClusters(mesh);
   order.placeRest();
   order.apply(mesh.vertices);
   mesh.parts[0].places = order.places();

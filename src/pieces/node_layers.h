@@ -52,7 +52,7 @@ class NodeLayers {
     explicit Side(const WhitenedTree& tree) : tree_(tree) {}
 
     void useSlabs();
-    const NodeBox& box(int node) const { return tree_.boxes[node]; }
+    const NodeBox& box(int node) const { return tree_.boxOf(node); }
 
     /// Null where a node is not flat; valid until the next call.
     const Slab* slabOf(int node);

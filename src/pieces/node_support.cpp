@@ -60,7 +60,7 @@ double NodeSupport::ofTriangles(const PieceTree::Node& node) const {
 double NodeSupport::search(int node) {
   const PieceTree& tree = *mesh_->tree;
   const auto reachOf = [this](int index, int parent) {
-    return Reach{index, parent, mesh_->boxes[index].highestAlong(m_)};
+    return Reach{index, parent, mesh_->boxOf(index).highestAlong(m_)};
   };
   double best = -std::numeric_limits<double>::infinity();
   Opened farthest{node, kNone};

@@ -114,7 +114,7 @@ int PatchedMesh::copyNodes(int node) {
   const PieceTree::Node& from = mesh_.tree->nodes[node];
   const auto index = static_cast<int>(nodes_.size());
   nodes_.push_back({-1, -1, from.piece});
-  boxes_.push_back(mesh_.boxes[node]);
+  boxes_.push_back(mesh_.boxOf(node));
   if (!from.isLeaf()) {
     const int left = copyNodes(from.left);
     const int right = copyNodes(from.right);

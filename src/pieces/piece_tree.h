@@ -84,11 +84,19 @@ struct PieceTree {
     std::shared_ptr<const SlabsOfNodes> slabs;
   };
 
-  /// Nodes of a single mesh with no more triangles than these come last.
-  static constexpr int kFewTriangles = 8;
+  /// The largest nodes of a single mesh with no more triangles than this are its clusters.
+  static constexpr int kClusterTriangles = 16;
 
-  std::vector<Node> nodes;                   ///< nodes[0] is the root
-  std::optional<std::size_t> nodes_of_many;  ///< of a single mesh: how many of them have more
+  /// Nodes of a single mesh come in this order: those above clusters, clusters, those below.
+  struct Clusters {
+    int begin = 0;              ///< the first node that is one
+    int end = 0;                ///< the first node below them
+    std::vector<int> vertices;  ///< of one cluster after the other, each vertex of it once
+    std::vector<int> first;     ///< where those of a cluster begin; one more for the end
+  };
+
+  std::vector<Node> nodes;           ///< nodes[0] is the root
+  std::optional<Clusters> clusters;  ///< of a single mesh
   std::vector<Part> parts;
   std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to the origin of their part
   std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
@@ -110,9 +118,6 @@ struct PieceTree {
 
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }
-
-  /// How many nodes there are but those of few triangles of a single mesh, which come last.
-  std::size_t largeNodes() const { return nodes_of_many.value_or(nodes.size()); }
 
   bool isTriangle(int piece) const { return piece < static_cast<int>(triangles.size()); }
   int bodyOf(int piece) const { return piece - static_cast<int>(triangles.size()); }

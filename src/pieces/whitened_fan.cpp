@@ -33,7 +33,7 @@ WhitenedFan::WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part,
   const WhitenedTree& body = fan_is_a ? pair.a : pair.b;
   Eigen::Vector3d largest = Eigen::Vector3d::Constant(kReach);
   for (const WhitenedTree* tree : {&body, &mesh_}) {
-    const NodeBox& box = tree->boxes[0];
+    const NodeBox& box = tree->boxOf(0);
     for (int k = 0; k < 3; ++k) {
       largest[k] += 2 * std::max(std::fabs(box.lo[k]), std::fabs(box.hi[k]));
     }

@@ -68,7 +68,7 @@ class WhitenedFan {
   Eigen::Vector3d corner(int vertex) const { return sign_ * (mesh_.vertices[vertex] - centre_); }
 
   /// Box of the corners of a node of the tree of the mesh.
-  NodeBox cornerBox(int node) const { return cornerBox(mesh_.boxes[node]); }
+  NodeBox cornerBox(int node) const { return cornerBox(mesh_.boxOf(node)); }
   NodeBox cornerBox(const NodeBox& of_mesh) const;
 
   /// The other way: in the coordinates of the mesh's vertices.
@@ -84,7 +84,7 @@ class WhitenedFan {
   }
 
   /// Box of P ⊕ a box of the tree of the mesh.
-  NodeBox obstacleBox(int node) const { return obstacleBox(mesh_.boxes[node]); }
+  NodeBox obstacleBox(int node) const { return obstacleBox(mesh_.boxOf(node)); }
   NodeBox obstacleBox(const NodeBox& of_mesh) const;
 
   /// A few points of P, far apart, a little within it: certainly so, as its planes tell.

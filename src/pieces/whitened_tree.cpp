@@ -19,50 +19,6 @@ using LongMatrix = Eigen::Matrix<long double, 3, 3>;
 // number.
 constexpr double kLostInProducts = 32 * std::numeric_limits<double>::denorm_min();
 
-// Adding the error is monotonic: to the bit this is what contains the boxes of the triangles.
-NodeBox boxOfTriangles(const WhitenedTree& whitened, int first, int last) {
-  const std::vector<Eigen::Vector3i>& triangles = whitened.tree->triangles;
-  Eigen::Vector3d lo = whitened.vertices[triangles[first][0]];
-  Eigen::Vector3d hi = lo;
-  for (int piece = first; piece <= last; ++piece) {
-    for (const int corner : triangles[piece]) {
-      lo = lo.cwiseMin(whitened.vertices[corner]);
-      hi = hi.cwiseMax(whitened.vertices[corner]);
-    }
-  }
-  return paddedBox(lo, hi, whitened.error);
-}
-
-// Boxes of the leaves from their vertices, then of the inner nodes from their children, which stand
-// behind them.
-void fitBoxes(WhitenedTree& whitened, KeptBoxes kept) {
-  const PieceTree& tree = *whitened.tree;
-  const bool all = kept == KeptBoxes::all || !whitened.node_motions.empty();
-  whitened.boxes.clear();
-  whitened.boxes.resize(all ? tree.nodes.size() : tree.largeNodes(),
-                        boost::container::default_init);
-  for (std::size_t i = whitened.boxes.size(); i-- > 0;) {
-    const PieceTree::Node& node = tree.nodes[i];
-    NodeBox& box = whitened.boxes[i];
-    if (!node.isLeaf()) {
-      const NodeBox left = whitened.boxOf(node.left);
-      const NodeBox right = whitened.boxOf(node.right);
-      for (int k = 0; k < 3; ++k) {
-        box.lo[k] = std::min(left.lo[k], right.lo[k]);
-        box.hi[k] = std::max(left.hi[k], right.hi[k]);
-      }
-      continue;
-    }
-    box = tree.isTriangle(node.piece) ? boxOfTriangles(whitened, node.piece, node.piece)
-                                      : bodyBox(whitened, tree.bodyOf(node.piece));
-    if (whitened.node_motions.empty()) continue;
-    for (int k = 0; k < 3; ++k) {
-      box.lo[k] -= whitened.node_motions[i][k];
-      box.hi[k] += whitened.node_motions[i][k];
-    }
-  }
-}
-
 NodeBox boxOf(const SupportShape& body) {
   NodeBox box;
   for (int k = 0; k < 3; ++k) {
@@ -196,7 +152,7 @@ void boundMotions(const PartitionObject& object, const Eigen::Matrix3d& whitenin
 }
 
 void whitenOne(const PartitionObject& object, const Whitening& whitening,
-               const ExactPosition& minus_origin, KeptBoxes kept, WhitenedTree& result) {
+               const ExactPosition& minus_origin, WhitenedTree& result) {
   result.tree = object.tree;
   result.vertices.clear();
   result.linear.clear();
@@ -219,15 +175,10 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
       16 * kEpsilon * (2 * size + farthest) + (object.tree->error() + kLostInProducts) * stretch;
   result.error.array() += std::numeric_limits<double>::min();
   boundMotions(object, whitening.matrix(), result);
-  fitBoxes(result, kept);
+  result.boxes.fit(result);
 }
 
 }  // namespace
-
-NodeBox WhitenedTree::boxOf(int node) const {
-  if (static_cast<std::size_t>(node) < boxes.size()) return boxes[node];
-  return boxOfTriangles(*this, tree->nodes[node].piece, tree->nodes[node].last_piece);
-}
 
 NodeBox bodyBox(const WhitenedTree& whitened, int body) {
   const NodeBox& box = whitened.shape_boxes[whitened.tree->bodies[body].shape];
@@ -237,30 +188,26 @@ NodeBox bodyBox(const WhitenedTree& whitened, int body) {
 }
 
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
-            KeptBoxes kept, WhitenedPair& result) {
+            WhitenedPair& result) {
   ExactPosition minus_origin;
   minus_origin.add(a.parts[0].pose, a.tree->parts[0].origin, -1.0);
-  whitenOne(a, whitening, minus_origin, kept, result.a);
+  whitenOne(a, whitening, minus_origin, result.a);
   minus_origin.add(whitening.mean(), -1.0);
-  whitenOne(b, whitening, minus_origin, kept, result.b);
+  whitenOne(b, whitening, minus_origin, result.b);
 }
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,
                     const Whitening& whitening) {
   WhitenedPair result;
-  whiten(a, b, whitening, KeptBoxes::all, result);
+  whiten(a, b, whitening, result);
   return result;
 }
 
 std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes) {
-  return childrenOf(pair, nodes, pair.a.boxes[nodes.a], pair.b.boxes[nodes.b]);
-}
-
-std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes, const NodeBox& box_a,
-                                   const NodeBox& box_b) {
   const PieceTree::Node& a = pair.a.tree->nodes[nodes.a];
   const PieceTree::Node& b = pair.b.tree->nodes[nodes.b];
-  const bool split_a = b.isLeaf() || (!a.isLeaf() && box_a.size() >= box_b.size());
+  const bool split_a =
+      b.isLeaf() || (!a.isLeaf() && pair.a.boxOf(nodes.a).size() >= pair.b.boxOf(nodes.b).size());
   if (split_a) return {NodePair{a.left, nodes.b}, NodePair{a.right, nodes.b}};
   return {NodePair{nodes.a, b.left}, NodePair{nodes.a, b.right}};
 }

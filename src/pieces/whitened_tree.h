@@ -5,53 +5,16 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <boost/container/vector.hpp>
 #include <memory>
 #include <vector>
 
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/whitening.h"
 #include "geometry/node_pair.h"
+#include "pieces/node_boxes.h"
 #include "pieces/partition_object.h"
 
 namespace fcl_prob::detail {
-
-struct NodeBox {
-  double lo[3];
-  double hi[3];
-
-  double size() const { return hi[0] - lo[0] + (hi[1] - lo[1]) + (hi[2] - lo[2]); }
-
-  /// The largest m·y of its points, rounded.
-  double highestAlong(const Eigen::Vector3d& m) const {
-    double highest = 0.0;
-    for (int k = 0; k < 3; ++k) highest += m[k] * (m[k] > 0 ? hi[k] : lo[k]);
-    return highest;
-  }
-};
-
-/// Whether a box is clear of [lo, hi].
-inline bool isClearOf(const NodeBox& box, const double* lo, const double* hi) {
-  for (int k = 0; k < 3; ++k) {
-    if (box.lo[k] > hi[k] || box.hi[k] < lo[k]) return true;
-  }
-  return false;
-}
-
-/// [lo - pad, hi + pad]
-inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
-                         const Eigen::Vector3d& pad) {
-  NodeBox box;
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] = lo[k] - pad[k];
-    box.hi[k] = hi[k] + pad[k];
-  }
-  return box;
-}
-
-/// Of which nodes of a mesh that does not move boxes are kept: those of few triangles are most of
-/// them.
-enum class KeptBoxes { all, of_many_triangles };
 
 /// Vertices and node boxes of one object in the whitened frame. With A's and B's trees of one
 /// query, `b - a` over their points is the C-obstacle. All is relative to the middle of A's first
@@ -65,8 +28,7 @@ struct WhitenedTree {
   std::vector<ConvexPiece> shapes;         ///< of tree->shapes
   std::vector<NodeBox> shape_boxes;        ///< around them, up to rounding
 
-  /// Of tree->nodes, padded by `error`. Some MB of a dense mesh, which are written only once.
-  boost::container::vector<NodeBox> boxes;
+  NodeBoxes boxes;  ///< of tree->nodes
 
   /// Bound on the error of a vertex or point of a piece, for each axis.
   Eigen::Vector3d error = Eigen::Vector3d::Zero();
@@ -76,8 +38,8 @@ struct WhitenedTree {
   std::vector<Eigen::Vector3d> node_motions;
   std::vector<Eigen::Vector3d> vertex_motions;
 
-  /// Around a node whether its box is kept or not.
-  NodeBox boxOf(int node) const;
+  /// Around a node: valid until the tree is whitened anew.
+  const NodeBox& boxOf(int node) const { return boxes.of(*this, node); }
 
   /// The error of the points of a node. Whoever uses it adds four of them; the motion needs to be
   /// in that once.
@@ -119,7 +81,7 @@ WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Wh
 
 /// The same into the memory of an earlier one, which must not be referred to any more.
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
-            KeptBoxes kept, WhitenedPair& result);
+            WhitenedPair& result);
 
 /// Bound on the error of b - a over the points of two nodes, without what `band` pays for.
 inline Eigen::Vector3d slabError(const WhitenedPair& pair, NodePair nodes) {
@@ -135,10 +97,6 @@ inline bool areLeaves(const WhitenedPair& pair, NodePair nodes) {
 /// The children of the larger node, each with the other node; not both may be leaves.
 std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes);
 
-/// The same, given the boxes of the nodes, where not all are kept.
-std::array<NodePair, 2> childrenOf(const WhitenedPair& pair, NodePair nodes, const NodeBox& box_a,
-                                   const NodeBox& box_b);
-
 /// Bounding box of the C-obstacle of two nodes: certainly contains it.
 inline NodeBox obstacleBox(const NodeBox& a, const NodeBox& b) {
   return {{b.lo[0] - a.hi[0], b.lo[1] - a.hi[1], b.lo[2] - a.hi[2]},
@@ -146,7 +104,7 @@ inline NodeBox obstacleBox(const NodeBox& a, const NodeBox& b) {
 }
 
 inline NodeBox obstacleBox(const WhitenedPair& pair, NodePair nodes) {
-  return obstacleBox(pair.a.boxes[nodes.a], pair.b.boxes[nodes.b]);
+  return obstacleBox(pair.a.boxOf(nodes.a), pair.b.boxOf(nodes.b));
 }
 
 }  // namespace fcl_prob::detail

@@ -28,8 +28,8 @@ Eigen::Vector3d betweenBoxes(const PartitionObject& a, const PartitionObject& b)
   const WhitenedPair pair = whiten(a, b, metres);
   Eigen::Vector3d middle;
   for (int k = 0; k < 3; ++k) {
-    middle[k] = 0.5 * std::max(pair.a.boxes[0].lo[k], pair.b.boxes[0].lo[k]) +
-                0.5 * std::min(pair.a.boxes[0].hi[k], pair.b.boxes[0].hi[k]);
+    middle[k] = 0.5 * std::max(pair.a.boxOf(0).lo[k], pair.b.boxOf(0).lo[k]) +
+                0.5 * std::min(pair.a.boxOf(0).hi[k], pair.b.boxOf(0).hi[k]);
   }
   // Whitened frames have their origin at the middle of the first part of A, and axes of their own.
   return a.parts[0].pose * a.tree->parts[0].origin + metres.inverse() * middle;

@@ -43,7 +43,7 @@ class WitnessCase {
     std::vector<FrontPair> pairs;
     for (int a : level(*meshes_.tree_a)) {
       for (int b : level(*meshes_.tree_b)) {
-        const NodeBox box = obstacleBox(meshes_.pair.a.boxes[a], meshes_.pair.b.boxes[b]);
+        const NodeBox box = obstacleBox(meshes_.pair.a.boxOf(a), meshes_.pair.b.boxOf(b));
         if (!isClearOf(box, cell.lo.data(), cell.hi.data()))
           pairs.push_back(FrontPair::ofNodes({a, b}));
       }

@@ -6,6 +6,9 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 
 #include <algorithm>
+#include <numeric>
+#include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -80,6 +83,30 @@ void checkNodes(const PieceTree& tree) {
   CHECK(tree.nodes[0].last_piece == static_cast<int>(tree.triangles.size()) - 1);
 }
 
+// Of all triangles under a node, padded by the error.
+detail::NodeBox boxOfTriangles(const detail::WhitenedTree& whitened, const PieceTree::Node& node) {
+  Eigen::AlignedBox3d box;
+  for (int piece = node.piece; piece <= node.last_piece; ++piece) {
+    for (const int corner : whitened.tree->triangles[piece]) box.extend(whitened.vertices[corner]);
+  }
+  return detail::paddedBox(box.min(), box.max(), whitened.error);
+}
+
+void checkBox(const detail::WhitenedTree& whitened, int node) {
+  const detail::NodeBox expected = boxOfTriangles(whitened, whitened.tree->nodes[node]);
+  const detail::NodeBox& box = whitened.boxOf(node);
+  for (int k = 0; k < 3; ++k) {
+    CHECK(box.lo[k] == expected.lo[k]);
+    CHECK(box.hi[k] == expected.hi[k]);
+  }
+}
+
+std::vector<int> nodesOf(const PieceTree& tree) {
+  std::vector<int> nodes(tree.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
+}
+
 }  // namespace
 
 TEST_CASE("triangles follow each other as the leaves do, and mean what they meant") {
@@ -121,35 +148,90 @@ TEST_CASE("triangles follow each other as the leaves do, and mean what they mean
   }
 }
 
-TEST_CASE("nodes of few triangles come last in the tree of a mesh") {
+TEST_CASE("nodes above clusters come first, those below last") {
   const auto model = makeModel<fcl::OBBRSSd>(raggedMesh());
   const auto tree = detail::buildPieceTree(*model);
-  REQUIRE(tree->largeNodes() > 0);
-  REQUIRE(tree->largeNodes() < tree->nodes.size() / 2);
-  for (std::size_t i = 0; i < tree->nodes.size(); ++i) {
-    const int triangles = tree->nodes[i].last_piece - tree->nodes[i].piece + 1;
-    CHECK((triangles > PieceTree::kFewTriangles) == (i < tree->largeNodes()));
+  REQUIRE(tree->clusters);
+  const PieceTree::Clusters& clusters = *tree->clusters;
+  const int count = static_cast<int>(tree->nodes.size());
+  REQUIRE(clusters.begin > 0);
+  REQUIRE(clusters.end < count);
+  const auto trianglesOf = [&](int node) {
+    return tree->nodes[node].last_piece - tree->nodes[node].piece + 1;
+  };
+  int in_clusters = 0;
+  for (int i = 0; i < count; ++i) {
+    CHECK((trianglesOf(i) > PieceTree::kClusterTriangles) == (i < clusters.begin));
+    if (i >= clusters.begin && i < clusters.end) in_clusters += trianglesOf(i);
+    if (tree->nodes[i].isLeaf()) continue;
+    for (const int child : {tree->nodes[i].left, tree->nodes[i].right}) {
+      CHECK((child >= clusters.end) == (i >= clusters.begin));
+    }
   }
-  const auto both = detail::joinPieceTrees({tree.get(), tree.get()});
-  CHECK(both->largeNodes() == both->nodes.size());
-  const auto small = makeModel<fcl::OBBRSSd>(boxMesh({1, 1, 1}));
-  CHECK(detail::buildPieceTree(*small)->largeNodes() == 1);
+  CHECK(in_clusters == static_cast<int>(tree->triangles.size()));
+  CHECK(!detail::joinPieceTrees({tree.get(), tree.get()})->clusters);
 }
 
-TEST_CASE("boxes that are not kept are those that would be, to the bit") {
+TEST_CASE("a mesh of few triangles is one cluster") {
+  const auto model = makeModel<fcl::OBBRSSd>(boxMesh({1, 1, 1}));
+  const auto tree = detail::buildPieceTree(*model);
+  REQUIRE(tree->clusters);
+  CHECK(tree->clusters->begin == 0);
+  CHECK(tree->clusters->end == 1);
+  CHECK(tree->clusters->vertices.size() == 8);
+}
+
+TEST_CASE("clusters have every vertex of their triangles once") {
+  const auto model = makeModel<fcl::OBBRSSd>(raggedMesh());
+  const auto tree = detail::buildPieceTree(*model);
+  const PieceTree::Clusters& clusters = *tree->clusters;
+  REQUIRE(clusters.first.size() == static_cast<std::size_t>(clusters.end - clusters.begin + 1));
+  for (int i = clusters.begin; i < clusters.end; ++i) {
+    std::set<int> expected;
+    for (int piece = tree->nodes[i].piece; piece <= tree->nodes[i].last_piece; ++piece) {
+      for (const int corner : tree->triangles[piece]) expected.insert(corner);
+    }
+    const auto begin = clusters.vertices.begin() + clusters.first[i - clusters.begin];
+    const auto end = clusters.vertices.begin() + clusters.first[i - clusters.begin + 1];
+    CHECK(std::vector<int>(begin, end) == std::vector<int>(expected.begin(), expected.end()));
+  }
+}
+
+TEST_CASE("boxes are those of all triangles, to the bit, in whatever order they are asked for") {
+  const TriangleMesh mesh = raggedMesh();
+  const std::vector<int> upwards = nodesOf(*WhitenedMeshes(mesh, mesh).tree_a);
+  std::vector<int> shuffled = upwards;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
+  const std::vector<int> downwards(upwards.rbegin(), upwards.rend());
+  for (const std::vector<int>& order : {upwards, downwards, shuffled}) {
+    const WhitenedMeshes meshes(mesh, mesh);
+    for (const int node : order) checkBox(meshes.pair.a, node);
+  }
+}
+
+TEST_CASE("boxes are made anew when a tree is whitened anew") {
+  WhitenedMeshes meshes(raggedMesh(), bumpyMesh(0.5, 8, 9, 5));
+  const int last = static_cast<int>(meshes.tree_a->nodes.size()) - 1;
+  checkBox(meshes.pair.a, last);
+  const Whitening other(GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.3}), 1.0);
+  detail::whiten(meshes.objectOf(true), meshes.objectOf(false), other, meshes.pair);
+  for (int i = 0; i <= last; ++i) checkBox(meshes.pair.a, i);
+}
+
+TEST_CASE("boxes of moving triangles contain their motions") {
   const WhitenedMeshes meshes(raggedMesh(), bumpyMesh(0.5, 8, 9, 5));
-  detail::WhitenedPair few;
-  const detail::PartitionObject a = meshes.objectOf(true);
-  const detail::PartitionObject b = meshes.objectOf(false);
-  detail::whiten(a, b, meshes.whitening, detail::KeptBoxes::of_many_triangles, few);
-  REQUIRE(few.a.boxes.size() == meshes.tree_a->largeNodes());
-  REQUIRE(meshes.pair.a.boxes.size() == meshes.tree_a->nodes.size());
-  for (std::size_t i = 0; i < meshes.pair.a.boxes.size(); ++i) {
-    const detail::NodeBox& kept = meshes.pair.a.boxes[i];
-    const detail::NodeBox box = few.a.boxOf(static_cast<int>(i));
+  detail::PartitionObject moving = meshes.objectOf(true);
+  detail::PointMotion motion;
+  motion.ball = 0.01;
+  moving.motion = &motion;
+  const detail::WhitenedPair pair =
+      detail::whiten(moving, meshes.objectOf(false), meshes.whitening);
+  for (std::size_t i = 0; i < meshes.tree_a->nodes.size(); ++i) {
+    const detail::NodeBox still = boxOfTriangles(meshes.pair.a, meshes.tree_a->nodes[i]);
+    const detail::NodeBox& box = pair.a.boxOf(static_cast<int>(i));
     for (int k = 0; k < 3; ++k) {
-      CHECK(box.lo[k] == kept.lo[k]);
-      CHECK(box.hi[k] == kept.hi[k]);
+      CHECK(box.lo[k] <= still.lo[k] - 0.0099);
+      CHECK(box.hi[k] >= still.hi[k] + 0.0099);
     }
   }
 }
