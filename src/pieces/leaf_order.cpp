@@ -66,7 +66,7 @@ std::vector<Eigen::Vector3i> inOrderOfLeaves(PieceTree& mesh) {
 }
 
 bool isAboveClusters(const PieceTree::Node& node) {
-  return node.last_piece - node.piece >= PieceTree::kClusterTriangles;
+  return node.last_piece - node.piece >= MeshClusters::kMostTriangles;
 }
 
 enum class Place { above, cluster, below };
@@ -92,7 +92,7 @@ void orderNodes(PieceTree& mesh) {
   const auto countOf = [&](Place place) {
     return static_cast<int>(std::count(among.begin(), among.end(), place));
   };
-  PieceTree::Clusters& clusters = mesh.clusters.emplace();
+  MeshClusters& clusters = mesh.clusters.emplace();
   clusters.begin = countOf(Place::above);
   clusters.end = clusters.begin + countOf(Place::cluster);
   int next[] = {0, clusters.begin, clusters.end};
@@ -111,7 +111,7 @@ void orderNodes(PieceTree& mesh) {
 }
 
 void tellClusters(PieceTree& mesh) {
-  PieceTree::Clusters& clusters = *mesh.clusters;
+  MeshClusters& clusters = *mesh.clusters;
   std::vector<int> of_cluster;
   for (int i = clusters.begin; i < clusters.end; ++i) {
     of_cluster.clear();

@@ -22,7 +22,7 @@ NodeBox boxOfVertices(const WhitenedTree& whitened, const int* begin, const int*
 }
 
 NodeBox boxOfCluster(const WhitenedTree& whitened, int index) {
-  const PieceTree::Clusters& clusters = *whitened.tree->clusters;
+  const MeshClusters& clusters = *whitened.tree->clusters;
   const int* const vertices = clusters.vertices.data();
   const int* const first = &clusters.first[index - clusters.begin];
   return boxOfVertices(whitened, vertices + first[0], vertices + first[1]);

@@ -31,6 +31,17 @@ struct MeshCaps {
   SurfaceComponents components;            ///< of the mesh's own vertices only
 };
 
+/// The largest nodes of a single mesh with no more than kMostTriangles. Nodes come in this order:
+/// those above clusters, clusters, those below.
+struct MeshClusters {
+  static constexpr int kMostTriangles = 16;
+
+  int begin = 0;              ///< the first node that is one
+  int end = 0;                ///< the first node below them
+  std::vector<int> vertices;  ///< of one cluster after the other, each vertex of it once
+  std::vector<int> first;     ///< where those of a cluster begin; one more for the end
+};
+
 /// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
 /// refits axis-aligned boxes in the whitened frame of each query. An octree without occupied cells
 /// has no nodes.
@@ -84,19 +95,8 @@ struct PieceTree {
     std::shared_ptr<const SlabsOfNodes> slabs;
   };
 
-  /// The largest nodes of a single mesh with no more triangles than this are its clusters.
-  static constexpr int kClusterTriangles = 16;
-
-  /// Nodes of a single mesh come in this order: those above clusters, clusters, those below.
-  struct Clusters {
-    int begin = 0;              ///< the first node that is one
-    int end = 0;                ///< the first node below them
-    std::vector<int> vertices;  ///< of one cluster after the other, each vertex of it once
-    std::vector<int> first;     ///< where those of a cluster begin; one more for the end
-  };
-
-  std::vector<Node> nodes;           ///< nodes[0] is the root
-  std::optional<Clusters> clusters;  ///< of a single mesh
+  std::vector<Node> nodes;               ///< nodes[0] is the root
+  std::optional<MeshClusters> clusters;  ///< of a single mesh
   std::vector<Part> parts;
   std::vector<Eigen::Vector3d> vertices;   ///< metres, relative to the origin of their part
   std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices

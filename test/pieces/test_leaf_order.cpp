@@ -152,7 +152,7 @@ TEST_CASE("nodes above clusters come first, those below last") {
   const auto model = makeModel<fcl::OBBRSSd>(raggedMesh());
   const auto tree = detail::buildPieceTree(*model);
   REQUIRE(tree->clusters);
-  const PieceTree::Clusters& clusters = *tree->clusters;
+  const detail::MeshClusters& clusters = *tree->clusters;
   const int count = static_cast<int>(tree->nodes.size());
   REQUIRE(clusters.begin > 0);
   REQUIRE(clusters.end < count);
@@ -161,7 +161,7 @@ TEST_CASE("nodes above clusters come first, those below last") {
   };
   int in_clusters = 0;
   for (int i = 0; i < count; ++i) {
-    CHECK((trianglesOf(i) > PieceTree::kClusterTriangles) == (i < clusters.begin));
+    CHECK((trianglesOf(i) > detail::MeshClusters::kMostTriangles) == (i < clusters.begin));
     if (i >= clusters.begin && i < clusters.end) in_clusters += trianglesOf(i);
     if (tree->nodes[i].isLeaf()) continue;
     for (const int child : {tree->nodes[i].left, tree->nodes[i].right}) {
@@ -184,7 +184,7 @@ TEST_CASE("a mesh of few triangles is one cluster") {
 TEST_CASE("clusters have every vertex of their triangles once") {
   const auto model = makeModel<fcl::OBBRSSd>(raggedMesh());
   const auto tree = detail::buildPieceTree(*model);
-  const PieceTree::Clusters& clusters = *tree->clusters;
+  const detail::MeshClusters& clusters = *tree->clusters;
   REQUIRE(clusters.first.size() == static_cast<std::size_t>(clusters.end - clusters.begin + 1));
   for (int i = clusters.begin; i < clusters.end; ++i) {
     std::set<int> expected;
