@@ -76,12 +76,11 @@ QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
   const Whitening plain(displacement, unit);
   const BandedPair banded(a, b, request);
   WhitenedPair pair;
+  banded.whiten(plain, pair);
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
-    banded.whiten(plain, pair);
     return {plain, std::move(pair)};
   }
-  banded.whiten(plain, pair);
   const Care care = careFor(a, b, displacement, request);
   const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank(), care));
   banded.whiten(rotated, pair);

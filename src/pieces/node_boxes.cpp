@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "pieces/node_boxes.h"
 
-#include <algorithm>
-
 #include "pieces/whitened_tree.h"
 
 namespace fcl_prob::detail {
@@ -46,15 +44,6 @@ NodeBox boxOfLeaf(const WhitenedTree& whitened, int index) {
   return box;
 }
 
-NodeBox boxAround(const NodeBox& left, const NodeBox& right) {
-  NodeBox box;
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] = std::min(left.lo[k], right.lo[k]);
-    box.hi[k] = std::max(left.hi[k], right.hi[k]);
-  }
-  return box;
-}
-
 }  // namespace
 
 // Children stand behind their parents.
@@ -71,7 +60,7 @@ void NodeBoxes::fit(const WhitenedTree& whitened) {
     const PieceTree::Node& node = tree.nodes[i];
     boxes_[i] = i >= first_cluster ? boxOfCluster(whitened, i)
                 : node.isLeaf()    ? boxOfLeaf(whitened, i)
-                                   : boxAround(boxes_[node.left], boxes_[node.right]);
+                                   : boxOfBoth(boxes_[node.left], boxes_[node.right]);
   }
 }
 
@@ -87,7 +76,7 @@ const NodeBox& NodeBoxes::make(const WhitenedTree& whitened, int index) const {
   if (made.load(std::memory_order_relaxed)) return box;
   const PieceTree::Node& node = whitened.tree->nodes[index];
   box = node.isLeaf() ? boxOfLeaf(whitened, index)
-                      : boxAround(make(whitened, node.left), make(whitened, node.right));
+                      : boxOfBoth(make(whitened, node.left), make(whitened, node.right));
   made.store(true, std::memory_order_release);
   return box;
 }

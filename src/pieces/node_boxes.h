@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <atomic>
 #include <boost/container/vector.hpp>
 #include <cstddef>
@@ -42,6 +43,15 @@ inline NodeBox paddedBox(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
   for (int k = 0; k < 3; ++k) {
     box.lo[k] = lo[k] - pad[k];
     box.hi[k] = hi[k] + pad[k];
+  }
+  return box;
+}
+
+inline NodeBox boxOfBoth(const NodeBox& one, const NodeBox& other) {
+  NodeBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = std::min(one.lo[k], other.lo[k]);
+    box.hi[k] = std::max(one.hi[k], other.hi[k]);
   }
   return box;
 }

@@ -20,15 +20,6 @@ constexpr double kLargestPatchShare = 1e-6;
 // the mesh's own frame rounds is next to nothing of that.
 constexpr double kThinnestBox = 1e-6;
 
-NodeBox boxOfBoth(const NodeBox& one, const NodeBox& other) {
-  NodeBox box;
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] = std::min(one.lo[k], other.lo[k]);
-    box.hi[k] = std::max(one.hi[k], other.hi[k]);
-  }
-  return box;
-}
-
 }  // namespace
 
 PatchedMesh::PatchedMesh(const WhitenedTree& mesh, const PartitionObject& object,

@@ -2,18 +2,9 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "pieces/surface_parts.h"
 
-#include <algorithm>
-
 namespace fcl_prob::detail {
 
 namespace {
-
-void include(const NodeBox& added, NodeBox& box) {
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] = std::min(box.lo[k], added.lo[k]);
-    box.hi[k] = std::max(box.hi[k], added.hi[k]);
-  }
-}
 
 NodeBox vertexBox(const WhitenedTree& whitened, int vertex) {
   const Eigen::Vector3d& v = whitened.vertices[vertex];
@@ -49,7 +40,7 @@ class PartCollector {
         known = static_cast<int>(found_.size());
         found_.push_back({i, object_.tree->vertices[vertex], box});
       } else {
-        include(box, found_[known].box);
+        found_[known].box = boxOfBoth(found_[known].box, box);
       }
     }
   }
@@ -61,7 +52,8 @@ class PartCollector {
       for (const Eigen::Vector3i& t : tree.triangles) {
         if (t[0] < part.vertices.begin || t[0] >= part.vertices.end) continue;
         NodeBox box = vertexBox(whitened_, t[0]);
-        for (int corner = 1; corner < 3; ++corner) include(vertexBox(whitened_, t[corner]), box);
+        for (int corner = 1; corner < 3; ++corner)
+          box = boxOfBoth(box, vertexBox(whitened_, t[corner]));
         found_.push_back({i, tree.vertices[t[0]], box});
       }
     }
