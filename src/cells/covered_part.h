@@ -27,6 +27,11 @@ struct CoveredPart {
 
 /// Certified bounds on the masses of parts of one cell.
 ///
+/// They are volumes of the part times a density at its centroid: by Jensen's inequality the mean of
+/// exp(f) is at least exp of the mean of f, and of f = -|y|²/2 a chord along each axis is a lower
+/// bound, a tangent plane an upper one, above which exp is below its own chord.
+///
+/// For samples, that must leave out a set of which the mass is known, there are subsets of parts.
 /// With t_k the share of the cell's mass below y_k along axis k, the cell is the unit cube and its
 /// mass is spread evenly over it; planes become surfaces that are bent a little, and are replaced
 /// by planes to one side of them.
@@ -35,29 +40,36 @@ class PartMeasure {
   explicit PartMeasure(const Cell& cell);
 
   /// Certainly not above the mass of the part.
-  double mass(const CoveredPart& part, CubeCutter& cutter) const;
+  double massAtLeast(const CoveredPart& part, CubeCutter& cutter) const;
 
   /// Certainly not below it.
   double massAtMost(const CoveredPart& part, CubeCutter& cutter) const;
 
-  /// ∫ y φ(y) dy over the subset of the part whose mass mass() gives.
+  /// The mass of the subset of the part that counts, rounded downwards.
+  double countedMass(const CoveredPart& part, CubeCutter& cutter) const;
+
+  /// ∫ y φ(y) dy over that subset.
   Moment moment(const CoveredPart& part, CubeCutter& cutter) const;
 
   /// Whether a point of the cell is in that subset.
   bool counts(const CoveredPart& part, const Eigen::Vector3d& y) const;
 
-  /// How far a coordinate may be off what is taken for it: the larger, the more a bound loses.
+  /// How far a coordinate may be off what is taken for it: the larger, the smaller is the subset.
   double bend() const { return bend_.maxCoeff(); }
 
  private:
-  CubePlane planeWithin(const CellPlane& plane, double sign) const;
+  CubePlane bentPlane(const CellPlane& plane) const;
+  std::optional<CutCube> cutBent(const CoveredPart& part, CubeCutter& cutter) const;
   std::optional<CutCube> cut(const CoveredPart& part, double sign, CubeCutter& cutter) const;
+  Eigen::Vector3d centroidOf(const CutCube& cube) const;
+  static double centroidError(const CutCube& cube);
 
   Cell cell_;
   Eigen::Vector3d width_;
   Eigen::Vector3d axis_mass_;  ///< of [lo_k, hi_k], for each axis that moves
   Eigen::Vector3d bend_;       ///< bound on |y_k(t_k) - lo_k - width_k t_k|
   Bounds whole_;               ///< mass of the cell
+  double scale_ = 1.0;         ///< the cell's volume times the normal density at 0
 };
 
 /// The obstacle's part of a cell, if no more than `most` planes of the obstacle cut the cell; the

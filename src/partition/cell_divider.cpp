@@ -35,8 +35,8 @@ CellDivider::CellDivider(const PartitionScene& scene, ObstacleTable& obstacles,
                          ProbabilityStatistics& statistics)
     : scene_(scene),
       obstacles_(obstacles),
-      examiner_(scene.pair, obstacles, scene.solids, scene.with_moments, scene.relative_tolerance,
-                statistics),
+      examiner_(scene.pair, obstacles, scene.solids, scene.with_moments, scene.sampled,
+                scene.relative_tolerance, statistics),
       scales_(scalesOf(scene.pair)) {}
 
 void CellDivider::examineRoot(Division& into) {

@@ -29,6 +29,7 @@ struct PartitionScene {
   const SolidContact* solids;  ///< null: surfaces only
   const BallTruncation* ball;  ///< null: the displacement is not truncated
   bool with_moments;
+  bool sampled;               ///< whether samples may be drawn of what stays open
   double relative_tolerance;  ///< of P
 };
 

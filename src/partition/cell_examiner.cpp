@@ -18,9 +18,8 @@ namespace {
 // sliver between goes into the upper bound.
 constexpr double kSliver = kLayerMargin;
 
-// Accuracy, relative to the cell's mass, of the masses of cells that stay open and of those
-// settled. The latter adds up, and need not be better than this share of what is asked of P.
-constexpr double kOpenAccuracy = 1e-4;
+// Accuracy, relative to the cell's mass, of the masses of cells that are settled. They add up, and
+// need not be better than this share of what is asked of P.
 constexpr double kSettledAccuracy = 1e-11;
 constexpr double kSettledShare = 1e-4;
 
@@ -30,15 +29,6 @@ constexpr double kWidestIntegrated = 2.5;
 // What remains of an open cell is cut back to the box of its front if that holds less than this
 // share of its mass.
 constexpr double kCutBack = 0.8;
-
-// Pairs of which a part of a cell is looked at: how many, of how many of them the mass is taken,
-// and the least share of the cell that is worth having.
-constexpr int kMostTried = 32;
-constexpr int kMostMeasured = 2;
-constexpr double kLeastCovered = 0.02;
-
-// For a gradient a part's moment should not be known worse than the rest of its cell.
-constexpr double kMomentShare = 0.05;
 
 // Nodes opened to see how low the pairs of a cell reach below a plane: 60 take 1.4 times the cells
 // of dense meshes, 3,000 save a tenth of them but no time.
@@ -70,26 +60,24 @@ void visitAround(Cell rest, const Cell& box, const Visit& visit) {
   }
 }
 
-double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
-  return m.dot(part.lowestCorner(m)) - 1e-13;  // less its rounding
-}
-
 }  // namespace
 
 CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
-                           const SolidContact* solids, bool with_moments, double relative_tolerance,
-                           ProbabilityStatistics& statistics)
+                           const SolidContact* solids, bool with_moments, bool sampled,
+                           double relative_tolerance, ProbabilityStatistics& statistics)
     : pair_(pair),
       front_(pair, obstacles, statistics),
       smooth_(pair, obstacles),
       solids_(solids),
       with_moments_(with_moments),
+      sampled_(sampled),
       relative_tolerance_(relative_tolerance),
       statistics_(statistics),
       possible_(front_, cutter_) {}
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
+  witness_has_plane_ = false;
   ++statistics_.cells;
   if (inherited.size() > kLongFront && witness() && witness()->covers(cell)) {
     settle(cell, "crossing surfaces");
@@ -121,6 +109,7 @@ std::optional<CuttingPair> CellExaminer::bestLeader() {
     if (!cutting.pair.isHalfSpace()) near_.push_back(cutting.pair);
   }
   const auto plane = witness()->plane(front_.cell(), near_);
+  witness_has_plane_ = plane.has_value();
   if (plane && (!best || front_.depthOf(*plane) < best->depth)) return front_.addHalfSpace(*plane);
   return best;
 }
@@ -239,6 +228,10 @@ std::optional<CuttingPair> CellExaminer::champion() const {
   return best;
 }
 
+double CellExaminer::lowestIn(const Cell& part, const Eigen::Vector3d& m) {
+  return m.dot(part.lowestCorner(m)) - 1e-13;  // less its rounding
+}
+
 void CellExaminer::openWithoutPlane() {
   OpenCell open;
   const Cell& cell = front_.cell();
@@ -261,123 +254,6 @@ void CellExaminer::openWithoutPlane() {
   open.drawn = open.upper;
   addPart(open);
   result_.open = std::move(open);
-}
-
-// The part of an open cell that one pair covers, up to `most` planes of which cut the cell: of the
-// few that seem to cover most the best.
-ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& mass) {
-  std::array<ObstaclePart, kMostMeasured> best;
-  int tried = 0;
-  for (const CuttingPair& cutting : front_.cutting()) {
-    if (cutting.sides > most || (cutting.layered && !pair_.band && !pair_.turning) ||
-        front_.slabs(cutting.pair).outer_only)
-      continue;
-    if (++tried > kMostTried) break;
-    ObstaclePart part = obstaclePart(front_.slabs(cutting.pair), open.cell, most);
-    for (ObstaclePart& other : best) {
-      if (part.share > other.share) std::swap(part, other);
-    }
-  }
-  ObstaclePart largest;
-  if (best[0].share < kLeastCovered) return largest;
-  const PartMeasure measure(open.cell);
-  for (ObstaclePart& candidate : best) {
-    if (candidate.share < kLeastCovered) break;
-    CoveredPart& part = candidate.part;
-    if (open.planeCovers()) part.planes[part.count++] = {-open.plane.m, -open.plane.s};
-    const double covered = measure.mass(part, cutter_);
-    const double gap = open.gap() - covered;
-    if (with_moments_ && covered * measure.bend() > kMomentShare * gap) continue;
-    if (covered > mass) {
-      mass = covered;
-      largest = candidate;
-    }
-  }
-  return largest;
-}
-
-// Lower bound of m·y over all that may collide in an open cell.
-double CellExaminer::lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const {
-  const double least = lowestIn(open.cell, m);
-  double result = std::numeric_limits<double>::infinity();
-  for (const FrontPair& pair : open.front) {
-    if (result <= least) return result;
-    double lowest = front_.lowestOfBox(pair, m);
-    if (lowest < result && pair.hasObstacle()) {
-      lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
-    }
-    result = std::min(result, lowest);
-  }
-  return result;
-}
-
-// Tightens an open cell by the pair that covers most of it.
-void CellExaminer::addPart(OpenCell& open) {
-  if (!maySkim(open.cell)) return;
-  double mass = kLeastCovered * open.upper;
-  const ObstaclePart best = largestPart(open, CoveredPart::kMostPlanes, mass);
-  if (best.share <= 0.0) {
-    if (pair_.turning) addPossible(open);
-    return;
-  }
-  // What may collide, along the normals of all planes of the part.
-  possible_.start(open, best.part);
-  const CoveredPart possible = possible_.whole();
-  const Eigen::Vector3d& m = possible.planes[0].m;
-  open.possible_from = possible.planes[0].s;
-  open.tells = OpenCell::PlaneTells::possible;
-  open.plane = best.part.planes[0];
-  open.part = best.part;
-  claim("part of a cell", true, open.cell, best.part);
-  for (int i = 0; i < possible.count; ++i) {
-    claimBelow("below what is possible", open.cell, possible.planes[i]);
-  }
-  open.lower = mass;
-  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
-  if (possible.count > 1)
-    open.upper = std::min(open.upper, PartMeasure(open.cell).massAtMost(possible, cutter_));
-  open.upper = std::max(mass, open.upper);
-  open.drawn = open.upper;
-  open.upper = std::max(mass, possible_.massAtMost(open, open.upper));
-}
-
-// Where turns leave no part of the cell covered a plane may still tell what is free of it: across
-// what of a pair is nearest to the middle.
-void CellExaminer::addPossible(OpenCell& open) {
-  Eigen::Vector3d m = front_.acrossNearest(0.5 * (open.cell.lo + open.cell.hi));
-  for (int k = open.cell.rank; k < 3; ++k) m[k] = 0.0;
-  if (m.isZero(0.0)) return;
-  m.normalize();
-  const double possible_from = lowestOfFront(open, m);
-  if (!(possible_from > lowestIn(open.cell, m))) return;
-  open.possible_from = possible_from;
-  open.tells = OpenCell::PlaneTells::possible;
-  open.plane = {m, possible_from};
-  claimBelow("below what is possible", open.cell, {m, possible_from});
-  open.upper =
-      std::min(open.upper, cellHalfSpaceMass(open.cell, m, possible_from, kOpenAccuracy).upper);
-  open.drawn = open.upper;
-}
-
-// The masses of an open cell with a plane that covers.
-void CellExaminer::weigh(OpenCell& open) {
-  const Eigen::Vector3d& m = open.plane.m;
-  const HalfSpaceMeasure measure(open.cell, kOpenAccuracy);
-  open.lower = measure.mass(m, open.plane.s).lower;
-  open.upper = measure.mass(m, open.possible_from).upper;
-  open.drawn = open.gap();
-  claimBelow("below what is possible", open.cell, {m, open.possible_from});
-  double mass = kLeastCovered * open.gap();
-  const ObstaclePart below = largestPart(open, CoveredPart::kMostPlanes - 1, mass);
-  if (below.share <= 0.0) return;
-  open.part = below.part;
-  claim("part below a plane", true, open.cell, below.part);
-  CoveredPart leading;
-  leading.planes[0] = open.plane;
-  leading.count = 1;
-  open.lower = std::min(open.upper, open.lower + mass);
-  possible_.start(open, leading);
-  open.upper = std::max(open.lower, possible_.massAtMost(open, open.upper));
 }
 
 // Whether what stays open of the cell is only this box.
@@ -465,21 +341,6 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
     settlePart(box, leader.inner, -1.0, accuracy);
   }
   result_.open = std::move(open);
-}
-
-SettledMass CellExaminer::coveredPart(const OpenCell& open) const {
-  SettledMass covered;
-  covered.mass = {open.lower, open.lower};
-  if (open.planeCovers()) {
-    const Moment moment = cellHalfSpaceMoment(open.cell, open.plane.m, open.plane.s);
-    covered.moment += moment.value;
-    covered.moment_error += moment.error;
-  }
-  CubeCutter cutter;
-  const Moment moment = PartMeasure(open.cell).moment(open.part, cutter);
-  covered.moment += moment.value;
-  covered.moment_error += moment.error;
-  return covered;
 }
 
 }  // namespace fcl_prob::detail

@@ -38,9 +38,11 @@ class CellExaminer {
  public:
   /// Keeps references to all arguments.
   /// \param solids              null: surfaces only
+  /// \param sampled             whether samples may be drawn of what stays open
   /// \param relative_tolerance  of P: settled masses are not much more accurate than that needs
   CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
-               bool with_moments, double relative_tolerance, ProbabilityStatistics& statistics);
+               bool with_moments, bool sampled, double relative_tolerance,
+               ProbabilityStatistics& statistics);
 
   /// Examines `cell` against the front inherited from its parent.
   Examination examine(const Cell& cell, const std::vector<FrontPair>& inherited);
@@ -53,6 +55,10 @@ class CellExaminer {
   void setHint(const CrossingWitness::Hint& hint);
 
  private:
+  /// Accuracy, relative to the cell's mass, of the masses of cells that stay open.
+  static constexpr double kOpenAccuracy = 1e-4;
+
+  static double lowestIn(const Cell& part, const Eigen::Vector3d& m);
   void settle(const Cell& cell, const char* method);
   void settlePart(const Cell& cell, const CellPlane& plane, double sign, double accuracy);
   double accuracyBeside(const OpenCell& open) const;
@@ -68,6 +74,9 @@ class CellExaminer {
   void openWithoutPlane();
   bool maySkim(const Cell& cell) const;
   ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
+  std::optional<double> massOfPart(const OpenCell& open, const PartMeasure& measure,
+                                   const CoveredPart& part);
+  std::optional<CoveredPart> partOfSurfaces(const OpenCell& open, double& mass);
   double lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const;
   void addPart(OpenCell& open);
   void addPossible(OpenCell& open);
@@ -82,8 +91,10 @@ class CellExaminer {
   SmoothCell smooth_;
   std::optional<CrossingWitness> witness_;  ///< made when a front first is long enough for it
   CrossingWitness::Hint hint_{-1, -1};      ///< until then
+  bool witness_has_plane_ = false;          ///< in the cell that is examined
   const SolidContact* solids_;
   bool with_moments_;
+  bool sampled_;
   double relative_tolerance_;
   ProbabilityStatistics& statistics_;
   ClaimObserver* const observer_ = claim_observer;

@@ -27,9 +27,6 @@ constexpr std::size_t kMostTouched = 400;
 // Depth of the least plane worth having.
 constexpr double kLeastPlaneDepth = 0.98;
 
-// Points and rays tried until one of them tells inside from outside for certain.
-constexpr int kTrials = 6;
-
 int leftmostVertex(const PieceTree& tree, int node) {
   while (!tree.nodes[node].isLeaf()) node = tree.nodes[node].left;
   return tree.triangles[tree.nodes[node].piece][0];
@@ -147,7 +144,9 @@ Eigen::Vector3d clipRounding(const NodeBox& mesh, const Eigen::Vector3d& p) {
 }  // namespace
 
 CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid)
-    : solid_(solid), band_(pair.band) {
+    : solid_(solid),
+      moves_(pair.band || !pair.a.node_motions.empty() || !pair.b.node_motions.empty()),
+      band_(pair.band) {
   if (!pair.a.tree->caps || !pair.b.tree->caps) return;
   const auto add = [this](const WhitenedTree& inner, const WhitenedTree& outer, double sign) {
     std::vector<Candidate> candidates;
@@ -344,33 +343,38 @@ void CrossingWitness::tryPlane(Side& side, int vertex, const SweptVertex& swept,
   const double most = m.dot(cell.lowestCorner(-m));
   const double least_depth = best_ ? best_->depth : kLeastPlaneDepth;
   const double useful = least + 0.5 * (least_depth + 1) * (most - least);
-  const double s = std::max(least, highestTouched(side, vertex, swept, m, useful));
+  const double s = std::max(least, highestTouched(side, vertex, swept, touched_, m, useful));
   const double depth = 2 * (s - least) / (most - least) - 1;
   if (!(depth < least_depth)) return;
   const Attempt attempt{&side, vertex, {m, s}, depth};
-  if (certify(attempt, cell)) best_ = attempt;
+  if (!certify(attempt, cell)) return;
+  best_ = attempt;
+  touched_by_best_ = touched_;
+}
+
+Eigen::Vector3d CrossingWitness::acrossTouched(const Side& side) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3i& t : touched_) sum += across(side, t);
+  return sum;
 }
 
 // The inner mesh moves into the outer one against its outward normals.
-Eigen::Vector3d CrossingWitness::acrossTouched(const Side& side) const {
+Eigen::Vector3d CrossingWitness::across(const Side& side, const Eigen::Vector3i& t) {
   const std::vector<Eigen::Vector3d>& vertices = side.outer.mesh().vertices;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3i& t : touched_) {
-    sum += (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
-  }
-  return -side.sign * sum;
+  return -side.sign * (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
 }
 
 // Upper bound of m·y over the displacements y at which the vertex touches one of the triangles, of
 // which only what it sweeps matters; infinite if that is above `most`, -inf if it touches none.
 double CrossingWitness::highestTouched(const Side& side, int vertex, const SweptVertex& swept,
+                                       const std::vector<Eigen::Vector3i>& touched,
                                        const Eigen::Vector3d& m, double most) const {
   const WhitenedTree& outer = side.outer.mesh();
   const Eigen::Vector3d& p = side.inner.mesh().vertices[vertex];
   const Eigen::Vector3d upwards = side.sign * m;
   const Eigen::Vector3d rounding = clipRounding(outer.boxOf(0), p);
   double highest = -kInfinity;
-  for (const Eigen::Vector3i& t : touched_) {
+  for (const Eigen::Vector3i& t : touched) {
     std::array<Eigen::Vector3d, 3> triangle;
     double of_corners = -kInfinity;
     Eigen::Vector3d motion = Eigen::Vector3d::Zero();
@@ -394,15 +398,20 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
          m.cwiseAbs().dot(rounding) + 64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
 }
 
+Eigen::Vector3d CrossingWitness::pointBeyond(const Cell& cell, const Eigen::Vector3d& m,
+                                             double depth, int trial) {
+  const Eigen::Vector3d corner = cell.lowestCorner(-m);
+  const Eigen::Vector3d middle = 0.5 * (cell.lo + cell.hi);
+  const double share = 0.02 + 0.05 * trial;
+  return corner + share * (1 - depth) * (middle - corner);
+}
+
 // What is beyond the plane is convex and free of the outer mesh, so that one point of it tells.
 bool CrossingWitness::certify(const Attempt& attempt, const Cell& cell) {
   Side& side = *attempt.side;
   const Eigen::Vector3d& m = attempt.plane.m;
-  const Eigen::Vector3d corner = cell.lowestCorner(-m);
-  const Eigen::Vector3d middle = 0.5 * (cell.lo + cell.hi);
   for (int trial = 0; trial < kTrials; ++trial) {
-    const double share = 0.02 + 0.05 * trial;
-    const Eigen::Vector3d y = corner + share * (1 - attempt.depth) * (middle - corner);
+    const Eigen::Vector3d y = pointBeyond(cell, m, attempt.depth, trial);
     if (!(m.dot(y) > attempt.plane.s)) continue;
     const Eigen::Vector3d point = side.inner.mesh().vertices[attempt.vertex] + side.sign * y;
     if (const auto inside = side.outer.isInside(point, trial % 3)) {

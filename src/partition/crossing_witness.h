@@ -40,7 +40,18 @@ class CrossingWitness {
   /// nodes `near` can show; nothing if they show none.
   std::optional<CellPlane> plane(const Cell& cell, const std::vector<FrontPair>& near);
 
+  /// Where a surface is bent one plane tells little of it: a convex part of the cell, with up to
+  /// `most` planes, that collides by the same vertex as what is beyond the plane. Only after
+  /// plane() has found one in the same cell; nothing where shapes move.
+  std::optional<CoveredPart> partBesidePlane(const Cell& cell, int most);
+
+  /// Such a part by a vertex by which a proof was found last, without any plane.
+  std::optional<CoveredPart> part(const Cell& cell, int most);
+
  private:
+  /// Points and rays tried until one of them tells inside from outside for certain.
+  static constexpr int kTrials = 6;
+
   /// A vertex of the inner mesh with all its displacements: a box.
   struct SweptVertex {
     double lo[3];
@@ -88,18 +99,34 @@ class CrossingWitness {
   bool findTouched(Side& side, const SweptVertex& swept);
   void tryPlane(Side& side, int vertex, const SweptVertex& swept, const Cell& cell,
                 Eigen::Vector3d m);
+  static Eigen::Vector3d across(const Side& side, const Eigen::Vector3i& triangle);
   Eigen::Vector3d acrossTouched(const Side& side) const;
   double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
-                        const Eigen::Vector3d& m, double most) const;
+                        const std::vector<Eigen::Vector3i>& touched, const Eigen::Vector3d& m,
+                        double most) const;
+  std::optional<CoveredPart> partOf(const Side& side, int vertex,
+                                    const std::vector<Eigen::Vector3i>& touched, const Cell& cell,
+                                    int most);
+  bool meetsPlane(const CoveredPart& part, const Cell& cell) const;
+  bool certify(Side& side, int vertex, const CoveredPart& part, const Cell& cell);
   bool certify(const Attempt& attempt, const Cell& cell);
 
+  /// Points of a cell near its corner that lies farthest along m, some way into what a plane of
+  /// this depth leaves.
+  static Eigen::Vector3d pointBeyond(const Cell& cell, const Eigen::Vector3d& m, double depth,
+                                     int trial);
+
   bool solid_;
+  bool moves_;  ///< the shapes, other than by the displacement
   std::shared_ptr<const BandMargin> band_;
   std::vector<Side> sides_;
   Tried tried_along_;                     ///< the normal asked for last
   Tried tried_across_;                    ///< what they touch, in this cell
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
+  std::vector<Eigen::Vector3i> touched_by_best_;
+  std::vector<Eigen::Vector3d> across_;  ///< of those, normals into what is covered by area
+  std::vector<Eigen::Vector3i> group_;
 };
 
 }  // namespace fcl_prob::detail

@@ -308,7 +308,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   }
   if (may_be_carved) request.max_cells = std::min(request.max_cells, kBoxesBeforeCarving);
   PartitionEngine engine({frame.pair, frame.whitening.rank(), solids.get(), ball, request.gradient,
-                          request.relative_tolerance},
+                          estimate, request.relative_tolerance},
                          request, result.statistics);
   const auto makeTester = [&] {
     return std::make_unique<PointTester>(

@@ -66,8 +66,9 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
   if (a.hasSolid() || b.hasSolid()) {
     solids_ = std::make_unique<SolidContact>(a, b, frame_.whitening, frame_.pair);
   }
-  const PartitionScene scene{frame_.pair, frame_.whitening.rank(), solids_.get(),
-                             nullptr,     request_.gradient,       request_.relative_tolerance};
+  const PartitionScene scene{
+      frame_.pair, frame_.whitening.rank(),    solids_.get(), nullptr, request_.gradient,
+      true,        request_.relative_tolerance};
   engine_ = std::make_unique<PartitionEngine>(scene, request_, statistics_);
   tester_ = std::make_unique<PointTester>(
       frame_.pair, engine_->obstacles(), solids_.get(),

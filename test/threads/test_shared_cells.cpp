@@ -106,7 +106,7 @@ std::vector<double> carved(FatMembers& obstacles, std::atomic<std::size_t>& list
 
 TEST_CASE("threads divide cells over one table of obstacles", "[threads]") {
   const WhitenedMeshes meshes(bumpyMesh(1.0, 8, 10, 1), torusMesh(2.0, 0.7, 14, 8));
-  const PartitionScene scene{meshes.pair, 3, nullptr, nullptr, false, 0.01};
+  const PartitionScene scene{meshes.pair, 3, nullptr, nullptr, false, false, 0.01};
   ObstacleTable alone(meshes.pair), shared(meshes.pair);
   const std::vector<double> expected = divided(scene, alone);
   CHECK(expected.size() > 2 * kDivided);
