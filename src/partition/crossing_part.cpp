@@ -29,7 +29,7 @@ std::optional<CoveredPart> CrossingWitness::part(const Cell& cell, int most) {
   if (moves_) return std::nullopt;
   for (Side& side : sides_) {
     if (side.last_found < 0 || !findTouched(side, sweep(side, side.last_found, cell))) continue;
-    const auto part = partOf(side, side.last_found, touched_, cell, most);
+    auto part = partOf(side, side.last_found, touched_, cell, most);
     if (part && certify(side, side.last_found, *part, cell)) return part;
   }
   return std::nullopt;
