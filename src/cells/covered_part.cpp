@@ -49,14 +49,15 @@ PartMeasure::PartMeasure(const Cell& cell)
   }
 }
 
-// Of the unit cube, a little smaller (sign 1) or larger (sign -1) than the part.
+// Of a half-space in the unit cube that is a little smaller (sign 1) or larger (sign -1).
+CubePlane PartMeasure::straightPlane(const CellPlane& plane, double sign) const {
+  return {plane.m.cwiseProduct(width_), plane.s - plane.m.dot(cell_.lo) + sign * kRounding};
+}
+
 std::optional<CutCube> PartMeasure::cut(const CoveredPart& part, double sign,
                                         CubeCutter& cutter) const {
   CubePlane planes[CoveredPart::kMostPlanes];
-  for (int i = 0; i < part.count; ++i) {
-    const CellPlane& plane = part.planes[i];
-    planes[i] = {plane.m.cwiseProduct(width_), plane.s - plane.m.dot(cell_.lo) + sign * kRounding};
-  }
+  for (int i = 0; i < part.count; ++i) planes[i] = straightPlane(part.planes[i], sign);
   return cutter.cut(planes, part.count);
 }
 
@@ -118,7 +119,7 @@ double PartMeasure::massAtMost(const CoveredPart& part, CubeCutter& cutter) cons
 // The half-space's inside, in shares of mass.
 CubePlane PartMeasure::bentPlane(const CellPlane& plane) const {
   const Eigen::Vector3d& m = plane.m;
-  CubePlane result{m.cwiseProduct(width_), plane.s - m.dot(cell_.lo) + kRounding};
+  CubePlane result = straightPlane(plane, 1.0);
   for (int k = 0; k < cell_.rank; ++k) {
     // The curve is below its chord where y > 0 and above where y < 0: towards m on one side only.
     const bool above = m[k] > 0 ? cell_.hi[k] <= 0 : cell_.lo[k] >= 0;

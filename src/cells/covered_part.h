@@ -58,6 +58,7 @@ class PartMeasure {
   double bend() const { return bend_.maxCoeff(); }
 
  private:
+  CubePlane straightPlane(const CellPlane& plane, double sign) const;
   CubePlane bentPlane(const CellPlane& plane) const;
   std::optional<CutCube> cutBent(const CoveredPart& part, CubeCutter& cutter) const;
   std::optional<CutCube> cut(const CoveredPart& part, double sign, CubeCutter& cutter) const;

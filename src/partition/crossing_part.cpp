@@ -7,20 +7,10 @@
 
 namespace fcl_prob::detail {
 
-namespace {
-
-bool isWithin(const CoveredPart& part, const Eigen::Vector3d& y) {
-  for (int i = 0; i < part.count; ++i) {
-    if (!(part.planes[i].m.dot(y) > part.planes[i].s)) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 std::optional<CoveredPart> CrossingWitness::partBesidePlane(const Cell& cell, int most) {
   if (moves_) return std::nullopt;
-  auto part = partOf(*best_->side, best_->vertex, touched_by_best_, cell, most);
+  const SweptVertex swept = sweep(*best_->side, best_->vertex, cell);
+  auto part = partOf(*best_->side, best_->vertex, swept, touched_by_best_, cell.rank, most);
   if (part && !meetsPlane(*part, cell)) part.reset();
   return part;
 }
@@ -28,23 +18,29 @@ std::optional<CoveredPart> CrossingWitness::partBesidePlane(const Cell& cell, in
 std::optional<CoveredPart> CrossingWitness::part(const Cell& cell, int most) {
   if (moves_) return std::nullopt;
   for (Side& side : sides_) {
-    if (side.last_found < 0 || !findTouched(side, sweep(side, side.last_found, cell))) continue;
-    auto part = partOf(side, side.last_found, touched_, cell, most);
-    if (part && certify(side, side.last_found, *part, cell)) return part;
+    const int vertex = side.last_found;
+    if (vertex < 0) continue;
+    const SweptVertex swept = sweep(side, vertex, cell);
+    if (!findTouched(side, swept)) continue;
+    auto part = partOf(side, vertex, swept, touched_, cell.rank, most);
+    if (!part) continue;
+    Eigen::Vector3d m = Eigen::Vector3d::Zero();
+    for (int i = 0; i < part->count; ++i) m += part->planes[i].m;
+    if (certify(side, vertex, *part, m, 0.0, cell)) return part;
   }
   return std::nullopt;
 }
 
 // Every triangle that the vertex touches is on the wrong side of one of the planes.
 std::optional<CoveredPart> CrossingWitness::partOf(const Side& side, int vertex,
+                                                   const SweptVertex& swept,
                                                    const std::vector<Eigen::Vector3i>& touched,
-                                                   const Cell& cell, int most) {
+                                                   int rank, int most) {
   if (touched.size() < 2) return std::nullopt;
-  const SweptVertex swept = sweep(side, vertex, cell);
   across_.clear();
   for (const Eigen::Vector3i& t : touched) {
     across_.push_back(across(side, t));
-    for (int k = cell.rank; k < 3; ++k) across_.back()[k] = 0.0;
+    for (int k = rank; k < 3; ++k) across_.back()[k] = 0.0;
   }
   const std::vector<int> groups = groupByDirection(across_, most);
   CoveredPart part;
@@ -66,28 +62,13 @@ std::optional<CoveredPart> CrossingWitness::partOf(const Side& side, int vertex,
   return part;
 }
 
-// Whether the part has a point beyond the best plane, where the vertex is known to be inside. The
-// part is convex and free of the outer mesh, so that the vertex is inside in all of it.
+// Whether the part has a point beyond the best plane, where the vertex is known to be inside, as it
+// then is in all of the part.
 bool CrossingWitness::meetsPlane(const CoveredPart& part, const Cell& cell) const {
   const Eigen::Vector3d& m = best_->plane.m;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Eigen::Vector3d y = pointBeyond(cell, m, best_->depth, trial);
     if (m.dot(y) > best_->plane.s && isWithin(part, y)) return true;
-  }
-  return false;
-}
-
-// One point of the part tells of all of it.
-bool CrossingWitness::certify(Side& side, int vertex, const CoveredPart& part, const Cell& cell) {
-  Eigen::Vector3d m = Eigen::Vector3d::Zero();
-  for (int i = 0; i < part.count; ++i) m += part.planes[i].m;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const Eigen::Vector3d y = pointBeyond(cell, m, 0.0, trial);
-    if (!isWithin(part, y)) continue;
-    const Eigen::Vector3d point = side.inner.mesh().vertices[vertex] + side.sign * y;
-    if (const auto inside = side.outer.isInside(point, trial % 3)) {
-      return *inside && crosses(side, vertex, cell);
-    }
   }
   return false;
 }

@@ -347,7 +347,7 @@ void CrossingWitness::tryPlane(Side& side, int vertex, const SweptVertex& swept,
   const double depth = 2 * (s - least) / (most - least) - 1;
   if (!(depth < least_depth)) return;
   const Attempt attempt{&side, vertex, {m, s}, depth};
-  if (!certify(attempt, cell)) return;
+  if (!certify(side, vertex, {{attempt.plane}, 1}, m, depth, cell)) return;
   best_ = attempt;
   touched_by_best_ = touched_;
 }
@@ -406,16 +406,22 @@ Eigen::Vector3d CrossingWitness::pointBeyond(const Cell& cell, const Eigen::Vect
   return corner + share * (1 - depth) * (middle - corner);
 }
 
-// What is beyond the plane is convex and free of the outer mesh, so that one point of it tells.
-bool CrossingWitness::certify(const Attempt& attempt, const Cell& cell) {
-  Side& side = *attempt.side;
-  const Eigen::Vector3d& m = attempt.plane.m;
+bool CrossingWitness::isWithin(const CoveredPart& part, const Eigen::Vector3d& y) {
+  for (int i = 0; i < part.count; ++i) {
+    if (!(part.planes[i].m.dot(y) > part.planes[i].s)) return false;
+  }
+  return true;
+}
+
+// The part is convex and free of the outer mesh, so that one point of it tells of all.
+bool CrossingWitness::certify(Side& side, int vertex, const CoveredPart& part,
+                              const Eigen::Vector3d& m, double depth, const Cell& cell) {
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Eigen::Vector3d y = pointBeyond(cell, m, attempt.depth, trial);
-    if (!(m.dot(y) > attempt.plane.s)) continue;
-    const Eigen::Vector3d point = side.inner.mesh().vertices[attempt.vertex] + side.sign * y;
+    const Eigen::Vector3d y = pointBeyond(cell, m, depth, trial);
+    if (!isWithin(part, y)) continue;
+    const Eigen::Vector3d point = side.inner.mesh().vertices[vertex] + side.sign * y;
     if (const auto inside = side.outer.isInside(point, trial % 3)) {
-      return *inside && crosses(side, attempt.vertex, cell);
+      return *inside && crosses(side, vertex, cell);
     }
   }
   return false;

@@ -104,12 +104,13 @@ class CrossingWitness {
   double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
                         const std::vector<Eigen::Vector3i>& touched, const Eigen::Vector3d& m,
                         double most) const;
-  std::optional<CoveredPart> partOf(const Side& side, int vertex,
-                                    const std::vector<Eigen::Vector3i>& touched, const Cell& cell,
+  std::optional<CoveredPart> partOf(const Side& side, int vertex, const SweptVertex& swept,
+                                    const std::vector<Eigen::Vector3i>& touched, int rank,
                                     int most);
+  static bool isWithin(const CoveredPart& part, const Eigen::Vector3d& y);
   bool meetsPlane(const CoveredPart& part, const Cell& cell) const;
-  bool certify(Side& side, int vertex, const CoveredPart& part, const Cell& cell);
-  bool certify(const Attempt& attempt, const Cell& cell);
+  bool certify(Side& side, int vertex, const CoveredPart& part, const Eigen::Vector3d& m,
+               double depth, const Cell& cell);
 
   /// Points of a cell near its corner that lies farthest along m, some way into what a plane of
   /// this depth leaves.
