@@ -18,6 +18,7 @@ if(FCL_PROB_WERROR)
 endif()
 if(FCL_PROB_SANITIZE)
   target_link_options(fcl_prob_settings INTERFACE -fsanitize=${FCL_PROB_SANITIZE})
+  target_compile_definitions(fcl_prob_settings INTERFACE FCL_PROB_SANITIZED)
 endif()
 
 # Eigen's alignment is part of libfcl's ABI: a wider one in our build crashes at run time.

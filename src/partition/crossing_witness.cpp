@@ -360,7 +360,7 @@ Eigen::Vector3d CrossingWitness::acrossTouched(const Side& side) const {
 
 // The inner mesh moves into the outer one against its outward normals.
 Eigen::Vector3d CrossingWitness::across(const Side& side, const Eigen::Vector3i& t) {
-  const std::vector<Eigen::Vector3d>& vertices = side.outer.mesh().vertices;
+  const auto& vertices = side.outer.mesh().vertices;
   return -side.sign * (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
 }
 

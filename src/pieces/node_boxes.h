@@ -12,6 +12,8 @@
 #include <mutex>
 #include <vector>
 
+#include "base/kept_memory.h"
+
 namespace fcl_prob::detail {
 
 struct NodeBox {
@@ -77,7 +79,7 @@ class NodeBoxes {
   struct Late {
     explicit Late(std::size_t count) : made(count) {}
 
-    std::vector<std::atomic<bool>> made;
+    std::vector<std::atomic<bool>, KeptMemory<std::atomic<bool>>> made;
     std::mutex mutex;
   };
 
@@ -86,7 +88,7 @@ class NodeBoxes {
   const NodeBox& make(const WhitenedTree& whitened, int node) const;
 
   /// Some MB of a dense mesh, of which what is never looked at is never touched.
-  mutable boost::container::vector<NodeBox> boxes_;
+  mutable boost::container::vector<NodeBox, KeptMemory<NodeBox>> boxes_;
   int first_late_ = 0;  ///< this node and those behind it
   std::unique_ptr<Late> late_;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/kept_memory.h"
 #include "pieces/node_slabs.h"
 #include "pieces/whitened_tree.h"
 
@@ -65,8 +66,9 @@ class NodeLayers {
 
     const WhitenedTree& tree_;
     std::vector<Part> parts_;  ///< in the order of their roots
-    std::vector<int> places_;  ///< by node, in `slabs_`; empty where no slabs are used
-    std::vector<Slab> slabs_;  ///< of nodes that were asked for
+    /// By node, in `slabs_`; empty where no slabs are used.
+    std::vector<int, KeptMemory<int>> places_;
+    std::vector<Slab, KeptMemory<Slab>> slabs_;  ///< of nodes that were asked for
   };
 
   static Part partOf(const WhitenedTree& tree, std::size_t index);

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/kept_memory.h"
 #include "pieces/whitened_tree.h"
 
 namespace fcl_prob::detail {
@@ -46,8 +47,9 @@ class NodeSupport {
   const WhitenedTree* mesh_;
   Eigen::Vector3d m_;
   unsigned direction_ = 0;
-  std::vector<int> places_;  ///< by node, in `known_`; empty until the first search
-  std::vector<Known> known_;
+  /// By node, in `known_`; empty until the first search.
+  std::vector<int, KeptMemory<int>> places_;
+  std::vector<Known, KeptMemory<Known>> known_;
   std::vector<Reach> stack_;
   std::vector<Opened> opened_;  ///< by the search
 };

@@ -82,14 +82,13 @@ std::unique_lock<std::mutex> ObstacleTable::lock(std::mutex& mutex) const {
   return shared_ ? std::unique_lock(mutex) : std::unique_lock(mutex, std::defer_lock);
 }
 
-// The doubles of a block are left uninitialized: most of the last one is never used.
 double* ObstacleTable::allocate(int count) {
   const auto locked = lock(blocks_mutex_);
   const std::size_t needed = static_cast<std::size_t>(count) * kSlabFields;
   if (needed > block_left_) {
     block_left_ = std::max(kBlockDoubles, needed);
-    blocks_.emplace_back(new double[block_left_]);
-    block_end_ = blocks_.back().get() + block_left_;
+    blocks_.emplace_back(block_left_, boost::container::default_init);
+    block_end_ = blocks_.back().data() + block_left_;
   }
   double* data = block_end_ - block_left_;
   block_left_ -= needed;

@@ -4,15 +4,17 @@
 #pragma once
 
 #include <array>
+#include <boost/container/vector.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <mutex>
 #include <vector>
 
 #include <tbb/concurrent_vector.h>
 #include <tsl/robin_map.h>
 
+#include "base/kept_memory.h"
 #include "cobstacle/support_obstacle.h"
 #include "pieces/front_pair.h"
 #include "pieces/whitened_tree.h"
@@ -86,9 +88,14 @@ class ObstacleTable {
     }
   };
 
+  /// Its doubles are left uninitialized: most of a last one are never used.
+  using Block = boost::container::vector<double, KeptMemory<double>>;
+
   /// A part of the pairs, so that threads seldom wait for each other.
   struct Part {
-    tsl::robin_map<std::uint64_t, int, PairHash> index;
+    tsl::robin_map<std::uint64_t, int, PairHash, std::equal_to<>,
+                   KeptMemory<std::pair<std::uint64_t, int>>>
+        index;
     std::mutex mutex;
   };
 
@@ -107,7 +114,7 @@ class ObstacleTable {
   tbb::concurrent_vector<SlabArrays, std::allocator<SlabArrays>> obstacles_;
   std::array<Part, 16> parts_;
   std::mutex blocks_mutex_;
-  std::vector<std::unique_ptr<double[]>> blocks_;
+  std::vector<Block> blocks_;
   double* block_end_ = nullptr;   ///< of the last block
   std::size_t block_left_ = 0;    ///< of the last block, in doubles
   std::size_t doubles_used_ = 0;  ///< of all blocks

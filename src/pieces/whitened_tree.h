@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/kept_memory.h"
 #include "cobstacle/slab_kernels.h"
 #include "fcl_prob/whitening.h"
 #include "geometry/node_pair.h"
@@ -21,7 +22,7 @@ namespace fcl_prob::detail {
 /// part, B also to the mean.
 struct WhitenedTree {
   const PieceTree* tree = nullptr;
-  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3d, KeptMemory<Eigen::Vector3d>> vertices;
   std::vector<Eigen::Matrix3d> linear;     ///< of each part: maps its axes to those of the frame
   std::vector<Eigen::Vector3d> offsets;    ///< of its origin
   std::vector<Eigen::Vector3d> positions;  ///< of tree->bodies
