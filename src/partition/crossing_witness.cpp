@@ -52,23 +52,6 @@ std::vector<int> spreadVertices(const PieceTree& tree, std::size_t count) {
   return vertices;
 }
 
-std::vector<std::array<int, 6>> extremesOfComponents(const WhitenedTree& mesh) {
-  const SurfaceComponents& components = mesh.tree->caps->components;
-  std::vector<std::array<int, 6>> extremes(components.count);
-  for (auto& six : extremes) six.fill(-1);
-  for (int v = 0; v < static_cast<int>(components.of_vertex.size()); ++v) {
-    const int component = components.of_vertex[v];
-    if (component < 0) continue;
-    for (int k = 0; k < 3; ++k) {
-      int& lowest = extremes[component][2 * k];
-      int& highest = extremes[component][2 * k + 1];
-      if (lowest < 0 || mesh.vertices[v][k] < mesh.vertices[lowest][k]) lowest = v;
-      if (highest < 0 || mesh.vertices[v][k] > mesh.vertices[highest][k]) highest = v;
-    }
-  }
-  return extremes;
-}
-
 // The vertex of a node that lies about farthest along m.
 int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) {
   while (!mesh.tree->nodes[node].isLeaf()) {
@@ -83,6 +66,32 @@ int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) 
     if (m.dot(mesh.vertices[t[corner]]) > m.dot(mesh.vertices[best])) best = t[corner];
   }
   return best;
+}
+
+// Of all vertices of a component the first to leave the other mesh. Where there is one component
+// the boxes of nodes lead to them.
+std::vector<std::array<int, 6>> extremesOfComponents(const WhitenedTree& mesh) {
+  const SurfaceComponents& components = mesh.tree->caps->components;
+  std::vector<std::array<int, 6>> extremes(components.count);
+  if (components.count == 1) {
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i / 2);
+      extremes[0][i] = extremeVertex(mesh, 0, i % 2 == 0 ? Eigen::Vector3d(-axis) : axis);
+    }
+    return extremes;
+  }
+  for (auto& six : extremes) six.fill(-1);
+  for (int v = 0; v < static_cast<int>(components.of_vertex.size()); ++v) {
+    const int component = components.of_vertex[v];
+    if (component < 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      int& lowest = extremes[component][2 * k];
+      int& highest = extremes[component][2 * k + 1];
+      if (lowest < 0 || mesh.vertices[v][k] < mesh.vertices[lowest][k]) lowest = v;
+      if (highest < 0 || mesh.vertices[v][k] > mesh.vertices[highest][k]) highest = v;
+    }
+  }
+  return extremes;
 }
 
 // What is left of a triangle within a box: every side adds one corner at most.
