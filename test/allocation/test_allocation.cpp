@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Repeated queries keep no memory, and queries that run out of it leave no half of a result. The
-// global operator new is replaced here, hence an executable of its own.
+// global operator new and what oneTBB's allocator asks for memory are replaced here, hence an
+// executable of its own.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <malloc.h>
+#include <tbb/scalable_allocator.h>
 
 #include <atomic>
 #include <cstdlib>
 #include <new>
 
+#include "base/kept_memory.h"
 #include "catch.h"
 #include "fcl_prob/fcl_prob.h"
 #include "mesh_shapes.h"
@@ -27,11 +30,16 @@ std::atomic<long long> until_failure{-1};
 
 bool failsNow() { return until_failure >= 0 && until_failure-- == 0; }
 
-void* allocate(std::size_t size) {
-  if (failsNow()) throw std::bad_alloc();
+void* allocateOrNull(std::size_t size) noexcept {
+  if (failsNow()) return nullptr;
   void* const memory = std::malloc(size > 0 ? size : 1);
+  if (memory != nullptr) live_bytes += static_cast<long long>(malloc_usable_size(memory));
+  return memory;
+}
+
+void* allocate(std::size_t size) {
+  void* const memory = allocateOrNull(size);
   if (memory == nullptr) throw std::bad_alloc();
-  live_bytes += static_cast<long long>(malloc_usable_size(memory));
   return memory;
 }
 
@@ -49,6 +57,9 @@ void operator delete(void* memory) noexcept { release(memory); }
 void operator delete[](void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+
+void* scalable_malloc(std::size_t size) { return allocateOrNull(size); }
+void scalable_free(void* memory) { release(memory); }
 
 namespace {
 
@@ -105,6 +116,8 @@ TEST_CASE("the count sees what is kept") {
   const long long before = live_bytes;
   const auto kept = std::make_unique<std::vector<double>>(1000);
   CHECK(live_bytes >= before + 8000);
+  const std::vector<double, detail::KeptMemory<double>> large(1000);
+  CHECK(live_bytes >= before + 16000);
 }
 
 TEST_CASE("repeated prepared queries keep no memory") {
