@@ -18,10 +18,9 @@ namespace {
 // The constants below only steer; no bound depends on them. Measured on the benchmark scenes.
 
 // A pair can cover (a slice of) a cell only if its C-obstacle is about as large as the cell: pairs
-// are probed for that, most central first, until kProbes pairs a cell were leaves or too small: 60
-// take 1.1 times the instructions between dense meshes, where few are ever found.
+// are probed for that, most central first, until kProbes pairs a cell were leaves or too small.
 constexpr double kProbeRatio = 0.5;
-constexpr int kProbes = 36;
+constexpr int kProbes = 60;
 
 // Beyond the probes a pair is refined only if its C-obstacle is this many times larger than the
 // cell along every axis.
