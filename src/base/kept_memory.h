@@ -10,7 +10,7 @@
 namespace fcl_prob::detail {
 
 /// malloc gives large arrays back to the system after each query, which then hands out new pages to
-/// the next one, all of them cleared: a third of an estimate between dense meshes. oneTBB's
+/// the next one, all of them cleared: a quarter of an estimate between dense meshes. oneTBB's
 /// allocator keeps what was used lately.
 #ifdef FCL_PROB_SANITIZED  // a sanitizer only watches over what malloc gave
 template <typename T>
