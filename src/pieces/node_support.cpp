@@ -45,6 +45,28 @@ void NodeSupport::note(int node, double value) {
   known_[place] = {value, direction_};
 }
 
+// Of nodes of which no children need to be looked at; nothing of others.
+std::optional<double> NodeSupport::ofFew(int node) const {
+  const PieceTree& tree = *mesh_->tree;
+  if (tree.clusters && node < tree.clusters->end) {
+    if (node < tree.clusters->begin) return std::nullopt;
+    return ofCluster(node);
+  }
+  const PieceTree::Node& at = tree.nodes[node];
+  if (at.last_piece - at.piece < kFewTriangles) return ofTriangles(at);
+  return std::nullopt;
+}
+
+double NodeSupport::ofCluster(int node) const {
+  const MeshClusters& clusters = *mesh_->tree->clusters;
+  const int* const first = &clusters.first[node - clusters.begin];
+  double value = -std::numeric_limits<double>::infinity();
+  for (int i = first[0]; i < first[1]; ++i) {
+    value = std::max(value, m_.dot(mesh_->vertices[clusters.vertices[i]]));
+  }
+  return value;
+}
+
 double NodeSupport::ofTriangles(const PieceTree::Node& node) const {
   double value = -std::numeric_limits<double>::infinity();
   for (int piece = node.piece; piece <= node.last_piece; ++piece) {
@@ -70,16 +92,15 @@ double NodeSupport::search(int node) {
     const Reach reach = stack_.back();
     stack_.pop_back();
     if (reach.bound <= best) continue;
-    const PieceTree::Node& inner = tree.nodes[reach.node];
     const double* const known = valueOf(reach.node);
-    if (known || inner.last_piece - inner.piece < kFewTriangles) {
-      const double value = known ? *known : ofTriangles(inner);
-      if (value > best) {
-        best = value;
+    if (const auto value = known ? *known : ofFew(reach.node)) {
+      if (*value > best) {
+        best = *value;
         farthest = {reach.node, reach.parent};
       }
       continue;
     }
+    const PieceTree::Node& inner = tree.nodes[reach.node];
     const int parent = static_cast<int>(opened_.size());
     opened_.push_back({reach.node, reach.parent});
     Reach left = reachOf(inner.left, parent);

@@ -3,6 +3,7 @@
 // How far the nodes of a mesh reach in a direction.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/kept_memory.h"
@@ -40,6 +41,8 @@ class NodeSupport {
   };
 
   double search(int node);
+  std::optional<double> ofFew(int node) const;
+  double ofCluster(int node) const;
   double ofTriangles(const PieceTree::Node& node) const;
   const double* valueOf(int node) const;
   void note(int node, double value);
