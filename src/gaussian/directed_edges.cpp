@@ -2,20 +2,17 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "gaussian/directed_edges.h"
 
-#include <algorithm>
 #include <tuple>
+
+#include "base/edge_order.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-std::tuple<int, int, int, int> sortKey(const DirectedEdge& edge) {
-  const auto [low, high] = std::minmax(edge.from, edge.to);
-  return {low, high, edge.from, edge.polygon};
-}
+std::uint64_t rankOf(const DirectedEdge& edge) { return edgeRank(edge.from, edge.to); }
 
-bool sameUndirected(const DirectedEdge& a, const DirectedEdge& b) {
-  return std::minmax(a.from, a.to) == std::minmax(b.from, b.to);
-}
+// An object, not a function: sorting takes it in.
+constexpr auto kRank = [](const DirectedEdge& edge) { return rankOf(edge); };
 
 std::string describe(const DirectedEdge& edge, std::size_t count) {
   std::string what = count == 2   ? "is walked twice in the same direction"
@@ -28,12 +25,14 @@ std::string describe(const DirectedEdge& edge, std::size_t count) {
 }  // namespace
 
 EdgePairing pairEdges(std::vector<DirectedEdge> edges) {
-  std::sort(edges.begin(), edges.end(),
-            [](const DirectedEdge& a, const DirectedEdge& b) { return sortKey(a) < sortKey(b); });
+  sortEdges(edges, kRank, [](const DirectedEdge& a, const DirectedEdge& b) {
+    return std::tie(a.from, a.polygon) < std::tie(b.from, b.polygon);
+  });
   EdgePairing result;
+  result.matches.reserve(edges.size() / 2);
   for (std::size_t first = 0; first < edges.size();) {
     std::size_t last = first + 1;
-    while (last < edges.size() && sameUndirected(edges[first], edges[last])) ++last;
+    while (last < edges.size() && rankOf(edges[first]) == rankOf(edges[last])) ++last;
     if (last - first != 2 || edges[first].from == edges[first + 1].from) {
       result.fault = describe(edges[first], last - first);
       return result;

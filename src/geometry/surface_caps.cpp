@@ -3,8 +3,10 @@
 #include "geometry/surface_caps.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
+#include "base/edge_order.h"
 #include "geometry/disjoint_sets.h"
 
 namespace fcl_prob::detail {
@@ -23,10 +25,12 @@ std::vector<Edge> oddEdges(const MeshView& mesh, const std::vector<int>& welded)
       if (i != j) edges.emplace_back(std::min(i, j), std::max(i, j));
     }
   }
-  std::sort(edges.begin(), edges.end());
+  const auto rank = [](const Edge& edge) { return edgeRank(edge.first, edge.second); };
+  sortEdges(edges, rank, std::less<Edge>());
   std::vector<Edge> odd;
   for (auto first = edges.begin(); first != edges.end();) {
-    const auto last = std::upper_bound(first, edges.end(), *first);
+    const auto last =
+        std::find_if(first, edges.end(), [&](const Edge& edge) { return edge != *first; });
     if ((last - first) % 2 == 1) odd.push_back(*first);
     first = last;
   }

@@ -5,11 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
+
+#include "base/edge_order.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -86,9 +89,7 @@ class CoplanarSearch {
     int low;
     int high;
     int triangle;
-    bool operator<(const Side& other) const {
-      return std::tie(low, high, triangle) < std::tie(other.low, other.high, other.triangle);
-    }
+    std::uint64_t rank() const { return edgeRank(low, high); }
   };
 
   int count() const { return static_cast<int>(mesh_.triangles.size()); }
@@ -123,7 +124,8 @@ class CoplanarSearch {
         if (low != high) sides.push_back({low, high, t});
       }
     }
-    std::sort(sides.begin(), sides.end());
+    sortEdges(sides, std::mem_fn(&Side::rank),
+              [](const Side& a, const Side& b) { return a.triangle < b.triangle; });
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const std::size_t last = std::min(sides.size(), i + kMostAtEdge);
       for (std::size_t j = i + 1; j < last; ++j) {
