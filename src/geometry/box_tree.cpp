@@ -3,41 +3,38 @@
 #include "geometry/box_tree.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace fcl_prob::detail {
 
 BoxTree::BoxTree(const std::vector<Box>& boxes) {
   if (boxes.empty()) return;
-  std::vector<int> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0);
-  nodes_.reserve(2 * boxes.size());
-  build(boxes, order, 0, static_cast<int>(boxes.size()));
+  items_.reserve(boxes.size());
+  for (const Box& box : boxes) items_.push_back({box, static_cast<int>(items_.size())});
+  nodes_.reserve(boxes.size());
+  build(0, static_cast<int>(boxes.size()));
 }
 
-int BoxTree::build(const std::vector<Box>& boxes, std::vector<int>& order, int first, int last) {
-  const int index = static_cast<int>(nodes_.size());
+void BoxTree::build(int first, int last) {
+  const std::size_t index = nodes_.size();
   nodes_.emplace_back();
   Box whole;
-  for (int i = first; i < last; ++i) whole.extend(boxes[order[i]]);
+  for (int i = first; i < last; ++i) whole.extend(items_[i].box);
   nodes_[index].box = whole;
-  if (last - first == 1) {
-    nodes_[index].item = order[first];
-    return index;
+  if (last - first <= kMostOfLeaf) {
+    nodes_[index].first = first;
+    nodes_[index].last = last;
+    return;
   }
   int axis = 0;
   whole.sizes().maxCoeff(&axis);
   const int middle = first + (last - first) / 2;
-  std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
-                   [&](int a, int b) {
-                     return boxes[a].min()[axis] + boxes[a].max()[axis] <
-                            boxes[b].min()[axis] + boxes[b].max()[axis];
-                   });
-  const int left = build(boxes, order, first, middle);
-  const int right = build(boxes, order, middle, last);
-  nodes_[index].left = left;
-  nodes_[index].right = right;
-  return index;
+  const auto at = [this](int i) { return items_.begin() + i; };
+  std::nth_element(at(first), at(middle), at(last), [axis](const Item& a, const Item& b) {
+    return a.box.min()[axis] + a.box.max()[axis] < b.box.min()[axis] + b.box.max()[axis];
+  });
+  build(first, middle);
+  nodes_[index].right = static_cast<int>(nodes_.size());
+  build(middle, last);
 }
 
 }  // namespace fcl_prob::detail

@@ -32,11 +32,16 @@ class BoxTree {
   }
 
   /// Bytes.
-  std::size_t memory() const { return nodes_.capacity() * sizeof(Node); }
+  std::size_t memory() const {
+    return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(Item);
+  }
 
  private:
   // Splitting at the median makes the depth at most the number of bits of an int.
   static constexpr std::size_t kStackSize = 64;
+
+  // Boxes of a leaf, which follow each other in memory: fetching nodes is what a visit waits for.
+  static constexpr int kMostOfLeaf = 4;
 
   template <typename Meets, typename Function>
   bool visit(const Meets& meets, Function&& function) const {
@@ -44,13 +49,16 @@ class BoxTree {
     std::size_t size = 0;
     if (!nodes_.empty()) stack[size++] = 0;
     while (size > 0) {
-      const Node& node = nodes_[stack[--size]];
+      const int index = stack[--size];
+      const Node& node = nodes_[index];
       if (!meets(node.box)) continue;
-      if (node.item >= 0) {
-        if (!function(node.item)) return false;
-      } else {
-        stack[size++] = node.left;
+      if (!node.isLeaf()) {
         stack[size++] = node.right;
+        stack[size++] = index + 1;
+        continue;
+      }
+      for (int i = node.first; i < node.last; ++i) {
+        if (meets(items_[i].box) && !function(items_[i].index)) return false;
       }
     }
     return true;
@@ -58,9 +66,15 @@ class BoxTree {
 
   struct Node {
     Box box;
-    int item = -1;  // of a leaf
-    int left = -1;
-    int right = -1;
+    int right = -1;  // the second child; the first one comes right behind its parent
+    int first = 0;   // of the items of a leaf
+    int last = 0;    // one behind the last of them
+
+    bool isLeaf() const { return right < 0; }
+  };
+  struct Item {
+    Box box;
+    int index;
   };
 
   static bool meetsRay(const Box& box, int axis, const Eigen::Vector3d& origin, double margin) {
@@ -73,9 +87,10 @@ class BoxTree {
     return true;
   }
 
-  int build(const std::vector<Box>& boxes, std::vector<int>& order, int first, int last);
+  void build(int first, int last);
 
   std::vector<Node> nodes_;
+  std::vector<Item> items_;
 };
 
 }  // namespace fcl_prob::detail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "geometry/box_tree.h"
+
+#include <algorithm>
+
+#include "catch.h"
+#include "random_bodies.h"
+
+using namespace fcl_prob::detail;
+using namespace fcl_prob_test;
+
+namespace {
+
+BoxTree::Box randomBox(RandomBodies& random, double size) {
+  const Eigen::Vector3d from = random.direction() * random.uniform(0.0, 1.0);
+  BoxTree::Box box(from);
+  box.extend(from + size * random.direction());
+  return box;
+}
+
+// Some of them several times, some without an inside.
+std::vector<BoxTree::Box> randomBoxes(RandomBodies& random, int count) {
+  std::vector<BoxTree::Box> boxes;
+  for (int i = 0; i < count; ++i) {
+    const bool again = i > 0 && random.integer(0, 9) == 0;
+    boxes.push_back(again ? boxes[random.integer(0, i - 1)]
+                          : randomBox(random, random.integer(0, 4) == 0 ? 0.0 : 0.2));
+  }
+  return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("a tree of boxes visits each box that another one meets, once, and no other") {
+  RandomBodies random(31);
+  for (int count = 0; count < 200; ++count) {
+    const std::vector<BoxTree::Box> boxes = randomBoxes(random, count);
+    const BoxTree tree(boxes);
+    const BoxTree::Box other = randomBox(random, 0.7);
+    std::vector<int> met;
+    REQUIRE(tree.visitBox(other, [&](int i) {
+      met.push_back(i);
+      return true;
+    }));
+    std::sort(met.begin(), met.end());
+    std::vector<int> truth;
+    for (int i = 0; i < count; ++i) {
+      if (boxes[i].intersects(other)) truth.push_back(i);
+    }
+    REQUIRE(met == truth);
+  }
+}
+
+TEST_CASE("a tree of boxes visits each box near a ray, once, and no other") {
+  RandomBodies random(32);
+  for (int count = 0; count < 200; ++count) {
+    const std::vector<BoxTree::Box> boxes = randomBoxes(random, count);
+    const BoxTree tree(boxes);
+    const Eigen::Vector3d origin = 0.5 * random.direction();
+    const double margin = random.uniform(0.0, 0.1);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<int> met;
+      REQUIRE(tree.visitRay(axis, origin, margin, [&](int i) {
+        met.push_back(i);
+        return true;
+      }));
+      std::sort(met.begin(), met.end());
+      BoxTree::Box ray(origin.array() - margin, origin.array() + margin);
+      ray.max()[axis] = 1e9;
+      std::vector<int> truth;
+      for (int i = 0; i < count; ++i) {
+        if (boxes[i].intersects(ray)) truth.push_back(i);
+      }
+      REQUIRE(met == truth);
+    }
+  }
+}
+
+TEST_CASE("a visit of a tree of boxes stops where it is told to") {
+  RandomBodies random(33);
+  const std::vector<BoxTree::Box> boxes = randomBoxes(random, 100);
+  const BoxTree tree(boxes);
+  const BoxTree::Box everything(Eigen::Vector3d::Constant(-9), Eigen::Vector3d::Constant(9));
+  for (int most = 1; most <= 100; ++most) {
+    int visited = 0;
+    CHECK_FALSE(tree.visitBox(everything, [&](int) { return ++visited < most; }));
+    CHECK(visited == most);
+  }
+}
