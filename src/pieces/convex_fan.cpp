@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
+#include <boost/range/iterator_range.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,7 +13,6 @@
 
 #include "base/constants.h"
 #include "gaussian/directed_edges.h"
-#include "geometry/surface_caps.h"
 #include "pieces/hull_triangles.h"
 
 namespace fcl_prob::detail {
@@ -61,12 +62,20 @@ class FanBuilder {
   }
 
  private:
+  using Arc = std::pair<int, int>;      // of groups, the lower one first
+  using GroupAt = std::pair<int, int>;  // a vertex and a group
+  using ArcAt = std::pair<int, Arc>;
+  template <typename Item>
+  using RangeOf = boost::iterator_range<typename std::vector<Item>::const_iterator>;
+
   const Eigen::Vector3d& corner(int triangle, int k) const {
     return vertices_[corners_[triangle][k]];
   }
 
   bool readSurface() {
     double largest = 0.0;
+    corners_.reserve(view_.triangle_count);
+    used_.reserve(3 * static_cast<std::size_t>(view_.triangle_count));
     for (int t = 0; t < view_.triangle_count; ++t) {
       Eigen::Vector3i corners;
       for (int k = 0; k < 3; ++k) {
@@ -84,22 +93,24 @@ class FanBuilder {
     std::sort(used_.begin(), used_.end());
     used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
     if (!points_.empty()) return true;
+    points_.reserve(used_.size());
     for (const int v : used_) points_.push_back(vertices_[v]);
     return true;
   }
 
   bool readNeighbours() {
     std::vector<DirectedEdge> edges;
+    edges.reserve(3 * corners_.size());
     for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
       for (int k = 0; k < 3; ++k) edges.push_back({corners_[t][k], corners_[t][(k + 1) % 3], t});
     }
-    const EdgePairing pairing = pairEdges(std::move(edges));
+    EdgePairing pairing = pairEdges(std::move(edges));
     if (pairing.fault) return false;
+    matches_ = std::move(pairing.matches);
     neighbours_.resize(corners_.size());
-    for (const EdgeMatch& match : pairing.matches) {
+    for (const EdgeMatch& match : matches_) {
       neighbours_[match.forward.polygon].push_back(match.backward.polygon);
       neighbours_[match.backward.polygon].push_back(match.forward.polygon);
-      matches_.push_back(match);
     }
     return true;
   }
@@ -108,6 +119,7 @@ class FanBuilder {
   // at the first of them.
   bool groupTriangles() {
     std::vector<Eigen::Vector3d> areas;
+    areas.reserve(corners_.size());
     for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
       const Eigen::Vector3d first = corner(t, 1) - corner(t, 0);
       areas.push_back(first.cross(corner(t, 2) - corner(t, 0)));
@@ -143,12 +155,12 @@ class FanBuilder {
       return true;
     };
     if (!take(seed)) return false;
-    std::vector<int> rim{seed};
-    while (!rim.empty()) {
-      const int from = rim.back();
-      rim.pop_back();
+    rim_.assign(1, seed);
+    while (!rim_.empty()) {
+      const int from = rim_.back();
+      rim_.pop_back();
       for (const int to : neighbours_[from]) {
-        if (group_[to] < 0 && take(to)) rim.push_back(to);
+        if (group_[to] < 0 && take(to)) rim_.push_back(to);
       }
     }
     fan_.normals.push_back(n);
@@ -172,6 +184,7 @@ class FanBuilder {
     }
     fan_.centre = apex;
     if (std::fabs(volume) > 0.0) fan_.centre += sum / volume;
+    fan_.vertices.reserve(points_.size());
     for (const Eigen::Vector3d& point : points_) {
       fan_.vertices.push_back(point - fan_.centre);
       fan_.radius = std::max(fan_.radius, fan_.vertices.back().norm());
@@ -184,49 +197,67 @@ class FanBuilder {
   }
 
   void findArcs() {
-    std::vector<std::vector<int>> groups_at(vertices_.size());
-    std::vector<std::vector<std::pair<int, int>>> arcs_at(vertices_.size());
+    std::vector<GroupAt> groups;
+    groups.reserve(3 * corners_.size());
     for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
-      for (int k = 0; k < 3; ++k) groups_at[corners_[t][k]].push_back(group_[t]);
+      for (int k = 0; k < 3; ++k) groups.push_back({corners_[t][k], group_[t]});
     }
+    std::vector<ArcAt> arcs;
+    arcs.reserve(2 * matches_.size());
     for (const EdgeMatch& match : matches_) {
       const int f = group_[match.forward.polygon];
       const int g = group_[match.backward.polygon];
       if (f == g) continue;
-      const std::pair<int, int> arc = std::minmax(f, g);
+      const Arc arc = std::minmax(f, g);
       fan_.arcs.push_back(arc);
-      for (const int v : {match.forward.from, match.forward.to}) arcs_at[v].push_back(arc);
+      for (const int v : {match.forward.from, match.forward.to}) arcs.push_back({v, arc});
     }
-    for (const int v : used_) completeArcs(groups_at[v], arcs_at[v]);
-    std::sort(fan_.arcs.begin(), fan_.arcs.end());
-    fan_.arcs.erase(std::unique(fan_.arcs.begin(), fan_.arcs.end()), fan_.arcs.end());
+    keepOnce(groups);
+    keepOnce(arcs);
+    completeArcs(groups, arcs);
+    keepOnce(fan_.arcs);
+  }
+
+  template <typename Item>
+  static void keepOnce(std::vector<Item>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+  }
+
+  void completeArcs(const std::vector<GroupAt>& groups, const std::vector<ArcAt>& arcs) {
+    auto arc = arcs.begin();
+    for (auto group = groups.begin(); group != groups.end();) {
+      const int vertex = group->first;
+      const auto isElsewhere = [vertex](const auto& item) { return item.first != vertex; };
+      const auto last_group = std::find_if(group, groups.end(), isElsewhere);
+      const auto last_arc = std::find_if(arc, arcs.end(), isElsewhere);
+      completeAround({group, last_group}, {arc, last_arc});
+      group = last_group;
+      arc = last_arc;
+    }
   }
 
   // Where the arcs around a vertex are not clearly the edges of the cone of its normals, all pairs
   // of them are taken.
-  void completeArcs(std::vector<int>& groups, std::vector<std::pair<int, int>>& arcs) {
-    const auto once = [](auto& list) {
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-    };
-    once(groups);
-    once(arcs);
+  void completeAround(const RangeOf<GroupAt>& groups, const RangeOf<ArcAt>& arcs) {
     const bool few = groups.size() <= 3;
     if (!few && arcs.size() == groups.size() &&
         std::all_of(arcs.begin(), arcs.end(),
-                    [&](const auto& arc) { return isEdgeOfCone(groups, arc); })) {
+                    [&](const ArcAt& arc) { return isEdgeOfCone(groups, arc.second); })) {
       return;
     }
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) fan_.arcs.emplace_back(groups[j], groups[i]);
+    for (auto one = groups.begin(); one != groups.end(); ++one) {
+      for (auto other = groups.begin(); other != one; ++other) {
+        fan_.arcs.emplace_back(other->second, one->second);
+      }
     }
   }
 
-  bool isEdgeOfCone(const std::vector<int>& groups, const std::pair<int, int>& arc) const {
+  bool isEdgeOfCone(const RangeOf<GroupAt>& groups, const Arc& arc) const {
     const Eigen::Vector3d across = fan_.normals[arc.first].cross(fan_.normals[arc.second]);
     int above = 0;
     int below = 0;
-    for (const int g : groups) {
+    for (const auto& [vertex, g] : groups) {
       if (g == arc.first || g == arc.second) continue;
       const double side = across.dot(fan_.normals[g]);
       above += side > kLeastDeterminant;
@@ -243,8 +274,9 @@ class FanBuilder {
   std::vector<int> used_;
   std::vector<Eigen::Vector3d> points_;  // of used_, or what was included
   std::vector<EdgeMatch> matches_;
-  std::vector<std::vector<int>> neighbours_;
+  std::vector<boost::container::static_vector<int, 3>> neighbours_;  // of triangles
   std::vector<int> group_;
+  std::vector<int> rim_;  // of the group that grows
   double tolerance_ = 0.0;
   ConvexFan fan_;
 };
@@ -317,8 +349,8 @@ bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,
   return solid.contains(moved_by + fan.centre, rounding) == Containment::inside;
 }
 
-std::vector<std::pair<int, int>> spansOf(const MeshView& view) {
-  const SurfaceComponents components = componentsOf(view, weldVertices(view));
+std::vector<std::pair<int, int>> spansOf(const MeshView& view,
+                                         const SurfaceComponents& components) {
   const std::vector<int>& part = components.of_vertex;
   const auto count = static_cast<std::size_t>(components.count);
   if (count > kMostParts) return {};

@@ -11,6 +11,7 @@
 #include "fcl_prob/convex_polytope.h"
 #include "geometry/closed_mesh.h"
 #include "geometry/mesh_visitor.h"
+#include "geometry/surface_caps.h"
 
 namespace fcl_prob::detail {
 
@@ -53,6 +54,6 @@ bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,
                      const Eigen::Vector3d& moved_by);
 
 /// Of every connected part of a mesh two vertices far apart; nothing if it has too many parts.
-std::vector<std::pair<int, int>> spansOf(const MeshView& view);
+std::vector<std::pair<int, int>> spansOf(const MeshView& view, const SurfaceComponents& components);
 
 }  // namespace fcl_prob::detail

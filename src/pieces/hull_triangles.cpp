@@ -24,6 +24,7 @@ class HullWrapper {
  public:
   explicit HullWrapper(const std::vector<Eigen::Vector3d>& points) {
     for (const Eigen::Vector3d& point : points) size_ = std::max(size_, (point - points[0]).norm());
+    mesh_.vertices.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3d off(offsetOf(3 * i), offsetOf(3 * i + 1), offsetOf(3 * i + 2));
       mesh_.vertices.emplace_back(points[i] - points[0] + kMoved * size_ * off);
@@ -33,8 +34,12 @@ class HullWrapper {
   TriangleMesh run() {
     if (mesh_.vertices.size() < 4) return {};
     const std::size_t most = 2 * mesh_.vertices.size() - 4;
+    mesh_.triangles.reserve(most);
+    done_.reserve(3 * most);
+    open_.reserve(3 * most + 2);
     const Side first = firstEdge();
-    open_ = {first, {first.second, first.first}};
+    open_.push_back(first);
+    open_.emplace_back(first.second, first.first);
     while (!open_.empty()) {
       const Side side = open_.back();
       open_.pop_back();

@@ -116,6 +116,7 @@ class MeshPatchSearch {
   // Of triangles with three different corners, as the mesh is closed.
   void findNeighbours() {
     std::vector<DirectedEdge> edges;
+    edges.reserve(3 * mesh_.triangles.size());
     for (int t = 0; t < triangleCount(); ++t) {
       const auto [a, b, c] = cornersOf(t);
       if (a == b || b == c || c == a) continue;
@@ -148,7 +149,9 @@ class MeshPatchSearch {
 
   // By rings, as long as all of it is on its hull (Ehmann and Lin 2001).
   std::vector<int> around(int seed) const {
-    std::vector<int> patch{seed};
+    std::vector<int> patch;
+    patch.reserve(kMostOfPatch);
+    patch.push_back(seed);
     for (std::size_t i = 0; i < patch.size(); ++i) {
       for (const int next : neighbours_[patch[i]]) {
         if (patch.size() == kMostOfPatch) return patch;
@@ -181,6 +184,7 @@ class MeshPatchSearch {
 
   MeshPatch patchOf(std::vector<int> pieces) const {
     MeshPatch patch;
+    patch.vertices.reserve(3 * pieces.size());
     for (const int piece : pieces) {
       visitCorners(piece, [&](int v) { patch.vertices.push_back(v); });
       if (piece >= triangleCount()) {
@@ -192,6 +196,7 @@ class MeshPatchSearch {
                          patch.vertices.end());
     if (patch.vertices.size() > 2 * kMostCornersOfPatch) return {};
     std::vector<Eigen::Vector3d> points;
+    points.reserve(patch.vertices.size());
     for (const int v : patch.vertices) points.push_back(at(v));
     const auto fan = convexFanAround(points);
     if (!fan) return {};

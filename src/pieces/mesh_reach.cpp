@@ -16,21 +16,22 @@ constexpr double kLittleReach = 1e-12;
 
 class ReachSearch {
  public:
+  /// \param lengths  of the vertices of the view
   ReachSearch(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
-              const MeshView& view, const std::vector<Eigen::Vector3d>& vertices)
-      : fan_(fan), view_(view), vertices_(vertices) {
+              const MeshView& view, const std::vector<double>& lengths,
+              const std::vector<Eigen::Vector3d>& vertices)
+      : fan_(fan), view_(view), lengths_(lengths), vertices_(vertices) {
+    planes_.reserve(fan.normals.size() + normals.size());
     for (const Eigen::Vector3d& n : fan.normals) planes_.emplace_back(n, height(n));
     for (const Eigen::Vector3d& n : normals) planes_.emplace_back(n, height(n));
-    for (const auto& [f, g] : fan.arcs) {
-      directions_.push_back(fan.normals[f].cross(fan.normals[g]));
-    }
   }
 
   double of(int t) {
     size_ = fan_.radius + fan_.centre.norm();
     for (int k = 0; k < 3; ++k) {
-      corners_[k] = vertices_[view_.triangles[t][k]] - fan_.centre;
-      size_ = std::max(size_, 2 * view_.vertex(t, k).norm());
+      const std::size_t v = view_.triangles[t][k];
+      corners_[k] = vertices_[v] - fan_.centre;
+      size_ = std::max(size_, 2 * lengths_[v]);
     }
     best_ = 1.0;
     for (const auto& [n, height] : planes_) {
@@ -38,6 +39,7 @@ class ReachSearch {
     }
     const Eigen::Vector3d across = (corners_[1] - corners_[0]).cross(corners_[2] - corners_[0]);
     if (tryDirection(across)) return best_;
+    findDirections();
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d edge = corners_[(k + 1) % 3] - corners_[k];
       for (const Eigen::Vector3d& other : directions_) {
@@ -48,6 +50,15 @@ class ReachSearch {
   }
 
  private:
+  // Few bodies have a triangle nearby that none of their own planes clears.
+  void findDirections() {
+    if (!directions_.empty()) return;
+    directions_.reserve(fan_.arcs.size());
+    for (const auto& [f, g] : fan_.arcs) {
+      directions_.push_back(fan_.normals[f].cross(fan_.normals[g]));
+    }
+  }
+
   double height(const Eigen::Vector3d& n) const {
     double highest = 0.0;
     for (const Eigen::Vector3d& v : fan_.vertices) highest = std::max(highest, n.dot(v));
@@ -70,6 +81,7 @@ class ReachSearch {
 
   const ConvexFan& fan_;
   const MeshView view_;
+  const std::vector<double>& lengths_;
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<std::pair<Eigen::Vector3d, double>> planes_;  ///< normals, how far P reaches
   std::vector<Eigen::Vector3d> directions_;                 ///< of the edges of P
@@ -83,11 +95,14 @@ class ReachSearch {
 SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
                                  const Eigen::Vector3d& moved_by)
     : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {
+  lengths_.reserve(view.vertex_count);
+  for (int v = 0; v < view.vertex_count; ++v) lengths_.push_back(view.vertices[v].norm());
   std::vector<BoxTree::Box> boxes(view.triangle_count);
   for (int t = 0; t < view.triangle_count; ++t) {
     for (int k = 0; k < 3; ++k) {
-      boxes[t].extend(vertices[view.triangles[t][k]]);
-      largest_ = std::max(largest_, view.vertex(t, k).norm());
+      const std::size_t v = view.triangles[t][k];
+      boxes[t].extend(vertices[v]);
+      largest_ = std::max(largest_, lengths_[v]);
     }
   }
   boxes_ = BoxTree(boxes);
@@ -101,7 +116,7 @@ double SurroundingMesh::reachInto(const ConvexFan& fan, const std::vector<Eigen:
   for (const Eigen::Vector3d& v : fan.vertices) box.extend(fan.centre + v);
   const double rounding = 64 * kEpsilon * (fan.radius + fan.centre.norm() + 2 * largest_);
   const BoxTree::Box around(box.min().array() - rounding, box.max().array() + rounding);
-  ReachSearch search(fan, normals, view_, vertices_);
+  ReachSearch search(fan, normals, view_, lengths_, vertices_);
   double farthest = 0.0;
   boxes_.visitBox(around, [&](int t) {
     farthest = std::max(farthest, search.of(t));

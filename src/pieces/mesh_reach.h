@@ -42,8 +42,9 @@ class SurroundingMesh {
   const std::vector<Eigen::Vector3d>& vertices_;
   Eigen::Vector3d moved_by_;
   ClosedMesh solid_;
-  BoxTree boxes_;         ///< of triangles
-  double largest_ = 0.0;  ///< coordinate of a vertex
+  std::vector<double> lengths_;  ///< of the vertices of the view
+  BoxTree boxes_;                ///< of triangles
+  double largest_ = 0.0;         ///< of those lengths that triangles have
 };
 
 }  // namespace fcl_prob::detail

@@ -157,7 +157,8 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     PieceTree::Part& part = tree->parts[0];
     part.fan = convexFanOf(view, tree->vertices, part.origin);
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
-    part.spans = spansOf(view);
+    part.spans =
+        spansOf(view, tree->caps ? tree->caps->components : componentsOf(view, weldVertices(view)));
     part.patches = std::make_shared<const PatchesOfMesh>();
     part.slabs = std::make_shared<const SlabsOfNodes>();
     orderByLeaves(*tree);

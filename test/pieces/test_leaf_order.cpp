@@ -128,7 +128,7 @@ TEST_CASE("triangles follow each other as the leaves do, and mean what they mean
     unused += components.of_vertex[v] < 0 ? 1 : 0;
   }
   CHECK(unused == 1);
-  const auto spans = detail::spansOf(view);
+  const auto spans = detail::spansOf(view, components);
   REQUIRE(part.spans.size() == spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) {
     CHECK(part.spans[i].first == PieceTree::vertexOf(part, spans[i].first));
