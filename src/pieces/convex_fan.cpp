@@ -320,27 +320,27 @@ std::shared_ptr<const ConvexFan> convexFanOf(const ConvexPolytope& hull,
 
 // Moved as they are there, the points have triangles that all face away from the centre, around
 // which these wind; on the way from there to where they are they stay away from it.
-std::shared_ptr<const ConvexFan> convexFanAround(const std::vector<Eigen::Vector3d>& points) {
+std::optional<ConvexFan> convexFanAround(const std::vector<Eigen::Vector3d>& points) {
   const TriangleMesh moved = hullTriangles(points);
-  if (moved.triangles.empty()) return nullptr;
+  if (moved.triangles.empty()) return std::nullopt;
   double size = 0.0;
   for (const Eigen::Vector3d& point : points) size = std::max(size, (point - points[0]).norm());
   FanBuilder builder(viewOf(moved), points);
   builder.include(points);
   builder.tolerate(kMovedPoints * size);
   const std::shared_ptr<ConvexFan> fan = builder.build();
-  if (!fan) return nullptr;
+  if (!fan) return std::nullopt;
   for (std::size_t f = 0; f < fan->normals.size(); ++f) {
-    if (!(fan->offsets[f] - fan->depths[f] > kLeastOffset * size)) return nullptr;
+    if (!(fan->offsets[f] - fan->depths[f] > kLeastOffset * size)) return std::nullopt;
   }
   const Eigen::Vector3d centre = fan->centre - points[0];
   for (const fcl::Triangle& t : moved.triangles) {
     const Eigen::Vector3d a = moved.vertices[t[0]] - centre;
     const Eigen::Vector3d b = moved.vertices[t[1]] - centre;
     const Eigen::Vector3d c = moved.vertices[t[2]] - centre;
-    if (!(a.dot(b.cross(c)) > kVolumeRounding * size * size * size)) return nullptr;
+    if (!(a.dot(b.cross(c)) > kVolumeRounding * size * size * size)) return std::nullopt;
   }
-  return fan;
+  return std::move(*fan);
 }
 
 bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,

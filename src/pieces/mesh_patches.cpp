@@ -198,11 +198,11 @@ class MeshPatchSearch {
     std::vector<Eigen::Vector3d> points;
     points.reserve(patch.vertices.size());
     for (const int v : patch.vertices) points.push_back(at(v));
-    const auto fan = convexFanAround(points);
+    auto fan = convexFanAround(points);
     if (!fan) return {};
-    patch.fan = *fan;
+    patch.fan = std::move(*fan);
     if (!surrounding_.surrounds(patch.fan, {}, kDeepest)) return {};
-    for (std::size_t f = 0; f < fan->normals.size(); ++f) {
+    for (std::size_t f = 0; f < patch.fan.normals.size(); ++f) {
       if (!(patch.fan.depths[f] < kDeepest * patch.fan.offsets[f])) return {};
     }
     patch.fan.vertices = {};
@@ -280,6 +280,7 @@ class PatchTreeBuilder {
     into_.nodes[index].piece = first->piece;
     if (first->piece < first_polygon_) return index;
     std::vector<Item> below;
+    below.reserve(piecesOf(first->piece).size());
     for (const int piece : piecesOf(first->piece)) below.push_back({middleOf(piece), piece});
     addChildren(index, below.data(), below.data() + below.size());
     return index;
