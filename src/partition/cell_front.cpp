@@ -44,7 +44,7 @@ constexpr NodeBox kEverywhere{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
 constexpr double kDeepest = 0.9999;
 
 // The order of a heap whose first is the lowest.
-constexpr auto kHigher = [](const auto& x, const auto& y) { return x.first > y.first; };
+constexpr auto kHigher = [](const auto& x, const auto& y) { return x.rank > y.rank; };
 
 }  // namespace
 
@@ -194,25 +194,31 @@ void CellFront::noteDepth(const CuttingPair& cutting) {
   deepest_ = cutting.inner;
 }
 
+void CellFront::rankPair(double rank, const BoxedPair& boxed) {
+  ordered_.push_back({rank, static_cast<int>(boxed_.size())});
+  boxed_.push_back(boxed);
+}
+
 // Most central pairs first: they are the most likely to cover the cell.
 void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
   ordered_.clear();
+  boxed_.clear();
   for (const FrontPair& pair : inherited) {
     if (pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
     const NodeBox box = obstacleBox(pair_, pair.nodes);
     if (!meetsCell(box)) continue;
     if (largerThanCell(pair, box, kProbeRatio)) {
-      ordered_.emplace_back(eccentricity(box), BoxedPair{obstacles_.frontPair(pair.nodes), box});
+      rankPair(eccentricity(box), {obstacles_.frontPair(pair.nodes), box});
     } else {
       coarse_.push_back(pair);
     }
   }
   std::sort(ordered_.begin(), ordered_.end(),
-            [](const auto& x, const auto& y) { return x.first < y.first; });
+            [](const Ranked& x, const Ranked& y) { return x.rank < y.rank; });
   int probes = kProbes;
-  for (const auto& [unused, coarse] : ordered_) {
-    refine(coarse, probes);
+  for (const Ranked& ranked : ordered_) {
+    refine(boxed_[ranked.place], probes);
     if (cell_.empty()) return;
   }
 }
@@ -440,7 +446,7 @@ void CellFront::addBelow(NodePair nodes, const CellPlane& level, PartsBelow& bel
     below.lowest_of_others = std::min(below.lowest_of_others, lowest);
     return;
   }
-  ordered_.emplace_back(lowest, boxed);
+  rankPair(lowest, boxed);
   std::push_heap(ordered_.begin(), ordered_.end(), kHigher);
 }
 
@@ -450,16 +456,18 @@ void CellFront::findBelow(const std::vector<FrontPair>& pairs, const CellPlane& 
   below.lowest = kInfinity;
   below.lowest_of_others = kInfinity;
   ordered_.clear();
+  boxed_.clear();
   for (const FrontPair& pair : pairs) addBelow(pair.nodes, level, below);
   for (; !ordered_.empty() && budget > 0; --budget) {
-    const auto [lowest, boxed] = ordered_.front();
-    if (lowest >= known || areLeaves(pair_, boxed.pair.nodes)) break;
+    const Ranked lowest = ordered_.front();
+    const NodePair nodes = boxed_[lowest.place].pair.nodes;
+    if (lowest.rank >= known || areLeaves(pair_, nodes)) break;
     std::pop_heap(ordered_.begin(), ordered_.end(), kHigher);
     ordered_.pop_back();
-    for (const NodePair child : childrenOf(pair_, boxed.pair.nodes)) addBelow(child, level, below);
+    for (const NodePair child : childrenOf(pair_, nodes)) addBelow(child, level, below);
   }
-  if (!ordered_.empty()) below.lowest = ordered_.front().first;
-  for (const auto& [unused, boxed] : ordered_) below.pairs.push_back(boxed.pair);
+  if (!ordered_.empty()) below.lowest = ordered_.front().rank;
+  for (const Ranked& ranked : ordered_) below.pairs.push_back(boxed_[ranked.place].pair);
 }
 
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {

@@ -85,6 +85,11 @@ class CellFront {
     FrontPair pair;
     NodeBox box;  ///< of its C-obstacle
   };
+  /// One of `boxed_`, to be sorted: several times smaller.
+  struct Ranked {
+    double rank;
+    int place;
+  };
 
   void gather(const std::vector<FrontPair>& inherited);
   void gatherLeaf(const FrontPair& pair);
@@ -110,6 +115,7 @@ class CellFront {
   bool largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const;
   double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
   double lowestInLayer(const NodeLayer& layer, const NodeBox& box, const Eigen::Vector3d& m) const;
+  void rankPair(double rank, const BoxedPair& boxed);
   double lowestOfParts(const BoxedPair& boxed, const CellPlane& level);
   void addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below);
 
@@ -130,7 +136,8 @@ class CellFront {
   NodeSupport support_b_;  ///< along -m
   std::vector<BoxedPair> stack_;
   std::vector<CuttingPair> previous_;
-  std::vector<std::pair<double, BoxedPair>> ordered_;
+  std::vector<BoxedPair> boxed_;
+  std::vector<Ranked> ordered_;
   TriangleSlabsData once_;
 };
 
