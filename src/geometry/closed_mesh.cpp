@@ -29,6 +29,8 @@ struct Surface {
 Surface surfaceOf(const MeshView& mesh, const std::vector<int>& welded) {
   Surface surface;
   std::vector<DirectedEdge> edges;
+  surface.triangles.reserve(mesh.triangle_count);
+  edges.reserve(3 * static_cast<std::size_t>(mesh.triangle_count));
   for (int t = 0; t < mesh.triangle_count; ++t) {
     int corners[3];
     for (int k = 0; k < 3; ++k) corners[k] = welded[mesh.triangles[t][k]];
@@ -74,6 +76,8 @@ ClosedMesh::ClosedMesh(const MeshView& mesh, const std::string& name) {
   centre_ = bounds.center();
   const Eigen::Matrix3d rotation = genericRotation();
   std::vector<BoxTree::Box> boxes;
+  boxes.reserve(surface.triangles.size());
+  triangles_.reserve(surface.triangles.size());
   for (int t : surface.triangles) {
     Triangle triangle;
     BoxTree::Box box;

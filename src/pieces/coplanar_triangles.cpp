@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -33,6 +32,8 @@ class CoplanarSearch {
  public:
   CoplanarSearch(const TriangleMesh& mesh, const std::vector<int>& welded)
       : mesh_(mesh), welded_(welded) {
+    normals_.reserve(mesh.triangles.size());
+    areas_.reserve(mesh.triangles.size());
     double size = 0.0;
     for (const Eigen::Vector3d& v : mesh.vertices) size = std::max(size, v.norm());
     tolerance_ = kFlatShare * size;
@@ -89,7 +90,6 @@ class CoplanarSearch {
     int low;
     int high;
     int triangle;
-    std::uint64_t rank() const { return edgeRank(low, high); }
   };
 
   int count() const { return static_cast<int>(mesh_.triangles.size()); }
@@ -124,8 +124,9 @@ class CoplanarSearch {
         if (low != high) sides.push_back({low, high, t});
       }
     }
-    sortEdges(sides, std::mem_fn(&Side::rank),
-              [](const Side& a, const Side& b) { return a.triangle < b.triangle; });
+    sortEdges(
+        sides, [](const Side& side) { return edgeRank(side.low, side.high); },
+        [](const Side& a, const Side& b) { return a.triangle < b.triangle; });
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const std::size_t last = std::min(sides.size(), i + kMostAtEdge);
       for (std::size_t j = i + 1; j < last; ++j) {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <numeric>
 #include <utility>
 
@@ -39,13 +40,15 @@ class MeshPatchSearch {
  public:
   MeshPatchSearch(const TriangleMesh& mesh, const MeshView& view, const std::vector<int>& welded,
                   const std::vector<FlatPolygon>& polygons)
-      : mesh_(mesh),
-        welded_(welded),
-        polygons_(polygons),
-        surrounding_(view, mesh.vertices, {0, 0, 0}) {
+      : mesh_(mesh), polygons_(polygons), surrounding_(view, mesh.vertices, {0, 0, 0}) {
+    corners_.reserve(mesh.triangles.size());
+    normals_.reserve(mesh.triangles.size() + polygons.size());
+    areas_.reserve(mesh.triangles.size() + polygons.size());
     for (const Eigen::Vector3d& v : mesh.vertices) size_ = std::max(size_, v.norm());
     for (int t = 0; t < triangleCount(); ++t) {
-      const std::array<int, 3> corners = cornersOf(t);
+      const fcl::Triangle& triangle = mesh_.triangles[t];
+      corners_.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});
+      const std::array<int, 3>& corners = corners_.back();
       const Eigen::Vector3d first = at(corners[1]) - at(corners[0]);
       normals_.emplace_back(first.cross(at(corners[2]) - at(corners[0])));
       areas_.push_back(normals_.back().norm());
@@ -81,10 +84,7 @@ class MeshPatchSearch {
   int triangleCount() const { return static_cast<int>(mesh_.triangles.size()); }
   const Eigen::Vector3d& at(int vertex) const { return mesh_.vertices[vertex]; }
 
-  std::array<int, 3> cornersOf(int t) const {
-    const fcl::Triangle& corners = mesh_.triangles[t];
-    return {welded_[corners[0]], welded_[corners[1]], welded_[corners[2]]};
-  }
+  const std::array<int, 3>& cornersOf(int t) const { return corners_[t]; }
 
   template <typename Function>
   void visitCorners(int piece, const Function& function) const {
@@ -211,14 +211,14 @@ class MeshPatchSearch {
   }
 
   const TriangleMesh& mesh_;
-  const std::vector<int>& welded_;
+  std::vector<std::array<int, 3>> corners_;  // welded, of triangles
   const std::vector<FlatPolygon>& polygons_;
   SurroundingMesh surrounding_;
   double size_ = 0.0;
   std::vector<Eigen::Vector3d> normals_;  // by piece
   std::vector<double> areas_;             // doubled
   std::vector<int> piece_of_;             // of every triangle
-  std::vector<std::vector<int>> neighbours_;
+  std::vector<boost::container::small_vector<int, 3>> neighbours_;
   std::vector<bool> held_;
 };
 
