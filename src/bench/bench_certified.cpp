@@ -2,13 +2,14 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench certified: what a certificate costs, measured in fcl::collide.
 #include <memory>
+#include <optional>
 
 #include "bench/bench_scenes.h"
 #include "bench/bench_task.h"
 #include "bench/benchmark.h"
 #include "bench/fcl_loop.h"
 #include "bench/result_hash.h"
-#include "cli/json_values.h"
+#include "bench/task_record.h"
 #include "cli/number_text.h"
 
 namespace fcl_prob::cli {
@@ -74,7 +75,7 @@ class MeasuredScene {
   /// Runs everything anew.
   void measure() {
     const FclLoop loop = timeFclLoop(scene_, kFclSamples, seed_);
-    if (timed_.empty() || loop.time_ms < loop_.time_ms) loop_ = loop;
+    if (!loop_ || loop.time_ms < loop_->time_ms) loop_ = loop;
     for (std::size_t task = 0; task < job_.tasks.size(); ++task) {
       TimedResult timed = scene_.quickestOfThree(job_.tasks[task].request(seed_));
       if (task == timed_.size()) {
@@ -86,7 +87,7 @@ class MeasuredScene {
   }
 
   void addTo(BenchReport& report) const {
-    if (timed_.empty()) return;
+    if (!loop_) return;
     addLoop(report);
     for (std::size_t task = 0; task < timed_.size(); ++task) {
       addTask(report, job_.tasks[task], timed_[task]);
@@ -95,16 +96,16 @@ class MeasuredScene {
 
  private:
   void addLoop(BenchReport& report) const {
-    const double p = loop_.estimate();
-    const double error = std::sqrt(p * (1.0 - p) / static_cast<double>(loop_.samples));
+    const double p = loop_->estimate();
+    const double error = std::sqrt(p * (1.0 - p) / static_cast<double>(loop_->samples));
     report.table.add({job_.name, "10,000 fcl::collide", numberText(p, 6), numberText(error / p, 2),
-                      numberText(loop_.time_ms, 4), "1", "", "", "", "", ""});
+                      numberText(loop_->time_ms, 4), "1", "", "", "", "", ""});
     report.records.push_back({{"scene", job_.name},
                               {"method", "fcl"},
-                              {"samples", loop_.samples},
+                              {"samples", loop_->samples},
                               {"estimate", p},
                               {"standard_error", error},
-                              {"time_ms", loop_.time_ms}});
+                              {"time_ms", loop_->time_ms}});
   }
 
   void addTask(BenchReport& report, const BenchTask& task, const TimedResult& timed) const {
@@ -115,31 +116,20 @@ class MeasuredScene {
     const std::string status = task.threshold ? toString(result.decision) : toString(result.status);
     const double megabytes = static_cast<double>(result.statistics.peak_memory) / 1e6;
     report.table.add({job_.name, task.name, numberText(p, 6), numberText(error / p, 2),
-                      numberText(timed.time_ms, 4), numberText(timed.time_ms / loop_.time_ms, 3),
+                      numberText(timed.time_ms, 4), numberText(timed.time_ms / loop_->time_ms, 3),
                       std::to_string(result.statistics.cells),
                       std::to_string(result.statistics.peak_front), numberText(megabytes, 3),
                       status, hashOf(result)});
-    report.records.push_back({{"scene", job_.name},
-                              {"method", toString(task.method)},
-                              {"task", task.name},
-                              {"lower", orNull(result.lower)},
-                              {"upper", orNull(result.upper)},
-                              {"estimate", orNull(result.estimate)},
-                              {"standard_error", orNull(result.standard_error)},
-                              {"decision", toString(result.decision)},
-                              {"status", toString(result.status)},
-                              {"time_ms", timed.time_ms},
-                              {"ratio_to_fcl", timed.time_ms / loop_.time_ms},
-                              {"cells", result.statistics.cells},
-                              {"peak_front", result.statistics.peak_front},
-                              {"peak_memory", result.statistics.peak_memory},
-                              {"hash", hashOf(result)}});
+    nlohmann::ordered_json record{{"scene", job_.name}, {"method", toString(task.method)}};
+    addTaskTo(record, task, timed, *loop_);
+    record["hash"] = hashOf(result);
+    report.records.push_back(std::move(record));
   }
 
   Job job_;
   std::uint64_t seed_;
   PreparedScene scene_;
-  FclLoop loop_;
+  std::optional<FclLoop> loop_;
   std::vector<TimedResult> timed_;  ///< one a task; the results of all runs are the same
 };
 

@@ -12,8 +12,8 @@
 #include "bench/benchmark.h"
 #include "bench/fcl_loop.h"
 #include "bench/result_hash.h"
+#include "bench/task_record.h"
 #include "bench/uniforms.h"
-#include "cli/json_values.h"
 #include "cli/number_text.h"
 #include "fcl_prob/mesh_io.h"
 
@@ -175,24 +175,14 @@ class PartsTable {
     all.memory = std::max(all.memory, result.statistics.peak_memory);
     all.limits += stoppedByLimit(result.status);
     all.hash.add(result);
-    records_.push_back({{"scene", scenes_},
-                        {"part", parts()[part].name},
-                        {"contact", contact == ContactMeaning::fcl ? "fcl" : "solid"},
-                        {"task", task.name},
-                        {"lower", orNull(result.lower)},
-                        {"upper", orNull(result.upper)},
-                        {"estimate", orNull(result.estimate)},
-                        {"standard_error", orNull(result.standard_error)},
-                        {"decision", toString(result.decision)},
-                        {"status", toString(result.status)},
-                        {"fcl_estimate", loop.estimate()},
-                        {"fcl_ms", loop.time_ms},
-                        {"time_ms", timed.time_ms},
-                        {"ratio_to_fcl", timed.time_ms / loop.time_ms},
-                        {"ratio_to_monte_carlo", all.monte_carlo_ratios.back()},
-                        {"cells", result.statistics.cells},
-                        {"peak_front", result.statistics.peak_front},
-                        {"peak_memory", result.statistics.peak_memory}});
+    nlohmann::ordered_json record{{"scene", scenes_},
+                                  {"part", parts()[part].name},
+                                  {"contact", contact == ContactMeaning::fcl ? "fcl" : "solid"}};
+    addTaskTo(record, task, timed, loop);
+    record.update({{"fcl_estimate", loop.estimate()},
+                   {"fcl_ms", loop.time_ms},
+                   {"ratio_to_monte_carlo", all.monte_carlo_ratios.back()}});
+    records_.push_back(std::move(record));
   }
 
   const BenchOptions& options_;
