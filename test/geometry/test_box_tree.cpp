@@ -30,6 +30,26 @@ std::vector<BoxTree::Box> randomBoxes(RandomBodies& random, int count) {
   return boxes;
 }
 
+// What a visit comes to, in ascending order; it is not stopped.
+template <typename Visit>
+std::vector<int> visited(const Visit& visit) {
+  std::vector<int> met;
+  REQUIRE(visit([&](int i) {
+    met.push_back(i);
+    return true;
+  }));
+  std::sort(met.begin(), met.end());
+  return met;
+}
+
+std::vector<int> allThatMeet(const std::vector<BoxTree::Box>& boxes, const BoxTree::Box& other) {
+  std::vector<int> met;
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
+    if (boxes[i].intersects(other)) met.push_back(i);
+  }
+  return met;
+}
+
 }  // namespace
 
 TEST_CASE("a tree of boxes visits each box that another one meets, once, and no other") {
@@ -38,17 +58,8 @@ TEST_CASE("a tree of boxes visits each box that another one meets, once, and no 
     const std::vector<BoxTree::Box> boxes = randomBoxes(random, count);
     const BoxTree tree(boxes);
     const BoxTree::Box other = randomBox(random, 0.7);
-    std::vector<int> met;
-    REQUIRE(tree.visitBox(other, [&](int i) {
-      met.push_back(i);
-      return true;
-    }));
-    std::sort(met.begin(), met.end());
-    std::vector<int> truth;
-    for (int i = 0; i < count; ++i) {
-      if (boxes[i].intersects(other)) truth.push_back(i);
-    }
-    REQUIRE(met == truth);
+    REQUIRE(visited([&](auto&& function) { return tree.visitBox(other, function); }) ==
+            allThatMeet(boxes, other));
   }
 }
 
@@ -60,19 +71,11 @@ TEST_CASE("a tree of boxes visits each box near a ray, once, and no other") {
     const Eigen::Vector3d origin = 0.5 * random.direction();
     const double margin = random.uniform(0.0, 0.1);
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<int> met;
-      REQUIRE(tree.visitRay(axis, origin, margin, [&](int i) {
-        met.push_back(i);
-        return true;
-      }));
-      std::sort(met.begin(), met.end());
       BoxTree::Box ray(origin.array() - margin, origin.array() + margin);
       ray.max()[axis] = 1e9;
-      std::vector<int> truth;
-      for (int i = 0; i < count; ++i) {
-        if (boxes[i].intersects(ray)) truth.push_back(i);
-      }
-      REQUIRE(met == truth);
+      REQUIRE(visited([&](auto&& function) {
+                return tree.visitRay(axis, origin, margin, function);
+              }) == allThatMeet(boxes, ray));
     }
   }
 }
