@@ -20,10 +20,8 @@ NodeBox boxOfVertices(const WhitenedTree& whitened, const int* begin, const int*
 }
 
 NodeBox boxOfCluster(const WhitenedTree& whitened, int index) {
-  const MeshClusters& clusters = *whitened.tree->clusters;
-  const int* const vertices = clusters.vertices.data();
-  const int* const first = &clusters.first[index - clusters.begin];
-  return boxOfVertices(whitened, vertices + first[0], vertices + first[1]);
+  const auto vertices = whitened.tree->clusters->verticesOf(index);
+  return boxOfVertices(whitened, vertices.begin(), vertices.end());
 }
 
 NodeBox boxOfLeaf(const WhitenedTree& whitened, int index) {

@@ -58,11 +58,9 @@ std::optional<double> NodeSupport::ofFew(int node) const {
 }
 
 double NodeSupport::ofCluster(int node) const {
-  const MeshClusters& clusters = *mesh_->tree->clusters;
-  const int* const first = &clusters.first[node - clusters.begin];
   double value = -std::numeric_limits<double>::infinity();
-  for (int i = first[0]; i < first[1]; ++i) {
-    value = std::max(value, m_.dot(mesh_->vertices[clusters.vertices[i]]));
+  for (const int vertex : mesh_->tree->clusters->verticesOf(node)) {
+    value = std::max(value, m_.dot(mesh_->vertices[vertex]));
   }
   return value;
 }

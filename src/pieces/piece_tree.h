@@ -6,6 +6,7 @@
 #include <fcl/geometry/collision_geometry.h>
 
 #include <Eigen/Core>
+#include <boost/range/iterator_range.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,6 +41,12 @@ struct MeshClusters {
   int end = 0;                ///< the first node below them
   std::vector<int> vertices;  ///< of one cluster after the other, each vertex of it once
   std::vector<int> first;     ///< where those of a cluster begin; one more for the end
+
+  /// Of a node that is a cluster.
+  boost::iterator_range<const int*> verticesOf(int node) const {
+    const int* const of_cluster = &first[node - begin];
+    return {vertices.data() + of_cluster[0], vertices.data() + of_cluster[1]};
+  }
 };
 
 /// The topology is that of FCL's own tree; bounding volumes are left out, since the partition
