@@ -92,11 +92,8 @@ std::vector<Facet> runQhull(const std::vector<Eigen::Vector3d>& normalised,
 bool isClosed(const std::vector<Facet>& facets) {
   std::vector<detail::DirectedEdge> edges;
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    const std::vector<int>& loop = facets[f].points;
-    if (loop.size() < 3) return false;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      edges.push_back({loop[k], loop[(k + 1) % loop.size()], static_cast<int>(f)});
-    }
+    if (facets[f].points.size() < 3) return false;
+    detail::addSides(facets[f].points, static_cast<int>(f), edges);
   }
   return facets.size() >= 4 && !detail::pairEdges(std::move(edges)).fault;
 }

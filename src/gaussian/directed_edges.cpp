@@ -9,10 +9,8 @@
 namespace fcl_prob::detail {
 namespace {
 
-std::uint64_t rankOf(const DirectedEdge& edge) { return edgeRank(edge.from, edge.to); }
-
-// An object, not a function: sorting takes it in.
-constexpr auto kRank = [](const DirectedEdge& edge) { return rankOf(edge); };
+// An object, not a function, which sorting would call through a pointer.
+constexpr auto kRankOf = [](const DirectedEdge& edge) { return edgeRank(edge.from, edge.to); };
 
 std::string describe(const DirectedEdge& edge, std::size_t count) {
   std::string what = count == 2   ? "is walked twice in the same direction"
@@ -25,14 +23,14 @@ std::string describe(const DirectedEdge& edge, std::size_t count) {
 }  // namespace
 
 EdgePairing pairEdges(std::vector<DirectedEdge> edges) {
-  sortEdges(edges, kRank, [](const DirectedEdge& a, const DirectedEdge& b) {
+  sortEdges(edges, kRankOf, [](const DirectedEdge& a, const DirectedEdge& b) {
     return std::tie(a.from, a.polygon) < std::tie(b.from, b.polygon);
   });
   EdgePairing result;
   result.matches.reserve(edges.size() / 2);
   for (std::size_t first = 0; first < edges.size();) {
     std::size_t last = first + 1;
-    while (last < edges.size() && rankOf(edges[first]) == rankOf(edges[last])) ++last;
+    while (last < edges.size() && kRankOf(edges[first]) == kRankOf(edges[last])) ++last;
     if (last - first != 2 || edges[first].from == edges[first + 1].from) {
       result.fault = describe(edges[first], last - first);
       return result;

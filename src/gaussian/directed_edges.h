@@ -16,6 +16,15 @@ struct DirectedEdge {
   int polygon;
 };
 
+/// Adds the sides of a polygon, walked in the order of its vertices.
+template <typename Vertices>
+void addSides(const Vertices& vertices, int polygon, std::vector<DirectedEdge>& edges) {
+  for (auto from = vertices.begin(); from != vertices.end(); ++from) {
+    const auto to = from + 1 == vertices.end() ? vertices.begin() : from + 1;
+    edges.push_back({*from, *to, polygon});
+  }
+}
+
 /// Two sides that lie on each other in opposite directions.
 struct EdgeMatch {
   DirectedEdge forward;

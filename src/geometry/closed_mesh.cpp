@@ -3,6 +3,7 @@
 #include "geometry/closed_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,11 +33,10 @@ Surface surfaceOf(const MeshView& mesh, const std::vector<int>& welded) {
   surface.triangles.reserve(mesh.triangle_count);
   edges.reserve(3 * static_cast<std::size_t>(mesh.triangle_count));
   for (int t = 0; t < mesh.triangle_count; ++t) {
-    int corners[3];
-    for (int k = 0; k < 3; ++k) corners[k] = welded[mesh.triangles[t][k]];
+    const std::array<int, 3> corners = weldedCorners(welded, mesh.triangles[t]);
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
     surface.triangles.push_back(t);
-    for (int k = 0; k < 3; ++k) edges.push_back({corners[k], corners[(k + 1) % 3], t});
+    addSides(corners, t, edges);
   }
   surface.pairing = pairEdges(std::move(edges));
   if (surface.triangles.empty()) surface.pairing.fault = "every triangle is degenerate";

@@ -82,10 +82,7 @@ void requireAllUsed(std::size_t vertex_count, const std::vector<std::vector<int>
 std::vector<DirectedEdge> edgesOf(const std::vector<std::vector<int>>& faces) {
   std::vector<DirectedEdge> edges;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const auto& face = faces[f];
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      edges.push_back({face[i], face[(i + 1) % face.size()], static_cast<int>(f)});
-    }
+    addSides(faces[f], static_cast<int>(f), edges);
   }
   return edges;
 }

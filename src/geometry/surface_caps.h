@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "geometry/mesh_visitor.h"
@@ -12,6 +13,11 @@ namespace fcl_prob::detail {
 
 /// For every vertex the first vertex with the same coordinates (-0 equals 0).
 std::vector<int> weldVertices(const MeshView& mesh);
+
+/// The corners of a triangle, of which weldVertices() told what they are the same as.
+inline std::array<int, 3> weldedCorners(const std::vector<int>& welded, const fcl::Triangle& t) {
+  return {welded[t[0]], welded[t[1]], welded[t[2]]};
+}
 
 /// Which vertices hang together by triangles, those without area included.
 struct SurfaceComponents {

@@ -101,9 +101,7 @@ class FanBuilder {
   bool readNeighbours() {
     std::vector<DirectedEdge> edges;
     edges.reserve(3 * corners_.size());
-    for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
-      for (int k = 0; k < 3; ++k) edges.push_back({corners_[t][k], corners_[t][(k + 1) % 3], t});
-    }
+    for (int t = 0; t < static_cast<int>(corners_.size()); ++t) addSides(corners_[t], t, edges);
     EdgePairing pairing = pairEdges(std::move(edges));
     if (pairing.fault) return false;
     matches_ = std::move(pairing.matches);

@@ -46,9 +46,8 @@ class MeshPatchSearch {
     areas_.reserve(mesh.triangles.size() + polygons.size());
     for (const Eigen::Vector3d& v : mesh.vertices) size_ = std::max(size_, v.norm());
     for (int t = 0; t < triangleCount(); ++t) {
-      const fcl::Triangle& triangle = mesh_.triangles[t];
-      corners_.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});
-      const std::array<int, 3>& corners = corners_.back();
+      const std::array<int, 3> corners = weldedCorners(welded, mesh_.triangles[t]);
+      corners_.push_back(corners);
       const Eigen::Vector3d first = at(corners[1]) - at(corners[0]);
       normals_.emplace_back(first.cross(at(corners[2]) - at(corners[0])));
       areas_.push_back(normals_.back().norm());
@@ -118,11 +117,9 @@ class MeshPatchSearch {
     std::vector<DirectedEdge> edges;
     edges.reserve(3 * mesh_.triangles.size());
     for (int t = 0; t < triangleCount(); ++t) {
-      const auto [a, b, c] = cornersOf(t);
+      const auto& [a, b, c] = cornersOf(t);
       if (a == b || b == c || c == a) continue;
-      edges.push_back({a, b, t});
-      edges.push_back({b, c, t});
-      edges.push_back({c, a, t});
+      addSides(cornersOf(t), t, edges);
     }
     neighbours_.resize(held_.size());
     for (const EdgeMatch& match : pairEdges(std::move(edges)).matches) {

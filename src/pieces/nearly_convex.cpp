@@ -47,9 +47,7 @@ bool mayBeNearlyConvex(const MeshView& view, const std::vector<Eigen::Vector3d>&
   const std::vector<int> welded = weldVertices(view);
   std::vector<DirectedEdge> edges;
   for (int t = 0; t < view.triangle_count; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      edges.push_back({welded[view.triangles[t][k]], welded[view.triangles[t][(k + 1) % 3]], t});
-    }
+    addSides(weldedCorners(welded, view.triangles[t]), t, edges);
   }
   const EdgePairing pairing = pairEdges(std::move(edges));
   if (pairing.fault) return false;

@@ -78,10 +78,7 @@ class PatchSearch {
     const std::vector<int> welded = weldVertices(view_);
     std::vector<DirectedEdge> edges;
     for (int t = 0; t < view_.triangle_count; ++t) {
-      for (int k = 0; k < 3; ++k) {
-        edges.push_back(
-            {welded[view_.triangles[t][k]], welded[view_.triangles[t][(k + 1) % 3]], t});
-      }
+      addSides(weldedCorners(welded, view_.triangles[t]), t, edges);
     }
     neighbours_.resize(view_.triangle_count);
     for (const EdgeMatch& match : pairEdges(std::move(edges)).matches) {
