@@ -21,28 +21,6 @@ Eigen::Matrix3d genericRotation() {
   return Eigen::Quaterniond(0.8142, 0.2931, 0.4127, -0.2839).normalized().toRotationMatrix();
 }
 
-struct Surface {
-  std::vector<int> triangles;  // those with three different corners
-  EdgePairing pairing;
-};
-
-/// Triangles with two equal corners have no inside to bound and cancel out of the pairing.
-Surface surfaceOf(const MeshView& mesh, const std::vector<int>& welded) {
-  Surface surface;
-  std::vector<DirectedEdge> edges;
-  surface.triangles.reserve(mesh.triangle_count);
-  edges.reserve(3 * static_cast<std::size_t>(mesh.triangle_count));
-  for (int t = 0; t < mesh.triangle_count; ++t) {
-    const std::array<int, 3> corners = weldedCorners(welded, mesh.triangles[t]);
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-    surface.triangles.push_back(t);
-    addSides(corners, t, edges);
-  }
-  surface.pairing = pairEdges(std::move(edges));
-  if (surface.triangles.empty()) surface.pairing.fault = "every triangle is degenerate";
-  return surface;
-}
-
 /// The first vertex of every part that hangs together by corners.
 std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh,
                                            const SurfaceComponents& components) {
@@ -55,17 +33,34 @@ std::vector<Eigen::Vector3d> onePointAPart(const MeshView& mesh,
 
 }  // namespace
 
-std::optional<std::string> opennessOf(const MeshView& mesh) {
-  return surfaceOf(mesh, weldVertices(mesh)).pairing.fault;
+// Triangles with two equal corners have no inside to bound and cancel out of the pairing.
+WeldedSurface::WeldedSurface(const MeshView& mesh) : welded(weldVertices(mesh)) {
+  std::vector<DirectedEdge> edges;
+  triangles.reserve(mesh.triangle_count);
+  edges.reserve(3 * static_cast<std::size_t>(mesh.triangle_count));
+  for (int t = 0; t < mesh.triangle_count; ++t) {
+    const std::array<int, 3> corners = weldedCorners(welded, mesh.triangles[t]);
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+    triangles.push_back(t);
+    addSides(corners, t, edges);
+  }
+  pairing = pairEdges(std::move(edges));
+  if (triangles.empty()) pairing.fault = "every triangle is degenerate";
 }
 
-ClosedMesh::ClosedMesh(const MeshView& mesh, const std::string& name) {
-  const std::vector<int> welded = weldVertices(mesh);
-  const Surface surface = surfaceOf(mesh, welded);
+std::optional<std::string> opennessOf(const MeshView& mesh) {
+  return WeldedSurface(mesh).pairing.fault;
+}
+
+ClosedMesh::ClosedMesh(const MeshView& mesh, const std::string& name)
+    : ClosedMesh(mesh, WeldedSurface(mesh), name) {}
+
+ClosedMesh::ClosedMesh(const MeshView& mesh, const WeldedSurface& surface,
+                       const std::string& name) {
   if (surface.pairing.fault) {
     throw OpenMesh(name + " is not a closed mesh: " + *surface.pairing.fault);
   }
-  SurfaceComponents components = componentsOf(mesh, welded);
+  SurfaceComponents components = componentsOf(mesh, surface.welded);
   part_points_ = onePointAPart(mesh, components);
   part_of_vertex_ = std::move(components.of_vertex);
 

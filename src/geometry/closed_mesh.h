@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gaussian/directed_edges.h"
 #include "geometry/box_tree.h"
 #include "geometry/mesh_visitor.h"
 
@@ -15,6 +16,15 @@ namespace fcl_prob::detail {
 
 /// Where a point is relative to a solid; `unknown` within rounding of its surface.
 enum class Containment { inside, outside, unknown };
+
+/// The surface of a mesh after welding vertices of equal coordinates.
+struct WeldedSurface {
+  explicit WeldedSurface(const MeshView& mesh);
+
+  std::vector<int> welded;     ///< see weldVertices()
+  std::vector<int> triangles;  ///< those with three different corners
+  EdgePairing pairing;         ///< of their sides; the fault that keeps the mesh from being closed
+};
 
 /// A triangle mesh in which, after welding vertices of equal coordinates, every edge is shared by
 /// exactly two triangles that walk it in opposite directions. It bounds the solid of all points
@@ -27,6 +37,9 @@ class ClosedMesh {
   /// \throws OpenMesh naming an edge at which the surface is open, branches or changes its
   /// orientation.
   ClosedMesh(const MeshView& mesh, const std::string& name);
+
+  /// The same where the surface of the mesh is already known.
+  ClosedMesh(const MeshView& mesh, const WeldedSurface& surface, const std::string& name);
 
   /// Whether the solid contains `point` (metres, frame of the mesh), no coordinate of which is
   /// wrong by more than `error`. Never wrong: signs of determinants are used only where they exceed

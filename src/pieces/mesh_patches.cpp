@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "fcl_prob/exceptions.h"
-#include "gaussian/directed_edges.h"
+#include "geometry/closed_mesh.h"
 #include "geometry/surface_caps.h"
 #include "pieces/coplanar_triangles.h"
 #include "pieces/mesh_reach.h"
@@ -38,15 +38,15 @@ constexpr double kUnfolded = 0.999;
 /// Of pieces: the triangles of a mesh, and behind them polygons that some of them are in.
 class MeshPatchSearch {
  public:
-  MeshPatchSearch(const TriangleMesh& mesh, const MeshView& view, const std::vector<int>& welded,
+  MeshPatchSearch(const TriangleMesh& mesh, const MeshView& view, const WeldedSurface& surface,
                   const std::vector<FlatPolygon>& polygons)
-      : mesh_(mesh), polygons_(polygons), surrounding_(view, mesh.vertices, {0, 0, 0}) {
+      : mesh_(mesh), polygons_(polygons), surrounding_(view, surface, mesh.vertices, {0, 0, 0}) {
     corners_.reserve(mesh.triangles.size());
     normals_.reserve(mesh.triangles.size() + polygons.size());
     areas_.reserve(mesh.triangles.size() + polygons.size());
     for (const Eigen::Vector3d& v : mesh.vertices) size_ = std::max(size_, v.norm());
     for (int t = 0; t < triangleCount(); ++t) {
-      const std::array<int, 3> corners = weldedCorners(welded, mesh_.triangles[t]);
+      const std::array<int, 3> corners = weldedCorners(surface.welded, mesh_.triangles[t]);
       corners_.push_back(corners);
       const Eigen::Vector3d first = at(corners[1]) - at(corners[0]);
       normals_.emplace_back(first.cross(at(corners[2]) - at(corners[0])));
@@ -57,7 +57,7 @@ class MeshPatchSearch {
     piece_of_.resize(mesh.triangles.size());
     std::iota(piece_of_.begin(), piece_of_.end(), 0);
     for (const FlatPolygon& polygon : polygons) addPolygon(polygon);
-    findNeighbours();
+    findNeighbours(surface.pairing);
   }
 
   /// Large ones first: around them patches are largest.
@@ -112,17 +112,9 @@ class MeshPatchSearch {
         polygon.corners.size() > kMostCornersOfPatch || !(area.norm() > kUnfolded * size);
   }
 
-  // Of triangles with three different corners, as the mesh is closed.
-  void findNeighbours() {
-    std::vector<DirectedEdge> edges;
-    edges.reserve(3 * mesh_.triangles.size());
-    for (int t = 0; t < triangleCount(); ++t) {
-      const auto& [a, b, c] = cornersOf(t);
-      if (a == b || b == c || c == a) continue;
-      addSides(cornersOf(t), t, edges);
-    }
+  void findNeighbours(const EdgePairing& pairing) {
     neighbours_.resize(held_.size());
-    for (const EdgeMatch& match : pairEdges(std::move(edges)).matches) {
+    for (const EdgeMatch& match : pairing.matches) {
       const int one = piece_of_[match.forward.polygon];
       const int other = piece_of_[match.backward.polygon];
       if (one == other) continue;
@@ -305,18 +297,18 @@ class PatchTreeBuilder {
 };
 
 // Of what is open there are only polygons.
-void findPatches(const TriangleMesh& mesh, const std::vector<int>& welded, MeshPatches& into) try {
-  MeshPatchSearch search(mesh, viewOf(mesh), welded, into.polygons);
+void findPatches(const TriangleMesh& mesh, const WeldedSurface& surface, MeshPatches& into) try {
+  MeshPatchSearch search(mesh, viewOf(mesh), surface, into.polygons);
   into.patches = search.run();
   if (!into.patches.empty()) into.solid = search.solid();
 } catch (const OpenMesh&) {
 }
 
 std::unique_ptr<const MeshPatches> patchesIn(const TriangleMesh& mesh) {
-  const std::vector<int> welded = weldVertices(viewOf(mesh));
+  const WeldedSurface surface(viewOf(mesh));
   auto made = std::make_unique<MeshPatches>();
-  made->polygons = flatPolygonsIn(mesh, welded);
-  findPatches(mesh, welded, *made);
+  made->polygons = flatPolygonsIn(mesh, surface.welded);
+  findPatches(mesh, surface, *made);
   if (made->polygons.empty() && made->patches.empty()) return nullptr;
   PatchTreeBuilder(mesh, *made).run();
   return made;

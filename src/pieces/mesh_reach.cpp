@@ -92,9 +92,10 @@ class ReachSearch {
 
 }  // namespace
 
-SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
+SurroundingMesh::SurroundingMesh(const MeshView& view, const WeldedSurface& surface,
+                                 const std::vector<Eigen::Vector3d>& vertices,
                                  const Eigen::Vector3d& moved_by)
-    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {
+    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, surface, "mesh") {
   lengths_.reserve(view.vertex_count);
   for (int v = 0; v < view.vertex_count; ++v) lengths_.push_back(view.vertices[v].norm());
   std::vector<BoxTree::Box> boxes(view.triangle_count);

@@ -23,7 +23,12 @@ class SurroundingMesh {
   ///
   /// Keeps what the view is of, and the vertices, by reference. \throws OpenMesh
   SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
-                  const Eigen::Vector3d& moved_by);
+                  const Eigen::Vector3d& moved_by)
+      : SurroundingMesh(view, WeldedSurface(view), vertices, moved_by) {}
+
+  /// The same where the surface of the mesh is already known.
+  SurroundingMesh(const MeshView& view, const WeldedSurface& surface,
+                  const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3d& moved_by);
 
   /// Whether the mesh winds around P and hardly reaches into it: no triangle meets the inside of P
   /// shrunk about its centre by a share of `most` at the most, since there is a plane between the
