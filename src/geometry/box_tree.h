@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A bounding volume tree of axis-aligned boxes for rays along the axes, and for other boxes.
+// A bounding volume tree of axis-aligned boxes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,18 +18,10 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const std::vector<Box>& boxes);
 
-  /// Calls `function(index)` for every box that is within `margin` of the ray from `origin` along
-  /// the positive `axis`; stops and returns false as soon as one call returns false.
+  /// Calls `function(index)` for every box that `other` meets; touching counts. It may be endless.
+  /// Stops and returns false as soon as one call returns false.
   template <typename Function>
-  bool visitRay(int axis, const Eigen::Vector3d& origin, double margin, Function&& function) const {
-    return visit([&](const Box& box) { return meetsRay(box, axis, origin, margin); }, function);
-  }
-
-  /// The same for every box that `other` meets; touching counts.
-  template <typename Function>
-  bool visitBox(const Box& other, Function&& function) const {
-    return visit([&](const Box& box) { return box.intersects(other); }, function);
-  }
+  bool visitBox(const Box& other, Function&& function) const;
 
   /// Bytes.
   std::size_t memory() const {
@@ -42,27 +34,6 @@ class BoxTree {
 
   // Boxes of a leaf, which follow each other in memory: fetching nodes is what a visit waits for.
   static constexpr int kMostOfLeaf = 4;
-
-  template <typename Meets, typename Function>
-  bool visit(const Meets& meets, Function&& function) const {
-    std::array<int, kStackSize> stack;
-    std::size_t size = 0;
-    if (!nodes_.empty()) stack[size++] = 0;
-    while (size > 0) {
-      const int index = stack[--size];
-      const Node& node = nodes_[index];
-      if (!meets(node.box)) continue;
-      if (!node.isLeaf()) {
-        stack[size++] = node.right;
-        stack[size++] = index + 1;
-        continue;
-      }
-      for (int i = node.first; i < node.last; ++i) {
-        if (meets(items_[i].box) && !function(items_[i].index)) return false;
-      }
-    }
-    return true;
-  }
 
   struct Node {
     Box box;
@@ -77,20 +48,31 @@ class BoxTree {
     int index;
   };
 
-  static bool meetsRay(const Box& box, int axis, const Eigen::Vector3d& origin, double margin) {
-    if (box.max()[axis] < origin[axis] - margin) return false;
-    for (int side : {(axis + 1) % 3, (axis + 2) % 3}) {
-      if (box.min()[side] > origin[side] + margin || box.max()[side] < origin[side] - margin) {
-        return false;
-      }
-    }
-    return true;
-  }
-
   void build(int first, int last);
 
   std::vector<Node> nodes_;
   std::vector<Item> items_;
 };
+
+template <typename Function>
+bool BoxTree::visitBox(const Box& other, Function&& function) const {
+  std::array<int, kStackSize> stack;
+  std::size_t size = 0;
+  if (!nodes_.empty()) stack[size++] = 0;
+  while (size > 0) {
+    const int index = stack[--size];
+    const Node& node = nodes_[index];
+    if (!node.box.intersects(other)) continue;
+    if (!node.isLeaf()) {
+      stack[size++] = node.right;
+      stack[size++] = index + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.last; ++i) {
+      if (items_[i].box.intersects(other) && !function(items_[i].index)) return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace fcl_prob::detail

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.h"
 #include "fcl_prob/exceptions.h"
 #include "gaussian/directed_edges.h"
 #include "geometry/ray_crossing.h"
@@ -83,23 +84,40 @@ ClosedMesh::ClosedMesh(const MeshView& mesh, const WeldedSurface& surface,
     }
     triangles_.push_back(triangle);
     boxes.push_back(box);
+    bounds_.extend(box);
   }
   tree_ = BoxTree(boxes);
 }
 
+// Along each axis to the nearer end, the shortest first: it meets the fewest triangles.
+std::array<ClosedMesh::Ray, 3> ClosedMesh::raysFrom(const Eigen::Vector3d& point) const {
+  std::array<Ray, 3> rays;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double above = bounds_.max()[axis] - point[axis];
+    const double below = point[axis] - bounds_.min()[axis];
+    rays[axis] = {axis, above <= below, std::min(above, below)};
+  }
+  std::sort(rays.begin(), rays.end(),
+            [](const Ray& one, const Ray& other) { return one.length < other.length; });
+  return rays;
+}
+
 // The ray of `point` along one axis of the rotated frame meets the triangles whose projections
-// contain it; the winding number is the sum of the signs of those ahead. Vertices and point are
-// known to `margin` only (subtraction and rotation round), so an answer counts only if no move by
-// `margin` can change any of the signs: then the winding number of the mesh as given is the same,
-// since moving from one to the other never carries the surface across the point's ray.
-std::optional<int> ClosedMesh::windingAlong(int axis, const Eigen::Vector3d& point,
+// contain it; the winding number is the sum of the signs of those ahead, mirrored at the point for a
+// ray downwards: that turns the ray around, but not the normals. Vertices and point are known to
+// `margin` only (subtraction and rotation round), so an answer counts only if no move by `margin`
+// can change any of the signs: then the winding number of the mesh as given is the same, since
+// moving from one to the other never carries the surface across the point's ray.
+std::optional<int> ClosedMesh::windingAlong(const Ray& ray, const Eigen::Vector3d& point,
                                             double margin) const {
+  BoxTree::Box around(point.array() - 4 * margin, point.array() + 4 * margin);
+  (ray.upwards ? around.max() : around.min())[ray.axis] = ray.upwards ? kInfinity : -kInfinity;
+  const double sign = ray.upwards ? 1.0 : -1.0;
   int winding = 0;
-  const bool certain = tree_.visitRay(axis, point, 4 * margin, [&](int item) {
-    const Triangle& triangle = triangles_[item];
-    const auto crossing = rayCrossing(
-        {triangle.corners[0] - point, triangle.corners[1] - point, triangle.corners[2] - point},
-        axis, margin);
+  const bool certain = tree_.visitBox(around, [&](int item) {
+    std::array<Eigen::Vector3d, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = sign * (triangles_[item].corners[k] - point);
+    const auto crossing = rayCrossing(corners, ray.axis, margin);
     winding += crossing.value_or(0);
     return crossing.has_value();
   });
@@ -117,8 +135,8 @@ Containment ClosedMesh::contains(const Eigen::Vector3d& point, double error) con
   // Rotated, an error in three coordinates is one of up to √3 in each.
   const double margin = 16 * std::numeric_limits<double>::epsilon() * largest + 2 * error;
   const Eigen::Vector3d rotated = genericRotation() * relative;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (const auto winding = windingAlong(axis, rotated, margin)) {
+  for (const Ray& ray : raysFrom(rotated)) {
+    if (const auto winding = windingAlong(ray, rotated, margin)) {
       return *winding != 0 ? Containment::inside : Containment::outside;
     }
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,12 +68,22 @@ class ClosedMesh {
     Eigen::Vector3d corners[3];
   };
 
-  std::optional<int> windingAlong(int axis, const Eigen::Vector3d& point, double margin) const;
+  /// From a point to one end of the mesh, in the rotated frame.
+  struct Ray {
+    int axis;
+    bool upwards;
+    double length;
+  };
+
+  std::array<Ray, 3> raysFrom(const Eigen::Vector3d& point) const;
+  std::optional<int> windingAlong(const Ray& ray, const Eigen::Vector3d& point,
+                                  double margin) const;
 
   Eigen::Vector3d centre_;
   double radius_ = 0.0;              // largest coordinate of a vertex relative to centre_
   std::vector<Triangle> triangles_;  // rotated, relative to centre_
   BoxTree tree_;
+  BoxTree::Box bounds_;  // of that tree
   std::vector<Eigen::Vector3d> part_points_;
   std::vector<int> part_of_vertex_;
 };

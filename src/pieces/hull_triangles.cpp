@@ -35,7 +35,7 @@ class HullWrapper {
     if (mesh_.vertices.size() < 4) return {};
     const std::size_t most = 2 * mesh_.vertices.size() - 4;
     mesh_.triangles.reserve(most);
-    done_.reserve(3 * most);
+    is_done_.assign(mesh_.vertices.size() * mesh_.vertices.size(), false);
     open_.reserve(3 * most + 2);
     const Side first = firstEdge();
     open_.push_back(first);
@@ -44,10 +44,9 @@ class HullWrapper {
       const Side side = open_.back();
       open_.pop_back();
       if (isDone(side)) continue;
-      if (mesh_.triangles.size() == most) return {};
-      add(side, thirdCorner(side));
+      if (mesh_.triangles.size() == most || !add(side, thirdCorner(side))) return {};
     }
-    if (mesh_.triangles.size() < 4 || !isClosed()) return {};
+    if (mesh_.triangles.size() < 4) return {};
     return std::move(mesh_);
   }
 
@@ -72,8 +71,8 @@ class HullWrapper {
     return {from, to};
   }
 
-  bool isDone(const Side& side) const {
-    return std::find(done_.begin(), done_.end(), side) != done_.end();
+  std::vector<bool>::reference isDone(const Side& side) {
+    return is_done_[side.first * mesh_.vertices.size() + side.second];
   }
 
   // All points are behind the plane through it.
@@ -91,24 +90,21 @@ class HullWrapper {
     return third;
   }
 
-  void add(const Side& side, std::size_t third) {
+  // The surface closes: what is walked is walked once, and the other way, too. False if it is not.
+  bool add(const Side& side, std::size_t third) {
     mesh_.triangles.emplace_back(side.first, side.second, third);
     for (const Side& each : {side, Side{side.second, third}, Side{third, side.first}}) {
-      done_.push_back(each);
+      if (isDone(each)) return false;
+      isDone(each) = true;
       open_.emplace_back(each.second, each.first);
     }
-  }
-
-  // What was walked was walked once, and the other way, too.
-  bool isClosed() {
-    std::sort(done_.begin(), done_.end());
-    return std::adjacent_find(done_.begin(), done_.end()) == done_.end();
+    return true;
   }
 
   TriangleMesh mesh_;
   double size_ = 0.0;
   std::vector<Side> open_;
-  std::vector<Side> done_;
+  std::vector<bool> is_done_;  // of every side from one vertex to another
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/constants.h"
 #include "catch.h"
 #include "random_bodies.h"
 
@@ -70,12 +71,13 @@ TEST_CASE("a tree of boxes visits each box near a ray, once, and no other") {
     const BoxTree tree(boxes);
     const Eigen::Vector3d origin = 0.5 * random.direction();
     const double margin = random.uniform(0.0, 0.1);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int end = 0; end < 6; ++end) {
       BoxTree::Box ray(origin.array() - margin, origin.array() + margin);
-      ray.max()[axis] = 1e9;
-      REQUIRE(visited([&](auto&& function) {
-                return tree.visitRay(axis, origin, margin, function);
-              }) == allThatMeet(boxes, ray));
+      BoxTree::Box long_ray = ray;
+      (end % 2 == 0 ? ray.max() : ray.min())[end / 2] = end % 2 == 0 ? kInfinity : -kInfinity;
+      (end % 2 == 0 ? long_ray.max() : long_ray.min())[end / 2] = end % 2 == 0 ? 1e9 : -1e9;
+      REQUIRE(visited([&](auto&& function) { return tree.visitBox(ray, function); }) ==
+              allThatMeet(boxes, long_ray));
     }
   }
 }
