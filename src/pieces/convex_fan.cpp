@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <boost/container/static_vector.hpp>
-#include <boost/range/iterator_range.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -62,11 +62,12 @@ class FanBuilder {
   }
 
  private:
-  using Arc = std::pair<int, int>;      // of groups, the lower one first
-  using GroupAt = std::pair<int, int>;  // a vertex and a group
-  using ArcAt = std::pair<int, Arc>;
-  template <typename Item>
-  using RangeOf = boost::iterator_range<typename std::vector<Item>::const_iterator>;
+  using Arc = std::pair<int, int>;  // of groups, the lower one first
+  // What is around a vertex.
+  struct Around {
+    boost::container::small_vector<int, 8> groups;
+    boost::container::small_vector<Arc, 8> arcs;
+  };
 
   const Eigen::Vector3d& corner(int triangle, int k) const {
     return vertices_[corners_[triangle][k]];
@@ -75,14 +76,14 @@ class FanBuilder {
   bool readSurface() {
     double largest = 0.0;
     corners_.reserve(view_.triangle_count);
-    used_.reserve(3 * static_cast<std::size_t>(view_.triangle_count));
+    std::vector<bool> is_used(view_.vertex_count, false);
     for (int t = 0; t < view_.triangle_count; ++t) {
       Eigen::Vector3i corners;
       for (int k = 0; k < 3; ++k) {
         corners[k] = welded_[view_.triangles[t][k]];
         // Rounding is that of the file's coordinates, which may be far from the origin.
         largest = std::max(largest, view_.vertex(t, k).cwiseAbs().maxCoeff());
-        used_.push_back(corners[k]);
+        is_used[corners[k]] = true;
       }
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
         continue;
@@ -90,11 +91,10 @@ class FanBuilder {
     }
     if (corners_.size() < 4) return false;
     if (!(tolerance_ > 0.0)) tolerance_ = kFileRounding * largest;
-    std::sort(used_.begin(), used_.end());
-    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
     if (!points_.empty()) return true;
-    points_.reserve(used_.size());
-    for (const int v : used_) points_.push_back(vertices_[v]);
+    for (int v = 0; v < view_.vertex_count; ++v) {
+      if (is_used[v]) points_.push_back(vertices_[v]);
+    }
     return true;
   }
 
@@ -195,73 +195,59 @@ class FanBuilder {
   }
 
   void findArcs() {
-    std::vector<GroupAt> groups;
-    groups.reserve(3 * corners_.size());
+    std::vector<Around> around(view_.vertex_count);
     for (int t = 0; t < static_cast<int>(corners_.size()); ++t) {
-      for (int k = 0; k < 3; ++k) groups.push_back({corners_[t][k], group_[t]});
+      for (int k = 0; k < 3; ++k) around[corners_[t][k]].groups.push_back(group_[t]);
     }
-    std::vector<ArcAt> arcs;
-    arcs.reserve(2 * matches_.size());
+    fan_.arcs.reserve(matches_.size());
     for (const EdgeMatch& match : matches_) {
       const int f = group_[match.forward.polygon];
       const int g = group_[match.backward.polygon];
       if (f == g) continue;
       const Arc arc = std::minmax(f, g);
       fan_.arcs.push_back(arc);
-      for (const int v : {match.forward.from, match.forward.to}) arcs.push_back({v, arc});
+      for (const int v : {match.forward.from, match.forward.to}) around[v].arcs.push_back(arc);
     }
-    keepOnce(groups);
-    keepOnce(arcs);
-    completeArcs(groups, arcs);
+    for (Around& each : around) {
+      keepOnce(each.groups);
+      keepOnce(each.arcs);
+      completeArcs(each);
+    }
     keepOnce(fan_.arcs);
   }
 
-  template <typename Item>
-  static void keepOnce(std::vector<Item>& items) {
+  template <typename Items>
+  static void keepOnce(Items& items) {
     std::sort(items.begin(), items.end());
     items.erase(std::unique(items.begin(), items.end()), items.end());
   }
 
-  void completeArcs(const std::vector<GroupAt>& groups, const std::vector<ArcAt>& arcs) {
-    auto arc = arcs.begin();
-    for (auto group = groups.begin(); group != groups.end();) {
-      const int vertex = group->first;
-      const auto isElsewhere = [vertex](const auto& item) { return item.first != vertex; };
-      const auto last_group = std::find_if(group, groups.end(), isElsewhere);
-      const auto last_arc = std::find_if(arc, arcs.end(), isElsewhere);
-      completeAround({group, last_group}, {arc, last_arc});
-      group = last_group;
-      arc = last_arc;
-    }
-  }
-
   // Where the arcs around a vertex are not clearly the edges of the cone of its normals, all pairs
   // of them are taken.
-  void completeAround(const RangeOf<GroupAt>& groups, const RangeOf<ArcAt>& arcs) {
-    const bool few = groups.size() <= 3;
-    if (!few && arcs.size() == groups.size() &&
-        std::all_of(arcs.begin(), arcs.end(),
-                    [&](const ArcAt& arc) { return isEdgeOfCone(groups, arc.second); })) {
+  void completeArcs(const Around& around) {
+    const auto isEdge = [&](const Arc& arc) { return isEdgeOfCone(around, arc); };
+    if (around.groups.size() > 3 && around.arcs.size() == around.groups.size() &&
+        std::all_of(around.arcs.begin(), around.arcs.end(), isEdge)) {
       return;
     }
-    for (auto one = groups.begin(); one != groups.end(); ++one) {
-      for (auto other = groups.begin(); other != one; ++other) {
-        fan_.arcs.emplace_back(other->second, one->second);
+    for (auto one = around.groups.begin(); one != around.groups.end(); ++one) {
+      for (auto other = around.groups.begin(); other != one; ++other) {
+        fan_.arcs.emplace_back(*other, *one);
       }
     }
   }
 
-  bool isEdgeOfCone(const RangeOf<GroupAt>& groups, const Arc& arc) const {
+  bool isEdgeOfCone(const Around& around, const Arc& arc) const {
     const Eigen::Vector3d across = fan_.normals[arc.first].cross(fan_.normals[arc.second]);
     int above = 0;
     int below = 0;
-    for (const auto& [vertex, g] : groups) {
+    for (const int g : around.groups) {
       if (g == arc.first || g == arc.second) continue;
       const double side = across.dot(fan_.normals[g]);
       above += side > kLeastDeterminant;
       below += side < -kLeastDeterminant;
     }
-    const int others = static_cast<int>(groups.size()) - 2;
+    const int others = static_cast<int>(around.groups.size()) - 2;
     return above == others || below == others;
   }
 
@@ -269,8 +255,7 @@ class FanBuilder {
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<int> welded_;
   std::vector<Eigen::Vector3i> corners_;  // welded, of the triangles with three different ones
-  std::vector<int> used_;
-  std::vector<Eigen::Vector3d> points_;  // of used_, or what was included
+  std::vector<Eigen::Vector3d> points_;   // that triangles use, or what was included
   std::vector<EdgeMatch> matches_;
   std::vector<boost::container::static_vector<int, 3>> neighbours_;  // of triangles
   std::vector<int> group_;
