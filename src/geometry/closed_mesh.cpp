@@ -103,8 +103,8 @@ std::array<ClosedMesh::Ray, 3> ClosedMesh::raysFrom(const Eigen::Vector3d& point
 }
 
 // The ray of `point` along one axis of the rotated frame meets the triangles whose projections
-// contain it; the winding number is the sum of the signs of those ahead, mirrored at the point for a
-// ray downwards: that turns the ray around, but not the normals. Vertices and point are known to
+// contain it; the winding number is the sum of the signs of those ahead, mirrored at the point for
+// a ray downwards: that turns the ray around, but not the normals. Vertices and point are known to
 // `margin` only (subtraction and rotation round), so an answer counts only if no move by `margin`
 // can change any of the signs: then the winding number of the mesh as given is the same, since
 // moving from one to the other never carries the surface across the point's ray.

@@ -3,8 +3,8 @@
 #include "geometry/box_tree.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "base/constants.h"
 #include "catch.h"
 #include "random_bodies.h"
 
@@ -71,13 +71,17 @@ TEST_CASE("a tree of boxes visits each box near a ray, once, and no other") {
     const BoxTree tree(boxes);
     const Eigen::Vector3d origin = 0.5 * random.direction();
     const double margin = random.uniform(0.0, 0.1);
-    for (int end = 0; end < 6; ++end) {
-      BoxTree::Box ray(origin.array() - margin, origin.array() + margin);
-      BoxTree::Box long_ray = ray;
-      (end % 2 == 0 ? ray.max() : ray.min())[end / 2] = end % 2 == 0 ? kInfinity : -kInfinity;
-      (end % 2 == 0 ? long_ray.max() : long_ray.min())[end / 2] = end % 2 == 0 ? 1e9 : -1e9;
-      REQUIRE(visited([&](auto&& function) { return tree.visitBox(ray, function); }) ==
-              allThatMeet(boxes, long_ray));
+    const auto ray = [&](int axis, bool upwards, double length) {
+      BoxTree::Box box(origin.array() - margin, origin.array() + margin);
+      (upwards ? box.max() : box.min())[axis] = upwards ? length : -length;
+      return box;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const bool upwards : {false, true}) {
+        const BoxTree::Box endless = ray(axis, upwards, std::numeric_limits<double>::infinity());
+        REQUIRE(visited([&](auto&& function) { return tree.visitBox(endless, function); }) ==
+                allThatMeet(boxes, ray(axis, upwards, 1e9)));
+      }
     }
   }
 }
