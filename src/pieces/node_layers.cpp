@@ -93,12 +93,12 @@ int NodeLayers::Side::whiten(int node) {
 
 // Of the other node's points n·x is what it is in their box; with n = α n' + r where it is flat
 // itself also α times what its own slab tells and what r·x is in the box.
-NodeLayer NodeLayers::between(const Slab& slab, bool of_a, Side& other, int node) const {
-  const auto [n, lo, hi] = slab.layer;
-  const NodeBox& box = other.box(node);
+NodeLayer NodeLayers::between(const Slab& slab, bool of_a, const NodeBox& box,
+                              const Slab* own) const {
+  const Eigen::Vector3d& n = slab.layer.n;
   Eigen::Vector3d terms = n.cwiseAbs();
   Range range = rangeAlong(box, n);
-  if (const Slab* const own = other.slabOf(node)) {
+  if (own) {
     const double alpha = n.dot(own->layer.n) / own->square;
     const Eigen::Vector3d along = alpha * own->layer.n;
     terms += along.cwiseAbs();
@@ -108,17 +108,18 @@ NodeLayer NodeLayers::between(const Slab& slab, bool of_a, Side& other, int node
     range.hi = std::min(range.hi, rest.hi + std::max(ends[0], ends[1]));
   }
   const double rounding = rounding_.dot(terms);
-  if (of_a) return {n, range.lo - hi - rounding, range.hi - lo + rounding};
-  return {n, lo - range.hi - rounding, hi - range.lo + rounding};
+  if (of_a) return {n, range.lo - slab.layer.hi - rounding, range.hi - slab.layer.lo + rounding};
+  return {n, slab.layer.lo - range.hi - rounding, slab.layer.hi - range.lo + rounding};
 }
 
 std::optional<NodeLayer> NodeLayers::of(NodePair nodes) {
-  const bool a_first = a_.box(nodes.a).size() >= b_.box(nodes.b).size();
-  for (const bool of_a : {a_first, !a_first}) {
-    const Slab* const slab = of_a ? a_.slabOf(nodes.a) : b_.slabOf(nodes.b);
-    if (slab) return between(*slab, of_a, of_a ? b_ : a_, of_a ? nodes.b : nodes.a);
-  }
-  return std::nullopt;
+  const Slab* const of_a = a_.slabOf(nodes.a);
+  const Slab* const of_b = b_.slabOf(nodes.b);
+  if (!of_a && !of_b) return std::nullopt;
+  const NodeBox& a = a_.box(nodes.a);
+  const NodeBox& b = b_.box(nodes.b);
+  if (of_a && (!of_b || a.size() >= b.size())) return between(*of_a, true, b, of_b);
+  return between(*of_b, false, a, of_a);
 }
 
 }  // namespace fcl_prob::detail

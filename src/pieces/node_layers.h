@@ -72,7 +72,7 @@ class NodeLayers {
   };
 
   static Part partOf(const WhitenedTree& tree, std::size_t index);
-  NodeLayer between(const Slab& slab, bool of_a, Side& other, int node) const;
+  NodeLayer between(const Slab& slab, bool of_a, const NodeBox& box, const Slab* own) const;
 
   Side a_;
   Side b_;
