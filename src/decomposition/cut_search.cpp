@@ -9,6 +9,7 @@
 #include <optional>
 #include <tuple>
 
+#include "base/keep_once.h"
 #include "decomposition/hull_volume.h"
 
 namespace fcl_prob::detail {
@@ -92,8 +93,7 @@ class ParallelCuts {
       : piece_(piece.surface), cell_(piece.cell), normal_(normal) {
     for (const Eigen::Vector3d& v : piece_.vertices()) heights_.push_back(normal.dot(v));
     sorted_ = heights_;
-    std::sort(sorted_.begin(), sorted_.end());
-    sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
+    keepOnce(sorted_);
   }
 
   /// At the height of the vertex nearest to the middle; nothing if no vertex is between.

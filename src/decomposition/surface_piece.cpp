@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "base/keep_once.h"
+
 namespace fcl_prob::detail {
 namespace {
 
@@ -98,8 +100,7 @@ void SurfacePiece::findEdges() {
       edges_.push_back(std::minmax(corners_[first_[p] + i], corners_[first_[p] + (i + 1) % count]));
     }
   }
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  keepOnce(edges_);
 }
 
 }  // namespace fcl_prob::detail

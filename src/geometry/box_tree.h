@@ -18,6 +18,9 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const std::vector<Box>& boxes);
 
+  /// Around all boxes, of which there has to be one.
+  const Box& bounds() const { return nodes_.front().box; }
+
   /// Calls `function(index)` for every box that `other` meets; touching counts. It may be endless.
   /// Stops and returns false as soon as one call returns false.
   template <typename Function>

@@ -41,7 +41,7 @@ WeldedSurface::WeldedSurface(const MeshView& mesh) : welded(weldVertices(mesh)) 
   edges.reserve(3 * static_cast<std::size_t>(mesh.triangle_count));
   for (int t = 0; t < mesh.triangle_count; ++t) {
     const std::array<int, 3> corners = weldedCorners(welded, mesh.triangles[t]);
-    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+    if (anyEqual(corners)) continue;
     triangles.push_back(t);
     addSides(corners, t, edges);
   }
@@ -84,7 +84,6 @@ ClosedMesh::ClosedMesh(const MeshView& mesh, const WeldedSurface& surface,
     }
     triangles_.push_back(triangle);
     boxes.push_back(box);
-    bounds_.extend(box);
   }
   tree_ = BoxTree(boxes);
 }
@@ -92,9 +91,10 @@ ClosedMesh::ClosedMesh(const MeshView& mesh, const WeldedSurface& surface,
 // Along each axis to the nearer end, the shortest first: it meets the fewest triangles.
 std::array<ClosedMesh::Ray, 3> ClosedMesh::raysFrom(const Eigen::Vector3d& point) const {
   std::array<Ray, 3> rays;
+  const BoxTree::Box& bounds = tree_.bounds();
   for (int axis = 0; axis < 3; ++axis) {
-    const double above = bounds_.max()[axis] - point[axis];
-    const double below = point[axis] - bounds_.min()[axis];
+    const double above = bounds.max()[axis] - point[axis];
+    const double below = point[axis] - bounds.min()[axis];
     rays[axis] = {axis, above <= below, std::min(above, below)};
   }
   std::sort(rays.begin(), rays.end(),

@@ -83,7 +83,6 @@ class ClosedMesh {
   double radius_ = 0.0;              // largest coordinate of a vertex relative to centre_
   std::vector<Triangle> triangles_;  // rotated, relative to centre_
   BoxTree tree_;
-  BoxTree::Box bounds_;  // of that tree
   std::vector<Eigen::Vector3d> part_points_;
   std::vector<int> part_of_vertex_;
 };

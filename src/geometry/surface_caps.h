@@ -19,6 +19,11 @@ inline std::array<int, 3> weldedCorners(const std::vector<int>& welded, const fc
   return {welded[t[0]], welded[t[1]], welded[t[2]]};
 }
 
+/// Whether a triangle with these corners, welded, has no inside to bound.
+inline bool anyEqual(const std::array<int, 3>& corners) {
+  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+}
+
 /// Which vertices hang together by triangles, those without area included.
 struct SurfaceComponents {
   std::vector<int> of_vertex;  ///< -1 in no triangle

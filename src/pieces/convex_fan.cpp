@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <boost/container/small_vector.hpp>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <optional>
 
 #include "base/constants.h"
+#include "base/keep_once.h"
 #include "gaussian/directed_edges.h"
 #include "pieces/hull_triangles.h"
 
@@ -78,16 +80,13 @@ class FanBuilder {
     corners_.reserve(view_.triangle_count);
     std::vector<bool> is_used(view_.vertex_count, false);
     for (int t = 0; t < view_.triangle_count; ++t) {
-      Eigen::Vector3i corners;
+      const std::array<int, 3> corners = weldedCorners(welded_, view_.triangles[t]);
       for (int k = 0; k < 3; ++k) {
-        corners[k] = welded_[view_.triangles[t][k]];
         // Rounding is that of the file's coordinates, which may be far from the origin.
         largest = std::max(largest, view_.vertex(t, k).cwiseAbs().maxCoeff());
         is_used[corners[k]] = true;
       }
-      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-        continue;
-      corners_.push_back(corners);
+      if (!anyEqual(corners)) corners_.push_back(corners);
     }
     if (corners_.size() < 4) return false;
     if (!(tolerance_ > 0.0)) tolerance_ = kFileRounding * largest;
@@ -216,12 +215,6 @@ class FanBuilder {
     keepOnce(fan_.arcs);
   }
 
-  template <typename Items>
-  static void keepOnce(Items& items) {
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
-  }
-
   // Where the arcs around a vertex are not clearly the edges of the cone of its normals, all pairs
   // of them are taken.
   void completeArcs(const Around& around) {
@@ -254,8 +247,8 @@ class FanBuilder {
   const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;
   std::vector<int> welded_;
-  std::vector<Eigen::Vector3i> corners_;  // welded, of the triangles with three different ones
-  std::vector<Eigen::Vector3d> points_;   // that triangles use, or what was included
+  std::vector<std::array<int, 3>> corners_;  // welded, of the triangles with three different ones
+  std::vector<Eigen::Vector3d> points_;      // that triangles use, or what was included
   std::vector<EdgeMatch> matches_;
   std::vector<boost::container::static_vector<int, 3>> neighbours_;  // of triangles
   std::vector<int> group_;

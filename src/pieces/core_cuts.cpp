@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/constants.h"
+#include "base/keep_once.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -114,8 +115,7 @@ class CutSearch {
           around.insert(around.end(), more.begin(), more.end());
         }
       }
-      std::sort(around.begin(), around.end());
-      around.erase(std::unique(around.begin(), around.end()), around.end());
+      keepOnce(around);
     }
     std::vector<Eigen::Vector3d> normals{normals_[t]};
     const std::size_t step = 1 + around.size() / kNeighbours;

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/keep_once.h"
+#include "geometry/surface_caps.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -38,8 +40,7 @@ class PolygonFit {
              const std::vector<int>& triangles, double tolerance)
       : mesh_(mesh), tolerance_(tolerance) {
     for (const int t : triangles) {
-      std::array<int, 3> corners;
-      for (int k = 0; k < 3; ++k) corners[k] = welded[mesh.triangles[t][k]];
+      std::array<int, 3> corners = weldedCorners(welded, mesh.triangles[t]);
       std::sort(corners.begin(), corners.end());
       corners_.push_back(corners);
     }
@@ -57,12 +58,6 @@ class PolygonFit {
   }
 
  private:
-  template <typename Value>
-  static void keepOnce(std::vector<Value>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  }
-
   const Eigen::Vector3d& at(int vertex) const { return mesh_.vertices[vertex]; }
 
   // The sides of an odd number of triangles, if they are one loop that meets no vertex twice.

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/keep_once.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/closed_mesh.h"
 #include "geometry/surface_caps.h"
@@ -180,9 +181,7 @@ class MeshPatchSearch {
         patch.off = std::max(patch.off, polygons_[piece - triangleCount()].off);
       }
     }
-    std::sort(patch.vertices.begin(), patch.vertices.end());
-    patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()),
-                         patch.vertices.end());
+    keepOnce(patch.vertices);
     if (patch.vertices.size() > 2 * kMostCornersOfPatch) return {};
     std::vector<Eigen::Vector3d> points;
     points.reserve(patch.vertices.size());
