@@ -25,11 +25,6 @@ set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Collision probabilities for FCL: the li
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 
-if(FCL_PROB_WITH_ROBOT)
-  # dpkg-shlibdeps does not name this one, though the library is linked with it.
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS liburdfdom-model3.0)
-endif()
-
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfcl-prob-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Collision probabilities for FCL: headers and CMake files")
@@ -39,7 +34,7 @@ if(FCL_PROB_WITH_ASSIMP)
   list(APPEND development_depends libassimp-dev)
 endif()
 if(FCL_PROB_WITH_ROBOT)
-  list(APPEND development_depends liburdfdom-dev liborocos-kdl-dev libconsole-bridge-dev)
+  list(APPEND development_depends libxml2-dev liborocos-kdl-dev)
 endif()
 list(JOIN development_depends ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A robot from its URDF. In the library fcl_prob::robot, the only part that needs urdfdom and KDL.
+// A robot from its URDF. In the library fcl_prob::robot, the only part that needs libxml2 and
+// KDL.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -14,7 +15,9 @@
 namespace fcl_prob {
 
 struct RobotOptions {
-  /// The folder of each package: what stands for `package://NAME` in the names of meshes.
+  /// The folder of each package or model: what stands for `package://NAME` and `model://NAME` in
+  /// the names of meshes. One that is not named here is the folder of that name in which the URDF
+  /// is, if there is one.
   std::map<std::string, std::string> packages;
 
   /// The links whose collision elements are taken; none named: all of them.
@@ -22,13 +25,18 @@ struct RobotOptions {
 
   /// Pose of the root link, metres, world frame.
   fcl::Transform3d base = fcl::Transform3d::Identity();
+
+  /// Answer for states beyond the limits of joints, too, which are refused otherwise.
+  bool allow_outside_limits = false;
 };
 
 /// A joint that moves by itself: mimic joints follow others, fixed ones do not move.
 struct RobotJoint {
   std::string name;
-  bool turns = true;   ///< its value is in radians; else it slides, in metres
-  double lower = 0.0;  ///< limits; infinite for a continuous joint
+  bool turns = true;  ///< its value is in radians; else it slides, in metres
+  /// Limits, also those of joints that mimic it, unless states beyond them are allowed; infinite
+  /// for a continuous joint.
+  double lower = 0.0;
   double upper = 0.0;
 };
 
@@ -80,12 +88,17 @@ class Robot {
  public:
   /// Reads a URDF and the meshes that its collision elements name (paths are relative to its
   /// folder). Neither is trusted: documents with a DOCTYPE, deeper than 64 elements or larger than
-  /// 16 MiB are refused before they are parsed, and meshes are read in a process of their own.
-  /// Visual elements are ignored.
-  /// \throws FileError naming the file and the element: no URDF, a joint type other than fixed,
-  ///         revolute, continuous and prismatic, a mimic joint that follows itself, a size or pose
-  ///         that is not finite, a package without folder, a link in `options` that is not there,
-  ///         no collision element; as loadMesh() for its meshes; InvalidPose for the base
+  /// 16 MiB are refused, and meshes are read in a process of their own.
+  ///
+  /// Elements that say nothing of where bodies are, as `visual` and `gazebo` are known to, and
+  /// those of a namespace of their own are ignored. Any other that is not read here is refused, a
+  /// misspelt one or a macro of xacro: what it stands for would be missing (docs/robots.md).
+  /// \throws FileError naming the file, the line and the element: no URDF, an element or attribute
+  ///         that is not known, a joint type other than fixed, revolute, continuous and prismatic,
+  ///         a mimic joint that follows itself or never is within its limits, a value that is no
+  ///         finite number, a size that is not > 0, a link on two joints or on none but the root, a
+  ///         package without folder, a link in `options` that is not there, no collision element;
+  ///         as loadMesh() for its meshes; InvalidPose for the base
   explicit Robot(const std::string& urdf_file, const RobotOptions& options = {});
 
   /// The same robot with an object that moves with a link: the last of its bodies. A query that
@@ -105,6 +118,14 @@ class Robot {
   /// All links, with or without collision elements; parents before what they carry.
   const std::vector<RobotLink>& links() const;
 
+  /// Links that no body is of, because the URDF has no collision element for them or they are not
+  /// among those that were taken: nothing can touch them.
+  std::vector<std::string> linksWithoutBody() const;
+
+  /// What of the URDF may be meant otherwise than it was read, in sentences: limits of joints and
+  /// angles beyond a whole turn, which probably are degrees.
+  const std::vector<std::string>& notes() const;
+
   /// The geometries of the bodies, as GroupQuery takes them.
   std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> geometries() const;
 
@@ -115,6 +136,11 @@ class Robot {
 
   /// \throws InvalidRequest if there is not one finite value a joint
   void validate(const Eigen::VectorXd& values) const;
+
+  /// \throws InvalidRequest as validate(), and naming the joint, its value and its limits for one
+  ///         that is beyond them by more than 1e-6 (radians or metres), as files with few digits
+  ///         are not; RobotOptions::allow_outside_limits: for none
+  void requireWithinLimits(const Eigen::VectorXd& values) const;
 
   /// Whether no value is beyond its limits. \throws InvalidRequest as validate()
   bool isWithinLimits(const Eigen::VectorXd& values) const;

@@ -21,7 +21,7 @@ struct LinkPair {
 /// Reads from an SRDF which links of the robot may touch: what its `disable_collisions` name, and
 /// every pair with a link of a `disable_default_collisions` that no `enable_collisions` names.
 /// Everything else in the file is ignored. It is trusted no more than a URDF: documents with a
-/// DOCTYPE, deeper than 64 elements or larger than 16 MiB are refused before they are parsed.
+/// DOCTYPE, deeper than 64 elements or larger than 16 MiB are refused.
 /// \throws FileError naming the file and the element: no SRDF, one of a robot of another name, a
 ///         link that the robot does not have
 std::vector<LinkPair> loadAllowedPairs(const std::string& srdf_file, const Robot& robot);
@@ -51,7 +51,7 @@ class SelfCollision {
   /// Those that are looked at.
   const std::vector<BodyPair>& pairs() const;
 
-  /// Whether any of pairs() touch. \throws InvalidRequest as Robot::poses()
+  /// Whether any of pairs() touch. \throws InvalidRequest as Robot::requireWithinLimits()
   bool collides(const Eigen::VectorXd& values) const;
 
   /// Which of pairs() touch. \throws as collides()

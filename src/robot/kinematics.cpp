@@ -2,41 +2,16 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/kinematics.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "robot/urdf_values.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-std::string placeOf(const std::string& path, const urdf::Joint& joint) {
-  return path + ": joint " + joint.name;
-}
-
-bool isFixed(const urdf::Joint& joint) { return joint.type == urdf::Joint::FIXED; }
-
-RobotJoint limitsOf(const urdf::Joint& joint, const std::string& where) {
-  switch (joint.type) {
-    case urdf::Joint::CONTINUOUS:
-      return {joint.name, true, -kUnlimited, kUnlimited};
-    case urdf::Joint::REVOLUTE:
-    case urdf::Joint::PRISMATIC:
-      break;
-    default:
-      throw FileError(where + ": its type is none of fixed, revolute, continuous and prismatic");
-  }
-  if (!joint.limits) throw FileError(where + ": has no limits");
-  const double lower = joint.limits->lower, upper = joint.limits->upper;
-  if (!std::isfinite(lower) || !std::isfinite(upper) || lower > upper) {
-    throw FileError(where + ": limits " + numberText(lower) + " to " + numberText(upper));
-  }
-  return {joint.name, joint.type == urdf::Joint::REVOLUTE, lower, upper};
-}
+bool isFixed(const UrdfJoint& joint) { return joint.type == UrdfJoint::Type::fixed; }
 
 KDL::Vector kdlOf(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -59,88 +34,94 @@ fcl::Transform3d transformOf(const KDL::Frame& frame) {
 }
 
 // A joint's frame is that of its link where the value is 0.
-KDL::Segment segmentOf(const urdf::Joint& joint, const std::string& where) {
-  const KDL::Frame origin = kdlOf(poseOf(joint.parent_to_joint_origin_transform, where));
-  if (isFixed(joint)) {
-    return KDL::Segment(joint.child_link_name, KDL::Joint(joint.name), origin);
-  }
-  const Eigen::Vector3d axis = vectorOf(joint.axis, where + ": axis");
-  const double length = axis.norm();
-  if (!(length > 1e-6 && std::isfinite(length))) {
-    throw FileError(where + ": its axis has length " + numberText(length));
-  }
+KDL::Segment segmentOf(const UrdfJoint& joint) {
+  const KDL::Frame origin = kdlOf(joint.origin);
+  if (isFixed(joint)) return KDL::Segment(joint.child, KDL::Joint(joint.name), origin);
   const auto type =
-      joint.type == urdf::Joint::PRISMATIC ? KDL::Joint::TransAxis : KDL::Joint::RotAxis;
-  const KDL::Joint kdl_joint(joint.name, origin.p, origin.M * kdlOf(axis.normalized()), type);
-  return KDL::Segment(joint.child_link_name, kdl_joint, origin);
+      joint.type == UrdfJoint::Type::prismatic ? KDL::Joint::TransAxis : KDL::Joint::RotAxis;
+  const KDL::Joint kdl_joint(joint.name, origin.p, origin.M * kdlOf(joint.axis), type);
+  return KDL::Segment(joint.child, kdl_joint, origin);
 }
 
 }  // namespace
 
-Kinematics::Kinematics(const urdf::ModelInterface& model, const std::string& path) {
-  addJoints(model, path);
-  link_index_[model.getRoot()->name] = 0;
+Kinematics::Kinematics(const UrdfModel& model) {
+  addJoints(model);
+  link_index_[model.root] = 0;
   links_.push_back({KDL::Segment(), -1, -1});
-  tree_.push_back({model.getRoot()->name});
-  addLinks(*model.getRoot(), 0, model, path);
-  for (const auto& [name, link] : model.links_) {
-    if (link_index_.count(name) == 0) {
-      throw FileError(path + ": link " + name + " does not hang on the root link");
-    }
+  tree_.push_back({model.root});
+  JointsOfLinks joints_of;
+  for (const auto& [name, joint] : model.joints) joints_of[joint.parent].push_back(&joint);
+  addLinks(model.root, 0, model, joints_of);
+  for (const auto& [name, link] : model.links) {
+    if (link_index_.count(name) > 0) continue;
+    throw FileError(link.where + ": does not hang on the root link");
   }
 }
 
-void Kinematics::addJoints(const urdf::ModelInterface& model, const std::string& path) {
-  for (const auto& [name, joint] : model.joints_) {
-    if (isFixed(*joint)) continue;
-    const RobotJoint limits = limitsOf(*joint, placeOf(path, *joint));
-    if (joint->mimic) continue;
+void Kinematics::addJoints(const UrdfModel& model) {
+  for (const auto& [name, joint] : model.joints) {
+    if (isFixed(joint) || joint.mimic) continue;
     joint_index_[name] = static_cast<int>(joints_.size());
-    joints_.push_back(limits);
+    const bool turns = joint.type != UrdfJoint::Type::prismatic;
+    joints_.push_back({name, turns, joint.lower, joint.upper});
   }
 }
 
-// Links are nested no deeper than there are links, of which parseUrdf() allows a thousand.
-void Kinematics::addLinks(const urdf::Link& link, int parent, const urdf::ModelInterface& model,
-                          const std::string& path) {
-  for (const auto& child : link.child_links) {
-    // urdfdom allows that, and loops of links, too.
-    if (link_index_.count(child->name) > 0) {
-      throw FileError(path + ": link " + child->name + " hangs on more than one joint");
+// Links are nested no deeper than there are links, of which readUrdf() allows a thousand.
+void Kinematics::addLinks(const std::string& link, int parent, const UrdfModel& model,
+                          const JointsOfLinks& joints_of) {
+  const auto carried_by = joints_of.find(link);
+  if (carried_by == joints_of.end()) return;
+  for (const UrdfJoint* joint : carried_by->second) {
+    CarriedLink carried{segmentOf(*joint), parent, -1};
+    if (!isFixed(*joint)) follow(*joint, model, carried);
+    // 0 to 0 is what limits are that nobody has given.
+    if (carried.joint >= 0 && joint->mimic && joint->lower < joint->upper) {
+      following_.push_back({joint->name, static_cast<std::size_t>(carried.joint), carried.factor,
+                            carried.offset, joint->lower, joint->upper, joint->where});
     }
-    const urdf::Joint& joint = *child->parent_joint;
-    CarriedLink carried{segmentOf(joint, placeOf(path, joint)), parent, -1};
-    if (!isFixed(joint)) follow(joint, model, path, carried);
     const int index = static_cast<int>(links_.size());
-    link_index_[child->name] = index;
+    link_index_[joint->child] = index;
     links_.push_back(carried);
-    tree_.push_back({child->name, parent, !isFixed(joint)});
-    addLinks(*child, index, model, path);
+    tree_.push_back({joint->child, parent, !isFixed(*joint)});
+    addLinks(joint->child, index, model, joints_of);
+  }
+}
+
+void Kinematics::narrowLimits() {
+  for (const FollowingJoint& one : following_) {
+    if (one.factor == 0.0) continue;  // it stays where it is
+    RobotJoint& joint = joints_[one.followed];
+    const auto [lower, upper] =
+        std::minmax({(one.lower - one.offset) / one.factor, (one.upper - one.offset) / one.factor});
+    if (std::max(joint.lower, lower) > std::min(joint.upper, upper)) {
+      throw FileError(one.where + ": no value that joint " + joint.name +
+                      " may have, which it mimics, is within its limits");
+    }
+    joint.lower = std::max(joint.lower, lower);
+    joint.upper = std::min(joint.upper, upper);
   }
 }
 
 // To the joint that moves by itself, through those that mimic others.
-void Kinematics::follow(const urdf::Joint& joint, const urdf::ModelInterface& model,
-                        const std::string& path, CarriedLink& carried) const {
-  const urdf::Joint* followed = &joint;
+void Kinematics::follow(const UrdfJoint& joint, const UrdfModel& model,
+                        CarriedLink& carried) const {
+  const UrdfJoint* followed = &joint;
   for (std::size_t steps = 0; followed->mimic; ++steps) {
-    const urdf::JointMimic& mimic = *followed->mimic;
-    const auto next = model.joints_.find(mimic.joint_name);
-    if (next == model.joints_.end() || isFixed(*next->second)) {
-      throw FileError(placeOf(path, *followed) + ": mimics " + mimic.joint_name +
-                      ", which does not move");
+    const UrdfMimic& mimic = *followed->mimic;
+    const auto next = model.joints.find(mimic.joint);
+    if (next == model.joints.end() || isFixed(next->second)) {
+      throw FileError(followed->where + ": mimics " + mimic.joint + ", which does not move");
     }
-    if (steps > model.joints_.size()) throw FileError(placeOf(path, joint) + ": mimics itself");
-    if (!std::isfinite(mimic.multiplier) || !std::isfinite(mimic.offset)) {
-      throw FileError(placeOf(path, *followed) + ": multiplier or offset is not finite");
-    }
+    if (steps > model.joints.size()) throw FileError(joint.where + ": mimics itself");
     carried.offset += carried.factor * mimic.offset;
     carried.factor *= mimic.multiplier;
-    followed = next->second.get();
+    followed = &next->second;
   }
   if (!std::isfinite(carried.factor) || !std::isfinite(carried.offset)) {
-    throw FileError(placeOf(path, joint) + ": what it mimics multiplies to " +
-                    numberText(carried.factor) + " and " + numberText(carried.offset));
+    throw FileError(joint.where + ": what it mimics multiplies to " + numberText(carried.factor) +
+                    " and " + numberText(carried.offset));
   }
   carried.joint = joint_index_.at(followed->name);
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <fcl/common/types.h>
-#include <urdf_model/model.h>
 
 #include <kdl/segment.hpp>
 #include <map>
@@ -12,16 +11,34 @@
 #include <vector>
 
 #include "fcl_prob/robot.h"
+#include "robot/urdf_model.h"
 
 namespace fcl_prob::detail {
+
+/// A joint that follows another one, and its own limits.
+struct FollowingJoint {
+  std::string name;
+  std::size_t followed;  ///< the joint that moves by itself
+  double factor;         ///< its value is so many times that of `followed`,
+  double offset;         ///< and this
+  double lower;
+  double upper;
+  std::string where;  ///< begins messages
+};
 
 class Kinematics {
  public:
   /// \throws FileError
-  Kinematics(const urdf::ModelInterface& model, const std::string& path);
+  explicit Kinematics(const UrdfModel& model);
 
   /// Those that move by themselves, by name.
   const std::vector<RobotJoint>& joints() const { return joints_; }
+
+  /// Those with limits of their own that follow others.
+  const std::vector<FollowingJoint>& following() const { return following_; }
+
+  /// To where joints that follow are within their limits, too. \throws FileError if that is nowhere
+  void narrowLimits();
 
   /// In the order of linkPoses().
   const std::vector<RobotLink>& links() const { return tree_; }
@@ -51,13 +68,15 @@ class Kinematics {
     }
   };
 
-  void addJoints(const urdf::ModelInterface& model, const std::string& path);
-  void addLinks(const urdf::Link& link, int parent, const urdf::ModelInterface& model,
-                const std::string& path);
-  void follow(const urdf::Joint& joint, const urdf::ModelInterface& model, const std::string& path,
-              CarriedLink& carried) const;
+  using JointsOfLinks = std::map<std::string, std::vector<const UrdfJoint*>>;
+
+  void addJoints(const UrdfModel& model);
+  void addLinks(const std::string& link, int parent, const UrdfModel& model,
+                const JointsOfLinks& joints_of);
+  void follow(const UrdfJoint& joint, const UrdfModel& model, CarriedLink& carried) const;
 
   std::vector<RobotJoint> joints_;
+  std::vector<FollowingJoint> following_;
   std::map<std::string, int> joint_index_;
   std::vector<CarriedLink> links_;  ///< parents before what they carry; the root first
   std::vector<RobotLink> tree_;     ///< the same links, as the robot tells them

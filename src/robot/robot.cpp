@@ -3,6 +3,7 @@
 #include "fcl_prob/robot.h"
 
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
 #include "base/number_text.h"
@@ -10,17 +11,28 @@
 #include "geometry/validation.h"
 #include "robot/kinematics.h"
 #include "robot/urdf_shapes.h"
-#include "robot/urdf_text.h"
 
 namespace fcl_prob {
 
+namespace {
+
+constexpr double kTurn = boost::math::double_constants::two_pi;
+
+/// Radians or metres: what a limit is exceeded by in a file that gives values to six decimals.
+/// More would take states that a joint cannot reach, less refuses a planner's own files.
+constexpr double kBeyondLimits = 1e-6;
+
+}  // namespace
+
 struct Robot::Implementation {
-  Implementation(const urdf::ModelInterface& model, const std::string& path,
-                 const RobotOptions& options)
-      : name(model.getName()),
-        kinematics(model, path),
+  Implementation(detail::UrdfModel model, const std::string& path, const RobotOptions& options)
+      : name(model.name),
+        kinematics(model),
         bodies(detail::bodiesOf(model, path, options)),
-        base(options.base) {
+        base(options.base),
+        allow_outside_limits(options.allow_outside_limits),
+        notes(std::move(model.notes)) {
+    if (!allow_outside_limits) kinematics.narrowLimits();
     for (const RobotBody& body : bodies) links.push_back(kinematics.linkIndex(body.link));
   }
 
@@ -35,6 +47,35 @@ struct Robot::Implementation {
       throw InvalidRequest("joint " + joints[static_cast<std::size_t>(i)].name + ": its value is " +
                            detail::numberText(values[i]));
     }
+  }
+
+  void requireWithinLimits(const Eigen::VectorXd& values) const {
+    validate(values);
+    if (allow_outside_limits) return;
+    for (std::size_t i = 0; i < kinematics.joints().size(); ++i) {
+      const RobotJoint& joint = kinematics.joints()[i];
+      const double value = values[static_cast<Eigen::Index>(i)];
+      if (value >= joint.lower - kBeyondLimits && value <= joint.upper + kBeyondLimits) continue;
+      const std::string unit = joint.turns ? " rad" : " m";
+      throw InvalidRequest("joint " + joint.name + ": its value is " + detail::numberText(value) +
+                           unit + ", beyond its limits " + detail::numberText(joint.lower) +
+                           " to " + detail::numberText(joint.upper) + unit +
+                           followingText(i, value) +
+                           (joint.turns && std::fabs(value) > kTurn ? ": are these degrees?" : "") +
+                           " (allow_outside_limits takes it all the same)");
+    }
+  }
+
+  /// The joints that mimic one and would be beyond their limits.
+  std::string followingText(std::size_t joint, double value) const {
+    std::string text;
+    for (const detail::FollowingJoint& one : kinematics.following()) {
+      const double at = one.factor * value + one.offset;
+      if (one.followed != joint || (at >= one.lower && at <= one.upper)) continue;
+      text += "; joint " + one.name + ", which mimics it, has " + detail::numberText(one.lower) +
+              " to " + detail::numberText(one.upper);
+    }
+    return text;
   }
 
   /// Sums of lengths near the largest double, however they come about.
@@ -69,12 +110,14 @@ struct Robot::Implementation {
   std::vector<AttachedObject> attached;
   std::vector<int> links;  ///< of the bodies
   fcl::Transform3d base;
+  bool allow_outside_limits;
+  std::vector<std::string> notes;
 };
 
 Robot::Robot(const std::string& urdf_file, const RobotOptions& options) {
   detail::validatePose(options.base, "the robot's base");
-  const urdf::ModelInterfaceSharedPtr model = detail::parseUrdf(urdf_file);
-  implementation_ = std::make_shared<const Implementation>(*model, urdf_file, options);
+  implementation_ =
+      std::make_shared<const Implementation>(detail::readUrdf(urdf_file), urdf_file, options);
 }
 
 Robot::Robot(std::shared_ptr<const Implementation> implementation)
@@ -93,6 +136,19 @@ const std::vector<RobotJoint>& Robot::joints() const {
 const std::vector<RobotBody>& Robot::bodies() const { return implementation_->bodies; }
 const std::vector<AttachedObject>& Robot::attached() const { return implementation_->attached; }
 const std::vector<RobotLink>& Robot::links() const { return implementation_->kinematics.links(); }
+
+const std::vector<std::string>& Robot::notes() const { return implementation_->notes; }
+
+std::vector<std::string> Robot::linksWithoutBody() const {
+  std::vector<std::string> names;
+  for (const RobotLink& link : links()) {
+    const auto is_its = [&link](const RobotBody& body) {
+      return body.link == link.name && body.object.empty();
+    };
+    if (std::none_of(bodies().begin(), bodies().end(), is_its)) names.push_back(link.name);
+  }
+  return names;
+}
 
 std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> Robot::geometries() const {
   std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> result;
@@ -124,6 +180,10 @@ Eigen::VectorXd Robot::values(const std::map<std::string, double>& by_name) cons
 }
 
 void Robot::validate(const Eigen::VectorXd& values) const { implementation_->validate(values); }
+
+void Robot::requireWithinLimits(const Eigen::VectorXd& values) const {
+  implementation_->requireWithinLimits(values);
+}
 
 bool Robot::isWithinLimits(const Eigen::VectorXd& values) const {
   implementation_->validate(values);

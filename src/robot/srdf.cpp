@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include <algorithm>
-#include <boost/property_tree/ptree.hpp>
 #include <set>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/self_collision.h"
-#include "io/file_content.h"
-#include "robot/urdf_text.h"
+#include "robot/xml_elements.h"
 
 namespace fcl_prob {
 namespace {
 
-using boost::property_tree::ptree;
+using detail::XmlElement;
 using NamePair = std::pair<std::string, std::string>;
 
 class SrdfPairs {
@@ -20,22 +18,26 @@ class SrdfPairs {
   SrdfPairs(const std::string& path, const Robot& robot) : path_(path), robot_(robot) {}
 
   std::vector<LinkPair> read() {
-    const std::string text = detail::fileContent(path_, detail::kMostXmlBytes);
-    const ptree document = detail::parseXml(text, path_, "SRDF");
-    const ptree& root = document.get_child("robot");
-    const std::string name = root.get("<xmlattr>.name", "");
-    if (name != robot_.name()) {
-      throw FileError(path_ + ": robot: its name is " + name + ", not " + robot_.name());
+    const XmlElement root = detail::readRobotXml(path_, "SRDF");
+    const std::string* name = root.attribute("name");
+    if (name == nullptr || *name != robot_.name()) {
+      throw FileError(path_ + ": robot: its name is " + (name == nullptr ? "" : *name) + ", not " +
+                      robot_.name());
+    }
+    for (const XmlElement& element : root.children) {
+      if (!element.of_xacro) continue;
+      throw FileError(path_ + ": line " + std::to_string(element.line) + ": the element " +
+                      element.fullName() + ": xacro has not been run on this file");
     }
     // What is on by default, before what is on or off by name.
-    for (const auto& [tag, element] : root) {
-      if (tag == "disable_default_collisions") allowAllOf(link(element, tag, "link"));
+    for (const XmlElement& element : root.children) {
+      if (element.name == "disable_default_collisions") allowAllOf(link(element, "link"));
     }
-    for (const auto& [tag, element] : root) {
-      if (tag == "enable_collisions") allowed_.erase(pairOf(element, tag));
+    for (const XmlElement& element : root.children) {
+      if (element.name == "enable_collisions") allowed_.erase(pairOf(element));
     }
-    for (const auto& [tag, element] : root) {
-      if (tag == "disable_collisions") allowed_.insert(pairOf(element, tag));
+    for (const XmlElement& element : root.children) {
+      if (element.name == "disable_collisions") allowed_.insert(pairOf(element));
     }
     std::vector<LinkPair> pairs;
     for (const auto& [first, second] : allowed_) pairs.push_back({first, second});
@@ -45,16 +47,18 @@ class SrdfPairs {
  private:
   static NamePair ordered(const std::string& x, const std::string& y) { return std::minmax(x, y); }
 
-  NamePair pairOf(const ptree& element, const std::string& tag) const {
-    return ordered(link(element, tag, "link1"), link(element, tag, "link2"));
+  NamePair pairOf(const XmlElement& element) const {
+    return ordered(link(element, "link1"), link(element, "link2"));
   }
 
-  std::string link(const ptree& element, const std::string& tag, const char* attribute) const {
-    const auto name = element.get_optional<std::string>(std::string("<xmlattr>.") + attribute);
-    if (!name) throw FileError(path_ + ": " + tag + ": has no " + attribute);
-    const auto is_it = [&name](const RobotLink& known) { return known.name == *name; };
+  std::string link(const XmlElement& element, const char* attribute) const {
+    const std::string where =
+        path_ + ": line " + std::to_string(element.line) + ": " + element.name;
+    const std::string* name = element.attribute(attribute);
+    if (name == nullptr) throw FileError(where + ": has no " + attribute);
+    const auto is_it = [name](const RobotLink& known) { return known.name == *name; };
     if (std::none_of(robot_.links().begin(), robot_.links().end(), is_it)) {
-      throw FileError(path_ + ": " + tag + ": " + robot_.name() + " has no link " + *name);
+      throw FileError(where + ": " + robot_.name() + " has no link " + *name);
     }
     return *name;
   }

@@ -3,87 +3,71 @@
 #include "robot/urdf_shapes.h"
 
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/mesh_io.h"
-#include "robot/urdf_values.h"
+#include "robot/mesh_names.h"
 
 namespace fcl_prob::detail {
 namespace {
 
 using GeometryPointer = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-const std::string kPackage = "package://";
-const std::string kFile = "file://";
-
-bool startsWith(const std::string& text, const std::string& start) {
-  return text.compare(0, start.size(), start) == 0;
-}
-
 class ShapeReader {
  public:
   ShapeReader(const std::string& path, const RobotOptions& options)
-      : folder_(std::filesystem::path(path).parent_path()), options_(options) {}
+      : path_(path), options_(options) {}
 
-  GeometryPointer read(const urdf::Geometry& geometry, const std::string& where) {
-    switch (geometry.type) {
-      case urdf::Geometry::SPHERE: {
-        const auto& sphere = static_cast<const urdf::Sphere&>(geometry);
-        return std::make_shared<fcl::Sphered>(positive(sphere.radius, where + ": radius"));
-      }
-      case urdf::Geometry::BOX: {
-        const Eigen::Vector3d size =
-            vectorOf(static_cast<const urdf::Box&>(geometry).dim, where + ": size");
-        return std::make_shared<fcl::Boxd>(positive(size.x(), where + ": size"),
-                                           positive(size.y(), where + ": size"),
-                                           positive(size.z(), where + ": size"));
-      }
-      case urdf::Geometry::CYLINDER: {
-        const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-        return std::make_shared<fcl::Cylinderd>(positive(cylinder.radius, where + ": radius"),
-                                                positive(cylinder.length, where + ": length"));
-      }
-      case urdf::Geometry::MESH:
-        return mesh(static_cast<const urdf::Mesh&>(geometry), where);
-    }
-    throw FileError(where + ": a geometry that is none of box, cylinder, sphere and mesh");
+  GeometryPointer read(const UrdfCollision& collision) {
+    where_ = &collision.where;
+    return std::visit([this](const auto& shape) { return geometryOf(shape); }, collision.shape);
   }
 
  private:
-  GeometryPointer mesh(const urdf::Mesh& mesh, const std::string& where) {
-    const Eigen::Vector3d scale = vectorOf(mesh.scale, where + ": scale");
-    if ((scale.array() == 0.0).any()) throw FileError(where + ": scale must not be 0");
-    const std::string file = fileOf(mesh.filename, where);
+  GeometryPointer geometryOf(const UrdfBox& box) { return std::make_shared<fcl::Boxd>(box.size); }
+  GeometryPointer geometryOf(const UrdfSphere& sphere) {
+    return std::make_shared<fcl::Sphered>(sphere.radius);
+  }
+  GeometryPointer geometryOf(const UrdfCylinder& cylinder) {
+    return std::make_shared<fcl::Cylinderd>(cylinder.radius, cylinder.length);
+  }
+  GeometryPointer geometryOf(const UrdfCapsule& capsule) {
+    return std::make_shared<fcl::Capsuled>(capsule.radius, capsule.length);
+  }
+
+  GeometryPointer geometryOf(const UrdfMesh& mesh) {
+    const std::string file = meshFile(mesh.file, path_, options_.packages, *where_);
     for (const ReadMesh& known : meshes_) {
-      if (known.file == file && known.scale == scale) return known.geometry;
+      if (known.file == file && known.scale == mesh.scale) return known.geometry;
     }
-    TriangleMesh triangles = loadMeshIsolated(file);
-    for (fcl::Vector3d& vertex : triangles.vertices) vertex = vertex.cwiseProduct(scale).eval();
-    triangles.coordinate_error *= scale.cwiseAbs().maxCoeff();
-    // A mirror image is inside out.
-    if (scale.prod() < 0.0) {
-      for (fcl::Triangle& t : triangles.triangles) t.set(t[0], t[2], t[1]);
-    }
-    meshes_.push_back({file, scale, buildModel<fcl::OBBRSSd>(triangles)});
+    meshes_.push_back({file, mesh.scale, buildModel<fcl::OBBRSSd>(scaled(load(file), mesh.scale))});
     return meshes_.back().geometry;
   }
 
-  std::string fileOf(const std::string& name, const std::string& where) const {
-    if (startsWith(name, kFile)) return name.substr(kFile.size());
-    if (!startsWith(name, kPackage)) return (folder_ / name).lexically_normal().string();
-    const std::size_t end = name.find('/', kPackage.size());
-    const std::string package = name.substr(kPackage.size(), end - kPackage.size());
-    const auto found = options_.packages.find(package);
-    if (found == options_.packages.end() || end == std::string::npos) {
-      throw FileError(where + ": " + name + ": no folder is known for the package " + package);
+  /// Messages about a mesh begin with the place that names it.
+  TriangleMesh load(const std::string& file) const {
+    try {
+      return loadMeshIsolated(file);
+    } catch (const InvalidGeometry& error) {
+      throw InvalidGeometry(*where_ + ": " + error.what());
+    } catch (const FileError& error) {
+      throw FileError(*where_ + ": " + error.what());
     }
-    const std::filesystem::path rest = name.substr(end + 1);
-    return (std::filesystem::path(found->second) / rest).lexically_normal().string();
+  }
+
+  static TriangleMesh scaled(TriangleMesh mesh, const Eigen::Vector3d& scale) {
+    for (fcl::Vector3d& vertex : mesh.vertices) vertex = vertex.cwiseProduct(scale).eval();
+    mesh.coordinate_error *= scale.cwiseAbs().maxCoeff();
+    // A mirror image is inside out.
+    if (scale.prod() < 0.0) {
+      for (fcl::Triangle& t : mesh.triangles) t.set(t[0], t[2], t[1]);
+    }
+    return mesh;
   }
 
   struct ReadMesh {
@@ -92,8 +76,9 @@ class ShapeReader {
     GeometryPointer geometry;
   };
 
-  std::filesystem::path folder_;
+  const std::string& path_;
   const RobotOptions& options_;
+  const std::string* where_ = nullptr;  ///< of what is being read
   std::vector<ReadMesh> meshes_;
 };
 
@@ -104,21 +89,17 @@ bool isTaken(const std::string& link, const RobotOptions& options) {
 
 }  // namespace
 
-std::vector<RobotBody> bodiesOf(const urdf::ModelInterface& model, const std::string& path,
+std::vector<RobotBody> bodiesOf(const UrdfModel& model, const std::string& path,
                                 const RobotOptions& options) {
   for (const std::string& name : options.links) {
-    if (model.links_.count(name) == 0) throw FileError(path + ": has no link " + name);
+    if (model.links.count(name) == 0) throw FileError(path + ": has no link " + name);
   }
   ShapeReader reader(path, options);
   std::vector<RobotBody> bodies;
-  for (const auto& [name, link] : model.links_) {
+  for (const auto& [name, link] : model.links) {
     if (!isTaken(name, options)) continue;
-    for (std::size_t i = 0; i < link->collision_array.size(); ++i) {
-      const urdf::Collision& element = *link->collision_array[i];
-      const std::string where = path + ": link " + name + ": collision " + std::to_string(i);
-      if (!element.geometry) throw FileError(where + ": has no geometry");
-      bodies.push_back(
-          {name, reader.read(*element.geometry, where), poseOf(element.origin, where)});
+    for (const UrdfCollision& collision : link.collisions) {
+      bodies.push_back({name, reader.read(collision), collision.in_link});
     }
   }
   if (bodies.empty()) throw FileError(path + ": no collision element in the links taken");

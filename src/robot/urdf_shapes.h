@@ -3,17 +3,17 @@
 // The collision elements of a URDF as geometries.
 #pragma once
 
-#include <urdf_model/model.h>
-
 #include <string>
 #include <vector>
 
 #include "fcl_prob/robot.h"
+#include "robot/urdf_model.h"
 
 namespace fcl_prob::detail {
 
-/// Those of the links that the options name. \throws FileError and as loadMesh()
-std::vector<RobotBody> bodiesOf(const urdf::ModelInterface& model, const std::string& path,
+/// Those of the links that the options name. \throws FileError and as loadMesh(), beginning with
+/// the place in the URDF
+std::vector<RobotBody> bodiesOf(const UrdfModel& model, const std::string& path,
                                 const RobotOptions& options);
 
 }  // namespace fcl_prob::detail

@@ -3,12 +3,13 @@
 // Kinematics against a product of transforms that this file makes itself; URDFs that are none.
 #include "fcl_prob/robot.h"
 
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/capsule.h>
 #include <urdf_parser/urdf_parser.h>
 #include <atomic>
 #include <thread>
 
+#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -212,9 +213,20 @@ TEST_CASE("meshes of a URDF are found, scaled and mirrored") {
   };
   RobotOptions options;
   options.packages["here"] = folder.path("");
+  folder.write("of three words.off", folder.read("tetrahedron.off"));
+  const std::string above = std::filesystem::path(folder.path("x")).parent_path().filename();
   const std::vector<std::string> names{"tetrahedron.off",
+                                       "of three words.off",
                                        "file://" + folder.path("tetrahedron.off"),
-                                       "package://here/tetrahedron.off"};
+                                       "file://localhost" + folder.path("tetrahedron.off"),
+                                       "file://" + folder.path("of%20three%20words.off"),
+                                       "file://" + folder.path("of three words.off"),
+                                       "file://" + folder.path("%74etrahedron%2Eoff"),
+                                       "package://here/tetrahedron.off",
+                                       "package://here/of%20three%20words.off",
+                                       "model://here/tetrahedron.off",
+                                       "package://" + above + "/tetrahedron.off",
+                                       "model://" + above + "/tetrahedron.off"};
   for (const std::string& name : names) {
     const Robot robot(robotWith("filename=\"" + name + "\" scale=\"-2 3 0.5\""), options);
     const auto& model =
@@ -224,11 +236,34 @@ TEST_CASE("meshes of a URDF are found, scaled and mirrored") {
     CHECK(model.aabb_local.max_.isApprox(Eigen::Vector3d(0, 3, 0.5)));
     CHECK(model.computeVolume() == Approx(0.5));  // negative were it inside out
   }
-  CHECK_THROWS_AS(Robot(robotWith("filename=\"package://there/tetrahedron.off\""), options),
-                  FileError);
-  CHECK_THROWS_AS(Robot(robotWith("filename=\"package://here\""), options), FileError);
-  CHECK_THROWS_AS(Robot(robotWith("filename=\"none.off\"")), FileError);
+  folder.write("empty.off", "OFF\n0 0 0\n");
+  for (const std::string bad :
+       {"package://there/tetrahedron.off", "model://there/tetrahedron.off", "package://here",
+        "package://here/none.off", "none.off", "file:///none.off", "empty.off",
+        "of%20three%20words.off", "http://here/tetrahedron.off", "file://%00", "tetrahedron.urdf",
+        "tetrahedron"}) {
+    const std::string path = robotWith("filename=\"" + bad + "\"");
+    CAPTURE(bad);
+    try {
+      const Robot robot(path, options);
+      FAIL("accepted");
+    } catch (const Exception& error) {
+      CAPTURE(error.what());
+      CHECK(std::string(error.what()).find(path + ": line 1: link a: collision 0: ") == 0);
+    }
+  }
   CHECK_THROWS_AS(Robot(robotWith("filename=\"tetrahedron.off\" scale=\"1 0 1\"")), FileError);
+}
+
+TEST_CASE("a capsule is one, its length without the ends") {
+  const TemporaryFolder folder;
+  const Robot robot(folder.write(
+      "r.urdf",
+      "<robot name=\"r\"><link name=\"a\"><collision><geometry><capsule radius=\"0.1\" "
+      "length=\"0.3\"/></geometry></collision></link></robot>"));
+  const auto& capsule = dynamic_cast<const fcl::Capsuled&>(*robot.bodies()[0].geometry);
+  CHECK(capsule.radius == 0.1);
+  CHECK(capsule.lz == 0.3);
 }
 
 TEST_CASE("names may have any letters, and lines end as they do anywhere") {
@@ -254,7 +289,7 @@ TEST_CASE("what is no URDF is refused with file and element") {
   refused(joint("floating", ""), "joint j");
   refused(joint("revolute", "<axis xyz=\"0 0 0\"/>" + limit), "joint j");
   refused(joint("revolute", "<limit lower=\"1\" upper=\"-1\" effort=\"1\" velocity=\"1\"/>"),
-          "joint j: limits");
+          "joint j: limit: lower is above upper: 1 to -1");
   refused(joint("revolute", limit + "<mimic joint=\"j\"/>"), "joint j: mimics itself");
   refused(joint("revolute", limit + "<mimic joint=\"k\"/>"), "joint j: mimics k");
   const auto shape = [](const std::string& inside) {
@@ -265,46 +300,47 @@ TEST_CASE("what is no URDF is refused with file and element") {
   refused(shape("<geometry><box size=\"1 0 1\"/></geometry>"), "link a: collision 0: size");
   refused(shape("<geometry><cylinder radius=\"1\" length=\"0\"/></geometry>"),
           "link a: collision 0: length");
-  // urdfdom complains of these, or does not, and goes on without the element or the whole link.
+  // Where a link has another element that is right, too.
   const std::string good = "<geometry><sphere radius=\"1\"/></geometry></collision><collision>";
   for (const std::string bad :
-       {"<geometry><capsule radius=\".1\" length=\".2\"/></geometry>",
-        "<geometry><sphere radius=\"nan\"/></geometry>",
+       {"<geometry><sphere radius=\"nan\"/></geometry>", "<geometry><cone/></geometry>",
         "<geometry><box size=\"1,1,1\"/></geometry>",
         "<origin xyz=\"0 0\"/><geometry><sphere radius=\"1\"/></geometry>",
         "<geometry><cylinder radius=\"0.1\"/></geometry>", "", "<geometry/>",
         "<geometry><sphere radius=\"1\"/><sphere radius=\"2\"/></geometry>",
         "<geometry><sphere radius=\"1\"/></geometry><geometry><sphere radius=\"2\"/></geometry>"}) {
-    refused(shape(bad), "");
-    refused(shape(good + bad), "");
+    refused(shape(bad), "line 1: link a: collision 0");
+    refused(shape(good + bad), "line 1: link a: collision 1");
   }
-  // What urdfdom would take for a format of printf.
-  for (const std::string percent : {"%n%s", "&#37;n", "&#x25;s"}) {
-    refused(shape("<origin xyz=\"" + percent + "\"/><geometry><sphere radius=\"1\"/></geometry>"),
-            "xyz: a '%'");
-    refused(urdfWith("<material name=\"" + percent + "\"/>"), "name: a '%'");
-  }
-  refused(shape("<geometry><mesh filename=\"package://a%20b/c\"/></geometry>"), "package a%20b");
-  refused(
-      "<robot name=\"r\"><link name=\"a\"><visual><geometry><capsule/></geometry></visual>"
-      "<collision><geometry><sphere radius=\"1\"/></geometry></collision></link></robot>",
-      "");
-  refused(joint("revolute", "<axis xyz=\"1e200 0 0\"/>" + limit), "joint j: its axis");
-  refused(urdfWith("<link name=\"\xff\"/>"), "not UTF-8");
+  refused(shape("<geometry><mesh filename=\"package://a%20b/c\"/></geometry>"), "package a b");
+  refused(joint("revolute", "<axis xyz=\"1e200 0 0\"/>" + limit), "joint j: axis: its length");
+  refused(urdfWith("<link name=\"\xff\"/>"), "not proper UTF-8");
   refused(urdfWith("<link name=\"\x1b\"/>"), "control character, character");
   refused(urdfWith("<link name=\"\x7f\"/>"), "control character, character");
   refused("\x01" + urdfWith(""), "control character, character 0");
-  refused(urdfWith("") + urdfWith(""), "more than one element robot");
-  refused("<gripper name=\"r\"/>", "no URDF: has no element robot");
-  std::string deep;
-  for (int i = 0; i < 100'000; ++i) deep += "<a>";
-  refused(deep, "nested deeper");
-  // What a parser and the look at the text might not read alike.
-  refused("<a\">" + deep, "quote");
-  refused("<!-->" + deep + "-->" + deep, "nested deeper");
-  refused("<a></a></a>", "closing tag");
-  refused("<a><b", "without an end");
-  refused("<", "without an end");
+  refused(urdfWith("") + urdfWith(""), "Extra content at the end");
+  refused("<gripper name=\"r\"/>", "no URDF: its element is gripper, not robot");
+  std::string deep, ends;
+  for (int i = 0; i < 100; ++i) {
+    deep += "<a>";
+    ends += "</a>";
+  }
+  refused(urdfWith("<gazebo>" + deep + ends + "</gazebo>"), "nested deeper");
+  for (int i = 0; i < 10; ++i) deep += deep;
+  refused(deep, "no URDF: Excessive depth");
+  refused("<a\">" + deep, "no URDF");
+  refused("<!-->" + deep + "-->" + deep, "no URDF");
+  refused("<a></a></a>", "no URDF");
+  refused("<a><b", "no URDF");
+  refused("<", "no URDF");
+  std::string entities = "<!DOCTYPE r [<!ENTITY a \"aaaaaaaaaa\">";
+  for (char c = 'b'; c < 'm'; ++c) {
+    const std::string before = std::string("&") + static_cast<char>(c - 1) + ";";
+    entities += std::string("<!ENTITY ") + c + " \"";
+    for (int i = 0; i < 10; ++i) entities += before;
+    entities += "\">";
+  }
+  refused(entities + "]>" + urdfWith("&l;"), "line 1: no URDF: a document type");
   refused(urdfWith("<link name=\"b\"/>" + hangs("b", "b", "j")), "");
 }
 

@@ -8,7 +8,7 @@ Gaussian error? Lengths are metres, angles radians, frames the world frame.
     error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.08, 0.05, 0.02])
     print(fcl_prob.collision_probability(part, fixture, error, pose_a=[0.5, 0, 0]))
 
-`load_mesh` needs the assimp library, and `Robot` and what goes with it urdfdom and Orocos KDL: neither is
+`load_mesh` needs the assimp library, and `Robot` and what goes with it libxml2 and Orocos KDL: neither is
 touched before it is used.
 """
 from __future__ import annotations
