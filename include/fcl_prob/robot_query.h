@@ -82,6 +82,10 @@ struct RobotResult {
   std::optional<double> swept_band;
   std::size_t swept_steps = 0;
 
+  /// What was left out and what may be meant otherwise, in sentences: links without a body, and
+  /// Robot::notes().
+  std::vector<std::string> plan;
+
   /// The single number to use: the estimate if there is one, else the middle of the interval.
   double probability() const { return estimate ? *estimate : any.middle(); }
 };
@@ -101,6 +105,9 @@ class RobotQuery {
   const Robot& robot() const;
   const std::vector<Obstacle>& obstacles() const;
 
+  /// States and waypoints are refused where a joint is beyond its limits, unless the robot was
+  /// loaded to allow that: every member throws InvalidRequest as Robot::requireWithinLimits().
+  ///
   /// In one state. The tolerances, the threshold and the limits are those of the whole answer.
   /// \param request  method automatic, interval or estimate
   /// \throws InvalidRequest, OpenMesh, UnsupportedGeometry as GroupQuery

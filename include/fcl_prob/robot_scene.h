@@ -74,7 +74,7 @@ RobotQuery loadRobotQuery(const RobotScene& scene);
 SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot);
 
 /// The waypoints as values in the order of the robot's joints, with those between them if the scene
-/// asks for them. \throws InvalidRequest for a name that is no joint
+/// asks for them. \throws InvalidRequest for a name that is no joint, or a value beyond its limits
 std::vector<Eigen::VectorXd> waypointsOf(const RobotScene& scene, const Robot& robot);
 
 }  // namespace fcl_prob

@@ -61,9 +61,10 @@ void requireWithinLimits(const Robot& robot, const Eigen::VectorXd& values,
     const RobotJoint& joint = robot.joints()[i];
     const double value = values[static_cast<Eigen::Index>(i)];
     if (value >= joint.lower && value <= joint.upper) continue;
-    throw InvalidRequest(what + ": joint " + joint.name + " is " + numberText(value) +
+    const std::string unit = joint.turns ? " rad" : " m";
+    throw InvalidRequest(what + ": joint " + joint.name + " is " + numberText(value) + unit +
                          ", beyond its limits " + numberText(joint.lower) + " to " +
-                         numberText(joint.upper));
+                         numberText(joint.upper) + unit);
   }
 }
 

@@ -19,6 +19,7 @@
 #include "robot/obstacle_gradient.h"
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
+#include "robot/robot_notes.h"
 #include "robot/seeds_apart.h"
 #include "robot/swept_motion.h"
 
@@ -114,6 +115,7 @@ struct RobotQuery::Implementation {
           obstacle.geometry, "obstacle " + obstacle.name));
       obstacle_balls.push_back(detail::ballAround(*obstacle_geometries.back()));
     }
+    plan = detail::robotNotes(robot);
   }
 
   void validate(const std::vector<Eigen::VectorXd>& waypoints,
@@ -124,7 +126,7 @@ struct RobotQuery::Implementation {
       throw InvalidRequest("a gradient was asked for: robots have none");
     }
     if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
-    for (const Eigen::VectorXd& values : waypoints) robot.validate(values);
+    detail::requireWithinLimits(robot, waypoints);
     for (const Obstacle& obstacle : obstacles) detail::requireStates(obstacle, waypoints.size());
     // Open meshes are refused wherever they are.
     for (const auto* all : {&geometries, &obstacle_geometries}) {
@@ -334,6 +336,7 @@ struct RobotQuery::Implementation {
   detail::PreparedGeometries obstacle_geometries;
   std::vector<Ball> balls;           ///< of the robot's bodies, in their frames
   std::vector<Ball> obstacle_balls;  ///< in their frames
+  std::vector<std::string> plan;     ///< what is told of the robot with every answer
 };
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles)
@@ -353,18 +356,18 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
                                const ProbabilityRequest& request, BetweenWaypoints between) const {
   implementation_->validate(waypoints, request);
-  if (between == BetweenWaypoints::swept) {
-    requireContinuous(errors, request);
-    return implementation_->ofAllTimes(waypoints, request);
-  }
-  if (errors == ErrorsOverTime::persistent) {
-    return implementation_->ofUnion(waypoints, -1, request);
-  }
+  if (between == BetweenWaypoints::swept) requireContinuous(errors, request);
   if (errors == ErrorsOverTime::any_dependence && request.method == ProbabilityMethod::estimate) {
     throw InvalidRequest(
         "method estimate cannot answer for errors of any dependence: only bounds can");
   }
-  return implementation_->ofWaypoints(waypoints, errors, request);
+  RobotResult result = between == BetweenWaypoints::swept
+                           ? implementation_->ofAllTimes(waypoints, request)
+                       : errors == ErrorsOverTime::persistent
+                           ? implementation_->ofUnion(waypoints, -1, request)
+                           : implementation_->ofWaypoints(waypoints, errors, request);
+  result.plan = implementation_->plan;
+  return result;
 }
 
 ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& waypoints,

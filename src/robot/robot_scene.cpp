@@ -8,6 +8,7 @@
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
 #include "robot/moving_obstacle.h"
+#include "robot/robot_notes.h"
 
 namespace fcl_prob {
 namespace {
@@ -39,6 +40,9 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
     }
   }
   if (object.has("links")) scene.robot.links = object.texts("links");
+  if (object.has("allow_outside_limits")) {
+    scene.robot.allow_outside_limits = object.boolean("allow_outside_limits");
+  }
   if (object.has("attached")) {
     for (StrictObject& attached : object.objects("attached")) {
       scene.attached.push_back(readAttached(std::move(attached), folder));
@@ -139,6 +143,8 @@ std::shared_ptr<const fcl::CollisionGeometryd> geometryOf(const SceneObject& obj
 std::vector<Eigen::VectorXd> valuesOf(const RobotScene& scene, const Robot& robot) {
   std::vector<Eigen::VectorXd> waypoints;
   for (const auto& by_name : scene.waypoints) waypoints.push_back(robot.values(by_name));
+  // Here, since they are counted otherwise once there are others between them.
+  detail::requireWithinLimits(robot, waypoints);
   return waypoints;
 }
 

@@ -103,6 +103,7 @@ struct SelfCollision::Implementation {
   /// Calls `found` with each pair that touches, until it returns false.
   template <typename Found>
   void look(const Eigen::VectorXd& values, const Found& found) const {
+    robot.requireWithinLimits(values);
     const std::vector<fcl::Transform3d> poses = robot.poses(values);
     std::vector<Ball> placed;
     for (std::size_t i = 0; i < poses.size(); ++i) placed.push_back(balls[i].placed(poses[i]));
