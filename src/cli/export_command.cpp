@@ -109,11 +109,14 @@ void addMotionOptions(CLI::App& command, MotionExportArguments& arguments) {
                   "Of robots: waypoints that are shown, the likeliest to collide among them")
       ->check(CLI::Range(1, 1'000'000));
   command.add_flag("--still", arguments.still, "Of robots: nothing that moves");
+  command.add_flag("--allow-outside-limits", arguments.allow_outside_limits,
+                   "Of robots: also states beyond the limits of joints");
 }
 
 /// An option that says nothing about a scene of this kind shall not be taken for one that does.
 void refuseOptionsOfOthers(const CLI::App& command, bool has_robot) {
-  const std::set<std::string> of_robots{"--motion", "--largest-step", "--poses", "--still"};
+  const std::set<std::string> of_robots{"--motion", "--largest-step", "--poses", "--still",
+                                        "--allow-outside-limits"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || name == "--scene" || name == "--output") continue;

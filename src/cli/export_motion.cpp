@@ -21,6 +21,7 @@ RobotScene drawnSceneOf(const MotionExportArguments& arguments) {
   RobotScene scene = loadRobotScene(arguments.scene);
   if (!arguments.motion.empty()) scene.waypoints = loadWaypoints(arguments.motion);
   if (arguments.largest_step) scene.largest_step = arguments.largest_step;
+  scene.robot.allow_outside_limits |= arguments.allow_outside_limits;
   if (scene.waypoints.empty()) {
     throw InvalidRequest("--motion: is missing, and " + arguments.scene + " has no waypoints");
   }

@@ -16,6 +16,7 @@ struct MotionExportArguments {
   std::optional<double> largest_step;
   std::size_t poses = 5;
   bool still = false;
+  bool allow_outside_limits = false;
   std::string output;
   GltfForm form = GltfForm::binary;
 };

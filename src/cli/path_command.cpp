@@ -16,6 +16,7 @@
 #include "cli/self_report.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "robot/robot_notes.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -33,6 +34,7 @@ struct PathArguments {
   std::string method;
   std::string errors;
   bool between = false;
+  bool allow_outside_limits = false;
   bool by_body = false;
   bool gradient = false;
   bool json = false;
@@ -41,6 +43,7 @@ struct PathArguments {
 
 struct PathReport {
   std::vector<RobotBody> bodies;  ///< of the robot
+  std::vector<std::string> links_without_body;
   RobotResult result;
   std::vector<RobotResult> by_body;
   std::optional<ordered_json> gradient;
@@ -83,6 +86,7 @@ RobotScene sceneOf(const PathArguments& arguments) {
     scene.errors = errorsFrom(arguments.errors);
   }
   if (arguments.between) scene.between = BetweenWaypoints::swept;
+  scene.robot.allow_outside_limits |= arguments.allow_outside_limits;
   return scene;
 }
 
@@ -93,6 +97,7 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   report.waypoints = waypoints.size();
   report.bodies = query.robot().bodies();
+  report.links_without_body = query.robot().linksWithoutBody();
   report.build_ms = building.milliseconds();
   noteInterrupts();
   ProgressBar bar("fcl_prob path");
@@ -174,6 +179,8 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"build_ms", report.build_ms},
                     {"time_ms", report.time_ms},
                     {"parts", partsOf(report, scene)},
+                    {"plan", result.plan},
+                    {"links_without_body", report.links_without_body},
                     {"self_collisions", jsonOf(report.self_collisions)}};
   addWaypoints(result, json);
   if (report.gradient) json["gradient"] = *report.gradient;
@@ -218,12 +225,15 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   text += std::to_string(result.far_bodies) +
           (result.swept_band ? " steps of bodies" : " bodies at waypoints") +
           " left out as far away, with P <= " + numberText(result.far_upper, 3) + " together\n";
+  for (const std::string& line : result.plan) text += onOneLine(line) + "\n";
   return text + numberText(report.time_ms, 4) + " ms, and " + numberText(report.build_ms, 4) +
          " ms to load\n";
 }
 
 struct ProbableReport {
   ProbableResult result;
+  std::vector<std::string> plan;
+  std::vector<std::string> links_without_body;
   std::size_t waypoints = 0;
   double build_ms = 0.0;
   double time_ms = 0.0;
@@ -239,17 +249,21 @@ ordered_json jsonOf(const ProbableReport& report) {
           {"waypoints", report.waypoints},
           {"cells", result.cells},
           {"samples", result.samples},
+          {"plan", report.plan},
+          {"links_without_body", report.links_without_body},
           {"build_ms", report.build_ms},
           {"time_ms", report.time_ms}};
 }
 
 std::string textOf(const ProbableReport& report) {
   const ProbableResult& result = report.result;
+  std::string notes;
+  for (const std::string& line : report.plan) notes += onOneLine(line) + "\n";
   return "decision: " + toString(result.decision) + ", wrong with a chance of at most " +
          numberText(result.chance_of_error, 3) + "\nP certainly in " +
          intervalText(result.certified) + ", probably in " + intervalText(result.probable) +
          "\nstatus: " + toString(result.status) + ", " + std::to_string(result.cells) + " cells, " +
-         std::to_string(result.samples) + " samples\n" + numberText(report.time_ms, 4) +
+         std::to_string(result.samples) + " samples\n" + notes + numberText(report.time_ms, 4) +
          " ms, and " + numberText(report.build_ms, 4) + " ms to load\n";
 }
 
@@ -263,6 +277,8 @@ ProbableReport answerProbably(RobotScene scene, double chance) {
   const RobotQuery query = loadRobotQuery(scene);
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   report.waypoints = waypoints.size();
+  report.plan = detail::robotNotes(query.robot());
+  report.links_without_body = query.robot().linksWithoutBody();
   report.build_ms = building.milliseconds();
   noteInterrupts();
   ProgressBar bar("fcl_prob path");
@@ -314,6 +330,8 @@ void addPathCommand(CLI::App& app, int& exit_code) {
                      "Add waypoints such that no joint moves further at once (radians, metres)");
   command.add_flag("--between", arguments->between,
                    "Certified for all of the way between the waypoints, too");
+  command.add_flag("--allow-outside-limits", arguments->allow_outside_limits,
+                   "Answer for states beyond the limits of joints, too");
   command.add_flag("--by-body", arguments->by_body, "Also each collision body by itself")
       ->excludes("--probable");
   command

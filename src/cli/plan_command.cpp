@@ -11,6 +11,7 @@
 #include "cli/run.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "robot/robot_notes.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -89,11 +90,15 @@ int runPlan(const PlanArguments& arguments) {
   const CertifiedPlan plan = planCertified(query, self, robot.values(scene.plan->start),
                                            robot.values(scene.plan->goal), request);
   const bool solved = plan.path.status == PlanningStatus::solved;
-  std::string report = planText(plan, robot);
+  std::string report;
+  for (const std::string& line : detail::robotNotes(robot)) report += onOneLine(line) + "\n";
+  report += planText(plan, robot);
   if (arguments.json) {
     nlohmann::ordered_json json = planJson(plan, robot);
     json["largest_step"] = request.planning.largest_step;
     json["seed"] = request.planning.seed;
+    json["links_without_body"] = robot.linksWithoutBody();
+    json["notes"] = robot.notes();
     json["build_ms"] = build_ms;
     json["time_ms"] = watch.milliseconds();
     report = json.dump() + "\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The extension module fcl_prob._robot: robots from URDFs, which take urdfdom and Orocos KDL.
+// The extension module fcl_prob._robot: robots from URDFs, which take libxml2 and Orocos KDL.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -23,9 +23,10 @@ namespace {
 /// What loads a file, without the GIL.
 std::shared_ptr<Robot> loadRobot(const py::object& path,
                                  const std::map<std::string, std::string>& packages,
-                                 const std::vector<std::string>& links, const py::object& base) {
+                                 const std::vector<std::string>& links, const py::object& base,
+                                 bool allow_outside_limits) {
   const std::string name = pathFrom(path);
-  const RobotOptions options{packages, links, poseFrom(base, "base")};
+  const RobotOptions options{packages, links, poseFrom(base, "base"), allow_outside_limits};
   const py::gil_scoped_release released;
   return std::make_shared<Robot>(name, options);
 }
@@ -40,13 +41,17 @@ Robot withAttached(const Robot& robot, const std::string& name, const std::strin
 void bindRobot(py::module_& module) {
   py::class_<Robot, std::shared_ptr<Robot>>(
       module, "Robot",
-      "Robot(urdf, packages={}, links=[], base=None): joints and collision elements of a robot.\n\n"
-      "packages: the folder of each package that the URDF names; links: those whose collision\n"
-      "elements are taken, all if there are none; base: pose of the root link, (4, 4), metres,\n"
-      "world frame. Immutable. Raises FileError, InvalidPose.")
+      "Robot(urdf, packages={}, links=[], base=None, allow_outside_limits=False): joints and\n"
+      "collision elements of a robot.\n\n"
+      "packages: the folder of each package or model that the URDF names; links: those whose\n"
+      "collision elements are taken, all if there are none; base: pose of the root link, (4, 4),\n"
+      "metres, world frame; allow_outside_limits: queries answer for states beyond the limits of\n"
+      "joints, too, which they refuse otherwise (InvalidRequest). Immutable. Raises FileError,\n"
+      "InvalidPose.")
       .def(py::init(&loadRobot), py::arg("urdf"),
            py::arg("packages") = std::map<std::string, std::string>(),
-           py::arg("links") = std::vector<std::string>(), py::arg("base") = py::none())
+           py::arg("links") = std::vector<std::string>(), py::arg("base") = py::none(),
+           py::arg("allow_outside_limits") = false)
       .def_property_readonly("name", &Robot::name)
       .def_property_readonly(
           "joints",
@@ -75,6 +80,10 @@ void bindRobot(py::module_& module) {
             return links;
           },
           "The link of each collision element.")
+      .def_property_readonly("links_without_body", &Robot::linksWithoutBody,
+                             "Links that have no collision element here: nothing touches them.")
+      .def_property_readonly("notes", &Robot::notes,
+                             "What of the URDF may be meant otherwise than it was read.")
       .def(
           "values",
           [](const Robot& robot, const py::dict& by_name) {
@@ -152,6 +161,9 @@ void bindResult(py::module_& module) {
           "Between waypoints: no point is farther from where it was looked at, metres.")
       .def_property_readonly("far_bodies", [](const R& r) { return r.far_bodies; })
       .def_property_readonly("far_upper", [](const R& r) { return r.far_upper; })
+      .def_property_readonly(
+          "plan", [](const R& r) { return r.plan; },
+          "What was left out and what may be meant otherwise: links without a body, notes.")
       .def("to_dict",
            [](const R& r) {
              py::dict dict;
@@ -167,6 +179,7 @@ void bindResult(py::module_& module) {
              dict["swept_band"] = orNone(r.swept_band);
              dict["far_bodies"] = r.far_bodies;
              dict["far_upper"] = r.far_upper;
+             dict["plan"] = r.plan;
              py::list parts;
              for (const ProbabilityResult& part : r.parts) {
                parts.append(py::cast(part).attr("to_dict")());

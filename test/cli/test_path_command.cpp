@@ -43,6 +43,33 @@ TEST_CASE("path answers the motion that the project ships", "[cli]") {
   CHECK(any.at("worst").at("lower").get<double>() <= any.at("upper").get<double>());
 }
 
+TEST_CASE("path refuses states that joints cannot reach, unless it is told to take them", "[cli]") {
+  const TemporaryFolder folder;
+  folder.write("motion.csv", "turn,elbow\n0,0.5\n0,45\n");
+  for (const std::vector<std::string>& of :
+       {std::vector<std::string>{}, {"--between"}, {"--threshold", "0.5", "--probable", "0.01"}}) {
+    std::vector<std::string> options{"path",
+                                     "--scene",
+                                     dataFile("arm_path.json"),
+                                     "--motion",
+                                     folder.path("motion.csv"),
+                                     "--json",
+                                     "--tolerance",
+                                     "0.5"};
+    options.insert(options.end(), of.begin(), of.end());
+    const CommandResult refused = runCommand(options, folder);
+    CAPTURE(refused.err);
+    CHECK(refused.refused());
+    for (const char* told : {"waypoint 1", "joint elbow", "45 rad", "-2.4 to 2.4", "degrees"}) {
+      CHECK(refused.err.find(told) != std::string::npos);
+    }
+    options.insert(options.end(), {"--allow-outside-limits", "--time-limit", "1"});
+    const json answer = json::parse(runCommand(options, folder).out);
+    CHECK(answer.at("links_without_body") == json{"tool"});
+    CHECK(answer.at("plan").size() == 1);
+  }
+}
+
 TEST_CASE("path tells how P changes with the joints", "[cli]") {
   const json answered = answerOf({"--threshold", "0.9999", "--gradient"});
   const json& gradient = answered.at("gradient");

@@ -212,6 +212,20 @@ def test_robot_from_parts():
         query.state({"nowhere": 1.0})
     with pytest.raises(TypeError, match="a number for each name"):
         query.state({"turn": "left"})
+    assert robot.links_without_body == ["tool"] and robot.notes == []
+    assert len(result.plan) == 1 and "tool" in result.plan[0]
+    allowing = fcl_prob.RobotQuery(fcl_prob.Robot(DATA / "arm.urdf", allow_outside_limits=True), [ball])
+    beyond = {"elbow": 45.0}
+    told = "joint elbow: its value is 45 rad, beyond its limits -2.4 to 2.4 rad.*degrees"
+    for ask in ("state", "motion", "gradient"):
+        argument = beyond if ask == "state" else [{}, beyond]
+        with pytest.raises(fcl_prob.InvalidRequest, match=told):
+            getattr(query, ask)(argument)
+        getattr(allowing, ask)(argument)
+    with pytest.raises(fcl_prob.InvalidRequest, match=told):
+        query.decide_probably([beyond], 0.5, 0.01)
+    with pytest.raises(fcl_prob.InvalidRequest, match=told):
+        fcl_prob.SelfCollision(robot).collides(beyond)
     with pytest.raises(ValueError, match="null byte"):
         fcl_prob.Robot("a\0b")
     with pytest.raises(TypeError, match="obstacles\\[0\\]"):
