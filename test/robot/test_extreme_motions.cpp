@@ -18,13 +18,19 @@ namespace {
 /// A ball of 0.1 m on a slider along x.
 Robot slider(const std::string& joint = "<axis xyz=\"1 0 0\"/>") {
   const TemporaryFolder folder;
-  return Robot(folder.write(
-      "slider.urdf",
-      "<robot name=\"r\"><link name=\"root\"/><link name=\"ball\"><collision><geometry>"
-      "<sphere radius=\"0.1\"/></geometry></collision></link><joint name=\"x\" type=\"prismatic\">"
-      "<parent link=\"root\"/><child link=\"ball\"/>" +
-          joint +
-          "<limit lower=\"-1e300\" upper=\"1e300\" effort=\"1\" velocity=\"1\"/></joint></robot>"));
+  RobotOptions options;
+  options.allow_outside_limits = true;
+  return Robot(
+      folder.write(
+          "slider.urdf",
+          "<robot name=\"r\"><link name=\"root\"/><link name=\"ball\"><collision><geometry>"
+          "<sphere radius=\"0.1\"/></geometry></collision></link><joint name=\"x\" "
+          "type=\"prismatic\">"
+          "<parent link=\"root\"/><child link=\"ball\"/>" +
+              joint +
+              "<limit lower=\"-1e300\" upper=\"1e300\" effort=\"1\" "
+              "velocity=\"1\"/></joint></robot>"),
+      options);
 }
 
 std::vector<Eigen::VectorXd> valuesOf(const std::vector<double>& values) {

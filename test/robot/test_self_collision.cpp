@@ -176,17 +176,18 @@ TEST_CASE("what is no SRDF is refused with file and element") {
   refused("", "no SRDF");
   refused("nothing of the kind", "no SRDF");
   refused("<robot name=\"arm\">", "no SRDF");
-  refused("<gripper name=\"arm\"/>", "no element robot");
-  refused(inside("") + inside(""), "more than one element robot");
+  refused("<gripper name=\"arm\"/>", "its element is gripper, not robot");
+  refused(inside("") + inside(""), "Extra content at the end");
   refused("<robot name=\"leg\"/>", "its name is leg, not arm");
   refused("<!DOCTYPE r [<!ENTITY e \"e\">]>" + inside(""), "document type");
   refused(inside("<disable_collisions link1=\"hand\"/>"), "disable_collisions: has no link2");
   refused(inside("<disable_collisions link1=\"hand\" link2=\"foot\"/>"), "has no link foot");
   refused(inside("<enable_collisions link1=\"paw\" link2=\"hand\"/>"), "has no link paw");
   refused(inside("<disable_default_collisions link=\"foot\"/>"), "has no link foot");
+  refused(inside("\n<xacro:arm/>"), "line 2: the element xacro:arm");
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
-  refused(deep, "nested deeper");
+  refused(deep, "no SRDF: Excessive depth");
 }
 
 TEST_CASE("scenes of robots name an SRDF") {
