@@ -30,16 +30,22 @@ struct ImportLimits {
 /// The transforms of the file's nodes are applied, among them a unit that the format itself
 /// declares (COLLADA's `unit`); otherwise the numbers are taken as metres, and the axes are the
 /// file's. Polygons are triangulated, points and lines ignored, bitwise equal vertices welded.
-/// assimp reads in single precision: a mesh that is lost by it (further from its origin than 1e4
-/// times its size) is refused, and TriangleMesh::coordinate_error says what it rounds.
 ///
-/// Sizes, counts and indices are checked against the file itself before it is imported, and
-/// everything again afterwards: a truncated or malformed file is refused, not repaired. Even so
-/// assimp can crash on malformed files: use loadMeshIsolated() for files that are not trusted.
-/// Imports of one process take turns. \throws FileError (missing, unreadable, malformed),
-/// InvalidGeometry (no triangles, coordinates that
-///         are not finite, indices out of range), InvalidRequest (a scale that is not finite and >
-///         0); the message names the file and the fault.
+/// STL, OBJ, PLY and OFF are read here, and decimal fractions become the nearest doubles. COLLADA
+/// and glTF are imported by assimp in single precision: TriangleMesh::coordinate_error says what it
+/// rounds. A mesh that its precision cannot hold to 1e-3 of its size, as it is too far from its
+/// origin, is refused.
+///
+/// A truncated or malformed file is refused, not repaired, and so is one that holds a surface of a
+/// kind that is not supported (a free-form one of OBJ, an element of PLY that is neither faces nor
+/// triangle strips, a polygon that crosses itself). TriangleMesh::notes says what else was passed
+/// over. What assimp imports is checked before and afterwards; even so assimp can crash on
+/// malformed files: use loadMeshIsolated() for files that are not trusted. Imports by assimp take
+/// turns. \throws FileError (missing, unreadable, malformed), InvalidGeometry (no triangles,
+/// coordinates
+///         that are not finite or beyond 1e150, indices out of range), InvalidRequest (a scale that
+///         is not finite and > 0); the message names the file, the fault, and the line (or byte)
+///         where there is one.
 TriangleMesh loadMesh(const std::string& path, const MeshOptions& options = {},
                       const ImportLimits& limits = {});
 

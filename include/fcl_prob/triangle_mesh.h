@@ -22,6 +22,10 @@ struct TriangleMesh {
   /// precision rounds. It is told and not part of any bound; 0 where the vertices are what they
   /// are.
   double coordinate_error = 0.0;
+
+  /// What a loader passed over in the file without losing any surface that it could tell, as bytes
+  /// behind the last triangle: sentences that begin with the file's name.
+  std::vector<std::string> notes = {};
 };
 
 /// \throws InvalidGeometry if there is no triangle, an index is out of range or a coordinate is not

@@ -3,7 +3,9 @@
 #include "cli/prepared_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
+#include <limits>
 
 #include "base/decision.h"
 #include "base/stopwatch.h"
@@ -96,18 +98,27 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
   build_ms_ = watch.milliseconds();
 }
 
-std::vector<std::string> PreparedScene::importNotes() const {
-  // Where a shift by this much of σ moves P by less than a millionth of itself or so.
-  constexpr double kNegligible = 1e-6;
+std::vector<std::string> PreparedScene::importNotes(const ProbabilityRequest& request,
+                                                    const ProbabilityResult& result) const {
+  constexpr double kNegligible = 1e-3;  // of the least deviation, or of the tolerance
   std::vector<std::string> notes;
-  if (displacement_.rank() == 0) return notes;
-  const double sigma = displacement_.standardDeviations()[displacement_.rank() - 1];
+  const double sigma = displacement_.rank() > 0
+                           ? displacement_.standardDeviations()[displacement_.rank() - 1]
+                           : std::numeric_limits<double>::infinity();
+  const double probability = result.upper ? *result.upper : result.estimate.value_or(1.0);
   for (const auto& [name, object] : {std::pair("A", &a_), std::pair("B", &b_)}) {
     const auto* mesh = std::get_if<TriangleMesh>(&object->shape);
-    if (mesh == nullptr || mesh->coordinate_error <= kNegligible * sigma) continue;
-    notes.push_back(std::string("mesh files are read in single precision: coordinates of ") + name +
-                    " may be off by " + numberText(mesh->coordinate_error, 2) + " m, " +
-                    numberText(mesh->coordinate_error / sigma, 2) +
+    if (mesh == nullptr) continue;
+    notes.insert(notes.end(), mesh->notes.begin(), mesh->notes.end());
+    // A face that is moved by one deviation sweeps a mass of at most the density's maximum.
+    const double deviations = mesh->coordinate_error / sigma;
+    const double moved_mass = deviations / std::sqrt(2.0 * M_PI);
+    if (deviations <= kNegligible && moved_mass <= kNegligible * request.toleranceAt(probability)) {
+      continue;
+    }
+    notes.push_back(std::string("the file of ") + name +
+                    " is read in single precision: coordinates may be off by " +
+                    numberText(mesh->coordinate_error, 2) + " m, " + numberText(deviations, 2) +
                     " of the least standard deviation, which no bound contains");
   }
   return notes;
@@ -126,7 +137,9 @@ TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
     timed.result = betweenTwo(request);
   }
   timed.time_ms = watch.milliseconds();
-  for (std::string& note : importNotes()) timed.result.plan.push_back(std::move(note));
+  for (std::string& note : importNotes(request, timed.result)) {
+    timed.result.plan.push_back(std::move(note));
+  }
   return timed;
 }
 

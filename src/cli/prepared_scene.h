@@ -56,8 +56,10 @@ class PreparedScene {
   const std::optional<PoseError>& poseError() const { return pose_error_; }
 
  private:
-  /// What the loader rounded, where that is not small beside the standard deviations.
-  std::vector<std::string> importNotes() const;
+  /// What the loader passed over, and what it rounded where that is not small beside the standard
+  /// deviations and the tolerance.
+  std::vector<std::string> importNotes(const ProbabilityRequest& request,
+                                       const ProbabilityResult& result) const;
 
   /// Lower bounds by what was seen, upper ones by what may be there.
   ProbabilityResult betweenTwo(const ProbabilityRequest& request) const;

@@ -60,6 +60,7 @@ TriangleMesh normalized(const TriangleMesh& mesh) {
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh result;
   result.coordinate_error = mesh.coordinate_error;
+  result.notes = mesh.notes;
   result.triangles.reserve(mesh.triangles.size());
   std::unordered_map<fcl::Vector3d, std::size_t, HashOfVertex> known;
   known.reserve(mesh.vertices.size());

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fcl_prob/exceptions.h"
-#include "io/file_checks.h"
+#include "io/mesh_formats.h"
 
 namespace fcl_prob::detail {
 namespace {

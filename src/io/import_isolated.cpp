@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -25,11 +26,13 @@ using Clock = std::chrono::steady_clock;
 
 enum class Outcome : std::uint64_t { mesh, file_error, invalid_geometry, invalid_request, other };
 
-/// What the child sends first; then `first` vertices and `second` triangles, or `first` characters.
+/// What the child sends first; then `first` vertices, `second` triangles and `third` characters of
+/// notes, or `first` characters.
 struct Message {
   Outcome outcome;
   std::uint64_t first;
   std::uint64_t second;
+  std::uint64_t third;
   double coordinate_error;
 };
 
@@ -98,7 +101,9 @@ bool writeAll(int descriptor, const void* data, std::size_t size) {
 }
 
 void sendMesh(int descriptor, const TriangleMesh& mesh) {
-  const Message message{Outcome::mesh, mesh.vertices.size(), mesh.triangles.size(),
+  std::string notes;  // each ends in a 0
+  for (const std::string& note : mesh.notes) notes.append(note).push_back('\0');
+  const Message message{Outcome::mesh, mesh.vertices.size(), mesh.triangles.size(), notes.size(),
                         mesh.coordinate_error};
   std::vector<RawVertex> vertices;
   for (const fcl::Vector3d& v : mesh.vertices) vertices.push_back({v.x(), v.y(), v.z()});
@@ -106,11 +111,12 @@ void sendMesh(int descriptor, const TriangleMesh& mesh) {
   for (const fcl::Triangle& t : mesh.triangles) triangles.push_back({t[0], t[1], t[2]});
   writeAll(descriptor, &message, sizeof message) &&
       writeAll(descriptor, vertices.data(), vertices.size() * sizeof(RawVertex)) &&
-      writeAll(descriptor, triangles.data(), triangles.size() * sizeof(RawTriangle));
+      writeAll(descriptor, triangles.data(), triangles.size() * sizeof(RawTriangle)) &&
+      writeAll(descriptor, notes.data(), notes.size());
 }
 
 void sendError(int descriptor, Outcome outcome, const char* text) {
-  const Message message{outcome, std::strlen(text), 0, 0.0};
+  const Message message{outcome, std::strlen(text), 0, 0, 0.0};
   writeAll(descriptor, &message, sizeof message) && writeAll(descriptor, text, message.first);
 }
 
@@ -245,6 +251,13 @@ bool receive(Receiver& receiver, const std::string& path, TriangleMesh& mesh) {
   std::vector<RawTriangle> triangles;
   if (!receiver.readItems(message.first, vertices)) return false;
   if (!receiver.readItems(message.second, triangles)) return false;
+  std::vector<char> notes;
+  if (!receiver.readItems(message.third, notes)) return false;
+  for (auto begin = notes.begin(); begin != notes.end();) {
+    const auto end = std::find(begin, notes.end(), '\0');
+    mesh.notes.emplace_back(begin, end);
+    begin = end == notes.end() ? end : end + 1;
+  }
   mesh.coordinate_error = message.coordinate_error;
   for (const RawVertex& v : vertices) mesh.vertices.emplace_back(v[0], v[1], v[2]);
   for (const RawTriangle& t : triangles) mesh.triangles.emplace_back(t[0], t[1], t[2]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Importing meshes with assimp, and not believing it.
+// Meshes of files: those that assimp imports are not believed.
 #include "fcl_prob/mesh_io.h"
 
 #include <assimp/config.h>
@@ -14,9 +14,10 @@
 #include <optional>
 #include <sstream>
 
-#include "io/file_checks.h"
+#include "geometry/length_limit.h"
 #include "io/file_content.h"
 #include "io/import_mutex.h"
+#include "io/mesh_formats.h"
 
 namespace fcl_prob {
 namespace {
@@ -122,20 +123,37 @@ void appendNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d&
   }
 }
 
-/// Single precision can only hold the mesh if it is not too far from its origin for its size.
-void checkResolution(const TriangleMesh& mesh, const std::string& path) {
+TriangleMesh imported(const std::string& path, std::string_view content) {
+  std::optional<std::size_t> expected_triangles;  // assimp checks COLLADA itself
+  if (detail::meshFormatOf(path) == detail::MeshFormat::gltf) {
+    expected_triangles = detail::checkGltf(path, content);
+  }
+  TriangleMesh mesh;
+  const std::lock_guard<std::mutex> lock(detail::importMutex());
+  Assimp::Importer importer;
+  const aiScene& scene = import(importer, path, expected_triangles);
+  appendNode(scene, *scene.mRootNode, Eigen::Affine3d::Identity(), path, mesh);
+  return mesh;
+}
+
+/// A precision can only hold a mesh that is not too far from its origin for its size.
+void checkResolution(const TriangleMesh& mesh, bool is_single, const std::string& path) {
   constexpr double kCoarsest = 1e-3;  // of the longest side
+  const double rounding = is_single ? double{std::numeric_limits<float>::epsilon()}
+                                    : std::numeric_limits<double>::epsilon();
+  const std::string precision = is_single ? "the importer's single precision" : "double precision";
   Eigen::AlignedBox3d box;
   for (const fcl::Vector3d& v : mesh.vertices) box.extend(v);
   const double longest_side = box.sizes().maxCoeff();
   const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  if (!(longest_side > 0.0)) {
-    throw InvalidGeometry(path + ": all vertices coincide (in the importer's single precision)");
+  // Squares of less vanish, as those of more than the largest length overflow.
+  if (!(longest_side >= 1.0 / detail::kLargestLength)) {
+    throw InvalidGeometry(path + ": all vertices coincide (in " + precision + ")");
   }
-  if (std::numeric_limits<float>::epsilon() * largest > kCoarsest * longest_side) {
+  if (rounding * largest > kCoarsest * longest_side) {
     std::ostringstream fault;
     fault << path << ": a mesh of size " << longest_side << " with coordinates up to " << largest
-          << " is lost in the importer's single precision; store it nearer to its origin";
+          << " is lost in " << precision << "; store it nearer to its origin";
     throw InvalidGeometry(fault.str());
   }
 }
@@ -160,18 +178,12 @@ TriangleMesh loadMesh(const std::string& path, const MeshOptions& options,
     throw InvalidRequest("mesh scale " + std::to_string(options.scale) +
                          " is not finite and positive");
   }
-  const std::optional<std::size_t> expected_triangles =
-      detail::checkMeshFile(path, detail::fileContent(path, limits.file_bytes));
-
-  TriangleMesh mesh;
-  {
-    const std::lock_guard<std::mutex> lock(detail::importMutex());
-    Assimp::Importer importer;
-    const aiScene& scene = import(importer, path, expected_triangles);
-    appendNode(scene, *scene.mRootNode, Eigen::Affine3d::Identity(), path, mesh);
-  }
+  const std::string content = detail::fileContent(path, limits.file_bytes);
+  std::optional<TriangleMesh> read = detail::readMesh(path, content);
+  const bool is_single = !read;
+  TriangleMesh mesh = read ? *std::move(read) : imported(path, content);
   validateMesh(mesh, path);
-  checkResolution(mesh, path);
+  checkResolution(mesh, is_single, path);
   mesh = welded(mesh);
   if (options.normalize) mesh = normalized(mesh);
   return options.scale == 1.0 ? mesh : scaled(std::move(mesh), options.scale, path);

@@ -36,16 +36,23 @@ std::size_t sizeOf(PlyType type) {
 class PlyHeaderReader {
  public:
   PlyHeaderReader(const std::string& path, std::string_view content)
-      : path_(path), reader_(content) {}
+      : path_(path), content_(content), reader_(content) {}
 
   PlyHeader read() {
-    if (reader_.next() != std::string_view("ply")) fail("a PLY file begins with 'ply'");
+    const auto magic = reader_.next();
+    if (!magic || splitWords(*magic) != std::vector<std::string_view>{"ply"}) {
+      fail("a PLY file begins with 'ply'");
+    }
+    // Where lines end in a carriage return alone, a line feed is the first byte of the data.
+    const bool returns_only = content_.substr(reader_.position() - 1, 1) == "\r";
     while (const auto line = reader_.next()) {
       const std::vector<std::string_view> words = splitWords(*line);
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") {
         if (!format_seen_) fail("the PLY header has no format");
         header_.body = reader_.position();
+        if (returns_only && content_.substr(header_.body - 2, 2) == "\r\n") --header_.body;
+        header_.lines = reader_.lineNumber();
         return header_;
       }
       statement(words);
@@ -101,10 +108,13 @@ class PlyHeaderReader {
   }
 
   const std::string& path_;
+  std::string_view content_;
   LineReader reader_;
   PlyHeader header_;
   bool format_seen_ = false;
 };
+
+bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 template <typename Number>
 double as(const std::array<char, 8>& bytes) {
@@ -142,12 +152,25 @@ PlyHeader readPlyHeader(const std::string& path, std::string_view content) {
 }
 
 std::optional<double> PlyBodyReader::nextWord() {
-  constexpr std::string_view kSpace = " \t\r\n\v\f";
-  position_ = std::min(body_.find_first_not_of(kSpace, position_), body_.size());
-  const std::size_t end = std::min(body_.find_first_of(kSpace, position_), body_.size());
-  const std::string_view word = body_.substr(position_, end - position_);
-  position_ = end;
-  return parseNumber(word);
+  for (; position_ < body_.size() && isSpace(body_[position_]); ++position_) {
+    const char space = body_[position_];
+    const bool feed_follows = body_.substr(position_ + 1, 1) == "\n";
+    if (space == '\n' || (space == '\r' && !feed_follows)) ++line_;
+  }
+  const std::size_t begin = position_;
+  while (position_ < body_.size() && !isSpace(body_[position_])) ++position_;
+  return parseNumber(body_.substr(begin, position_ - begin));
+}
+
+bool PlyBodyReader::isAtEndOfLine() const {
+  if (encoding_ != PlyEncoding::text) return true;
+  const std::size_t next = body_.find_first_not_of(" \t\v\f", position_);
+  return next == body_.npos || body_[next] == '\n' || body_[next] == '\r';
+}
+
+bool PlyBodyReader::isAtEnd() const {
+  if (encoding_ != PlyEncoding::text) return position_ == body_.size();
+  return std::all_of(body_.begin() + static_cast<std::ptrdiff_t>(position_), body_.end(), isSpace);
 }
 
 std::optional<double> PlyBodyReader::nextBinary(PlyType type) {

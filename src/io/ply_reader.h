@@ -29,7 +29,8 @@ enum class PlyEncoding { text, little_endian, big_endian };
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::text;
   std::vector<PlyElement> elements;
-  std::size_t body = 0;  ///< where the data begin
+  std::size_t body = 0;   ///< where the data begin
+  std::size_t lines = 0;  ///< of the header itself
 };
 
 /// \throws FileError that begins with `path` and the line
@@ -38,12 +39,23 @@ PlyHeader readPlyHeader(const std::string& path, std::string_view content);
 /// Hands out the numbers of the body one after the other, as doubles (every integer type fits).
 class PlyBodyReader {
  public:
-  PlyBodyReader(std::string_view body, PlyEncoding encoding) : body_(body), encoding_(encoding) {}
+  PlyBodyReader(std::string_view body, PlyEncoding encoding, std::size_t header_lines = 0)
+      : body_(body), encoding_(encoding), line_(header_lines + 1) {}
 
   /// Nothing when the body has ended or (text) holds something that is not a number.
   std::optional<double> next(PlyType type) {
     return encoding_ == PlyEncoding::text ? nextWord() : nextBinary(type);
   }
+
+  /// The line of the last number, in a text; bytes that have been read, in a binary body.
+  std::size_t line() const { return line_; }
+  std::size_t position() const { return position_; }
+
+  /// Whether nothing but blanks follows the last number on its line. True of a binary body.
+  bool isAtEndOfLine() const;
+
+  /// Whether nothing is left, or (text) nothing but white space.
+  bool isAtEnd() const;
 
  private:
   std::optional<double> nextWord();
@@ -52,6 +64,7 @@ class PlyBodyReader {
   std::string_view body_;
   PlyEncoding encoding_;
   std::size_t position_ = 0;
+  std::size_t line_;
 };
 
 }  // namespace fcl_prob::detail

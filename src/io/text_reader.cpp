@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "io/text_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -21,22 +22,42 @@ std::string_view withoutPlus(std::string_view word) {
 
 std::optional<std::string_view> LineReader::next() {
   if (position_ >= text_.size()) return std::nullopt;
-  const std::size_t end = text_.find('\n', position_);
-  std::string_view line = text_.substr(position_, end - position_);
-  position_ = end == std::string_view::npos ? text_.size() : end + 1;
+  const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(position_);
+  const auto end = std::find_if(begin, text_.end(), [](char c) { return c == '\n' || c == '\r'; });
+  const std::string_view line = text_.substr(position_, static_cast<std::size_t>(end - begin));
+  position_ += line.size();
+  const bool both = text_.substr(position_, 2) == "\r\n";
+  position_ = std::min(position_ + (both ? 2 : 1), text_.size());
   ++line_number_;
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return line;
 }
 
 std::vector<std::string_view> splitWords(std::string_view line) {
   std::vector<std::string_view> words;
+  splitWords(line, words);
+  return words;
+}
+
+void splitWords(std::string_view line, std::vector<std::string_view>& words) {
+  words.clear();
   for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
     const std::size_t end = line.find_first_of(kBlanks, begin);
     words.push_back(line.substr(begin, end - begin));
     begin = line.find_first_not_of(kBlanks, end);
   }
-  return words;
+}
+
+std::string_view withoutComment(std::string_view line) {
+  std::size_t mark = line.find('#');
+  while (mark != line.npos && mark > 0 && kBlanks.find(line[mark - 1]) == kBlanks.npos) {
+    mark = line.find('#', mark + 1);
+  }
+  return line.substr(0, mark);
+}
+
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(text.substr(0, kMark.size()) == kMark ? kMark.size() : 0);
 }
 
 std::string inQuotes(std::string_view word) {

@@ -10,7 +10,7 @@
 
 namespace fcl_prob::detail {
 
-/// Walks over the lines of a text; a carriage return before the line feed is not part of the line.
+/// Walks over the lines of a text, which end in a line feed, a carriage return or both.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : text_(text) {}
@@ -32,6 +32,15 @@ class LineReader {
 
 /// The words of a line, separated by blanks or tabs.
 std::vector<std::string_view> splitWords(std::string_view line);
+
+/// The same into memory that is kept.
+void splitWords(std::string_view line, std::vector<std::string_view>& words);
+
+/// `line` up to a word that begins with '#'. (Within a word it is none: Windows writes 1.#QNAN.)
+std::string_view withoutComment(std::string_view line);
+
+/// `text` without the byte order mark that some editors put before UTF-8.
+std::string_view withoutByteOrderMark(std::string_view text);
 
 /// `word` in quotation marks for a message: what cannot be printed is escaped, what is long is cut.
 std::string inQuotes(std::string_view word);

@@ -3,6 +3,7 @@
 // fcl_prob check from outside: answers, the JSON contract, exit codes, bad input.
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -251,17 +252,50 @@ TEST_CASE("a gradient is computed only when asked for, and along all axes", "[cl
   }
 }
 
-TEST_CASE("what the importer's single precision rounds is told where it matters", "[cli]") {
+TEST_CASE("what single precision rounds is told of the formats that have it, where it matters",
+          "[cli]") {
   const Cubes cubes;
-  const auto planOf = [&](const char* sigma) {
-    return checkJson({cubes.file, cubes.file, "--pose-a", "1.1,0,0", "--sigma", sigma},
+  // A tetrahedron of COLLADA: assimp's.
+  const std::string imported = cubes.folder.write("t.dae", R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh><source id="p">
+<float_array id="pa" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>
+<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+  const auto planOf = [&](const std::string& a, const char* sigma, const char* tolerance) {
+    return checkJson({a, cubes.file, "--pose-a", "0.55,0,0", "--sigma", sigma,
+                      "--relative-tolerance", tolerance, "--absolute-tolerance", "0"},
                      cubes.folder)
         .at("plan")
         .dump();
   };
-  CHECK(planOf("0.01,0.01,0.01").find("single precision: coordinates of A may be off by") !=
-        std::string::npos);
-  CHECK(planOf("0.5,0.5,0.5").find("single precision") == std::string::npos);
+  const std::string told = "A is read in single precision";
+  CHECK(planOf(imported, "0.1,0.1,0.1", "0.05").find(told) == std::string::npos);
+  CHECK(planOf(imported, "0.1,0.1,0.1", "0.001").find(told) != std::string::npos);
+  CHECK(planOf(imported, "0.05,0.05,0.0001", "0.05").find(told) != std::string::npos);
+  CHECK(planOf(cubes.file, "0.1,0.1,0.1", "0.001").find("single precision") == std::string::npos);
+}
+
+TEST_CASE("what a mesh file's reader passed over is told", "[cli]") {
+  const Cubes cubes;
+  std::ifstream file(cubes.file);
+  const std::string obj((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string with_more = cubes.folder.write("more.obj", "6540 2180\n" + obj);
+  for (const bool is_a : {false, true}) {
+    const std::string plan =
+        checkJson({is_a ? with_more : cubes.file, is_a ? cubes.file : with_more, "--pose-a",
+                   "1.1,0,0", "--sigma", "0.1,0.1,0.1"},
+                  cubes.folder)
+            .at("plan")
+            .dump();
+    CHECK(plan.find("more.obj: line 1: '6540' is not a statement of OBJ") != std::string::npos);
+  }
 }
 
 TEST_CASE("--version names the program and its version", "[cli]") {

@@ -37,7 +37,7 @@ std::string faultOf(const std::function<TriangleMesh()>& import, const ImportLim
 TEST_CASE("an isolated import returns the same mesh", "[io]") {
   const fcl_prob_test::TemporaryFolder folder;
   const std::string path =
-      folder.write("t.obj", "v 0.1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
+      folder.write("t.obj", "a\nv 0.1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
   const TriangleMesh direct = loadMesh(path, {true, 3.0});
   const TriangleMesh isolated = loadMeshIsolated(path, {true, 3.0});
   REQUIRE(isolated.vertices.size() == direct.vertices.size());
@@ -46,6 +46,8 @@ TEST_CASE("an isolated import returns the same mesh", "[io]") {
   }
   REQUIRE(isolated.triangles.size() == 2);
   CHECK(isolated.triangles[1][2] == direct.triangles[1][2]);
+  CHECK(direct.notes.size() == 1);
+  CHECK(isolated.notes == direct.notes);
 }
 
 TEST_CASE("exceptions of an isolated import keep their type and text", "[io]") {

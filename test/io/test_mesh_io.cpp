@@ -164,7 +164,7 @@ TEST_CASE("messages name the file and the fault", "[io]") {
   check("a.xyz", "1 2 3", "unknown kind of mesh file '.xyz'");
   check("empty.obj", "", "empty");
   check("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n", "no triangles");
-  check("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "not finite");
+  check("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: a vertex has");
   check("word.obj", "v 0 0 zero\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: 'zero' is not a number");
   check("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "line 4: vertex index 4");
   check("back.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "'-4' is not the index");
@@ -176,7 +176,8 @@ TEST_CASE("messages name the file and the fault", "[io]") {
   check("half.dae", "<?xml version=\"1.0\"?><COLLADA><asset>", "the importer refused it");
   check("half.gltf", "{\"asset\": {", "not a valid glTF");
   check("half.glb", std::string("glTF\2\0\0\0\377\377\0\0", 12), "truncated");
-  check("far.obj", "v 1e9 0 0\nv 1000000064 0 0\nv 1e9 64 0\nf 1 2 3\n", "single precision");
+  check("far.obj", "v 1e15 0 0\nv 1000000000000064 0 0\nv 1e15 64 0\nf 1 2 3\n",
+        "lost in double precision");
 
   ImportLimits limits;
   limits.file_bytes = 10;
