@@ -61,17 +61,20 @@ int runBench(BenchArguments arguments) {
   }
   noteInterrupts();
   BenchReport report;
+  bool stopped_early = false;
   {
     ProgressBar bar("fcl_prob bench");
-    report = benchmark.run(arguments.options, [&bar](double fraction, const std::string& what) {
+    report = benchmark.run(arguments.options, [&](double fraction, const std::string& what) {
       bar.show(fraction, what);
-      return !interrupted();
+      stopped_early = interrupted();
+      return !stopped_early;
     });
   }
+  report.interrupted = stopped_early;
   if (arguments.json) {
-    deliver(report.records.dump(1) + "\n", arguments.output);
+    deliver(report.json(), arguments.output);
   } else {
-    deliver(arguments.csv ? report.table.csv() : report.markdown(), arguments.output);
+    deliver(arguments.csv ? report.csv() : report.markdown(), arguments.output);
   }
   if (!arguments.plot.empty()) writePlot(report.plot, arguments.plot);
   return interrupted() ? kStopped : kAnswered;

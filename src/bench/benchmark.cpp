@@ -9,7 +9,18 @@
 namespace fcl_prob::cli {
 
 std::string BenchReport::markdown() const {
-  return "## " + title + "\n\n" + table.markdown() + "\n" + notes;
+  const std::string warning = interrupted ? "**Interrupted: rows are missing.**\n\n" : "";
+  return "## " + title + "\n\n" + warning + table.markdown() + "\n" + notes;
+}
+
+std::string BenchReport::csv() const {
+  return table.csv() + (interrupted ? "# interrupted: rows are missing\n" : "");
+}
+
+std::string BenchReport::json() const {
+  nlohmann::ordered_json all = records;
+  if (interrupted) all.push_back({{"interrupted", true}});
+  return all.dump(1) + "\n";
 }
 
 const std::vector<Benchmark>& benchmarks() {

@@ -28,9 +28,12 @@ struct BenchReport {
   std::string notes;  ///< Markdown, under the table: what the columns mean
   TextTable table{{}};
   nlohmann::ordered_json records = nlohmann::ordered_json::array();
-  std::string plot;  ///< for writePlot(); empty: there is nothing to draw
+  std::string plot;          ///< for writePlot(); empty: there is nothing to draw
+  bool interrupted = false;  ///< rows are missing: all that is written says so
 
   std::string markdown() const;
+  std::string csv() const;
+  std::string json() const;
 };
 
 /// Told what is being run and how much is done (0 to 1); returns false to stop early.

@@ -320,12 +320,14 @@ Comparison compare(const PreparedScene& scene, const std::vector<ComparisonRun>&
   Comparison comparison;
   comparison.build_ms = scene.buildTime();
   comparison.nominal = scene.nominal();
-  if (!progress(0, runs.size() + 1, "reference")) return comparison;
+  comparison.interrupted = !progress(0, runs.size() + 1, "reference");
+  if (comparison.interrupted) return comparison;
   comparison.reference = referenceFor(scene, base);
   OtherMethods others(scene);
   for (const ComparisonRun& run : runs) {
     const std::string what = run.method + " " + run.budget;
-    if (!progress(comparison.records.size() + 1, runs.size() + 1, what)) break;
+    comparison.interrupted = !progress(comparison.records.size() + 1, runs.size() + 1, what);
+    if (comparison.interrupted) break;
     comparison.records.push_back(recordOf(scene, others, run, seeds, comparison.reference));
   }
   return comparison;

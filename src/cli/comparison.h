@@ -66,6 +66,7 @@ struct Comparison {
   double build_ms = 0.0;
   NominalAnswer nominal;
   std::vector<ComparisonRecord> records;
+  bool interrupted = false;  ///< methods are missing
 };
 
 /// Told before every run: which, of how many, and what it is. Returning false stops the comparison.

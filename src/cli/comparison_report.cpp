@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/comparison_report.h"
 
+#include "base/known_text.h"
 #include "cli/json_values.h"
 #include "cli/number_text.h"
 #include "cli/text_table.h"
@@ -69,13 +70,15 @@ std::string tableOf(const Comparison& comparison) {
       if (refusals.find(line) == std::string::npos) refusals += line;
       continue;
     }
-    table.add({name, record.budget, number(record.value, 6), rangeOf(record.result),
+    table.add({name, record.budget, detail::knownText(record.result), rangeOf(record.result),
                relativeText(record.relative_error),
                relativeText(statedRelative(record, comparison.reference)),
                std::to_string(record.seeds), number(record.time_ms), record.status});
   }
-  return "reference: " + referenceText(comparison.reference) + "\n" + "trees built in " +
-         number(comparison.build_ms) +
+  const std::string interrupted =
+      comparison.interrupted ? "INTERRUPTED: methods are missing\n" : "";
+  return interrupted + "reference: " + referenceText(comparison.reference) + "\n" +
+         "trees built in " + number(comparison.build_ms) +
          " ms; errors of methods that sample are root mean squares over the seeds\n\n" +
          table.text() + refusals;
 }
@@ -97,7 +100,7 @@ std::string csvOf(const Comparison& comparison) {
                numberOrEmpty(record.relative_error), numberOrEmpty(record.stated_error),
                std::to_string(record.seeds), number(record.time_ms, kAllDigits), record.status});
   }
-  return table.csv();
+  return table.csv() + (comparison.interrupted ? "# interrupted: methods are missing\n" : "");
 }
 
 Json jsonOf(const Comparison& comparison) {
@@ -130,6 +133,7 @@ Json jsonOf(const Comparison& comparison) {
             {"time_ms", comparison.reference.time_ms}}},
           {"fcl", jsonOf(comparison.nominal)},
           {"build_ms", comparison.build_ms},
+          {"interrupted", comparison.interrupted},
           {"records", records}};
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "base/known_text.h"
 #include "cli/motion_scene.h"
 #include "cli/number_text.h"
 #include "cli/output.h"
@@ -31,8 +32,8 @@ RobotScene drawnSceneOf(const MotionExportArguments& arguments) {
 /// The numbers behind the colours, and what is not in the picture.
 void tell(const RobotQuery& query, const std::vector<MotionState>& shown) {
   for (const MotionState& state : shown) {
-    std::cerr << "fcl_prob: waypoint " << state.waypoint
-              << ": P = " << numberText(state.result.probability(), 3) << ", certainly in "
+    std::cerr << "fcl_prob: waypoint " << state.waypoint << ": P "
+              << detail::relationText(state.result.estimate, state.result.any) << ", certainly in "
               << intervalText(state.result.any) << '\n';
   }
   for (const Obstacle& obstacle : query.obstacles()) {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "base/known_text.h"
 #include "cli/drawn_shapes.h"
 #include "cli/number_text.h"
 #include "cli/picture_colours.h"
@@ -150,7 +151,8 @@ class MotionScene {
 
   static MeshGroup groupOf(const MotionState& state) {
     const RobotResult& result = state.result;
-    MeshGroup group{atWaypoint(state) + ": P = " + numberText(result.probability(), 3), {}, {}};
+    MeshGroup group{
+        atWaypoint(state) + ": P " + detail::relationText(result.estimate, result.any), {}, {}};
     group.notes = {{"waypoint", state.waypoint},
                    {"probability", result.probability()},
                    {"lower", result.any.lower},

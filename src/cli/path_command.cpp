@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/known_text.h"
 #include "base/stopwatch.h"
 #include "cli/gradient_report.h"
 #include "cli/json_values.h"
@@ -196,8 +197,9 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
 std::string textOf(const PathReport& report, const RobotScene& scene) {
   const RobotResult& result = report.result;
   const bool persistent = scene.errors == ErrorsOverTime::persistent;
-  std::string text = "P(the robot touches anything) " + numberText(result.probability(), 6) +
-                     ", certainly in " + intervalText(result.any) + "\n";
+  std::string text = "P(the robot touches anything) " +
+                     detail::knownText(result.estimate, result.any) + ", certainly in " +
+                     intervalText(result.any) + "\n";
   if (result.standard_error) {
     text += "standard error " + numberText(*result.standard_error, 3) + "\n";
   }
@@ -211,7 +213,7 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
     for (std::size_t i = 0; i < result.parts.size(); ++i) {
       const ProbabilityResult& part = result.parts[i];
       text += "  " + scene.obstacles[i].name + ": " +
-              intervalText({part.lower.value_or(0.0), part.upper.value_or(1.0)}) + "\n";
+              (part.upper ? intervalText(detail::boundsOf(part)) : "not asked for") + "\n";
     }
   }
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {

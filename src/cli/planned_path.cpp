@@ -17,6 +17,22 @@ ordered_json byJoint(const Eigen::VectorXd& values, const Robot& robot) {
   return json;
 }
 
+/// What is known of the largest P of a state: by the decisions alone, where a limit ended the plan
+/// before more was asked.
+std::string largestText(const CertifiedPlan& plan) {
+  if (plan.largest.lower > 0.0 || plan.largest.upper < plan.state_threshold) {
+    return "certainly in " + intervalText(plan.largest);
+  }
+  return "certainly below " + numberText(plan.state_threshold, 6) +
+         ", as decided; nothing nearer is known";
+}
+
+/// \param known  [0, 1] where nothing is
+std::string motionText(const Bounds& known) {
+  const bool unknown = known.lower <= 0.0 && known.upper >= 1.0;
+  return unknown ? "unknown, a limit was reached first" : "certainly in " + intervalText(known);
+}
+
 }  // namespace
 
 ordered_json planJson(const CertifiedPlan& plan, const Robot& robot) {
@@ -61,9 +77,8 @@ std::string planText(const CertifiedPlan& plan, const Robot& robot) {
           numberText(plan.path.length, 6) + " in joint space, " +
           numberText(plan.path.planned_length, 6) + " before it was shortened\n";
   if (plan.descended) text += "moved along the gradient of P to get below its threshold\n";
-  text += "largest P of a state: certainly in " + intervalText(plan.largest) + "\n";
-  text += "P of the whole motion, the same errors all along: certainly in " +
-          intervalText(plan.motion) + "\n";
+  text += "largest P of a state: " + largestText(plan) + "\n";
+  text += "P of the whole motion, the same errors all along: " + motionText(plan.motion) + "\n";
   return text + planCsv(plan, robot);
 }
 

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "base/known_text.h"
 #include "cli/json_values.h"
 
 namespace fcl_prob::cli {
@@ -101,7 +102,7 @@ Json jsonOf(const CheckReport& report) {
 std::string textOf(const CheckReport& report) {
   const ProbabilityResult& result = report.result;
   Lines line;
-  line("P(collision)") << std::setprecision(6) << result.probability();
+  line("P(collision)") << std::setprecision(6) << detail::knownText(result);
   addTrust(result, line);
   if (result.decision != Decision::none) {
     line("decision") << toString(result.decision) << " (threshold " << report.threshold << ")";

@@ -184,6 +184,10 @@ class CertifiedPlanner {
     plan.likeliest = largest.state;
     // By the decisions, which may have been closer to the threshold than the tolerance.
     plan.largest.upper = std::min(plan.largest.upper, plan.state_threshold);
+    // Where a limit ended one of the two, the other one may say more: the motion is no less likely
+    // than its states.
+    plan.motion.lower = std::max(plan.motion.lower, plan.largest.lower);
+    plan.largest.upper = std::min(plan.largest.upper, plan.motion.upper);
   }
 
   const RobotQuery& query_;

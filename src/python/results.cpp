@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/decision.h"
+#include "base/known_text.h"
 #include "fcl_prob/exceptions.h"
 #include "python/arrays.h"
 
@@ -135,7 +136,7 @@ ProbabilityResult resultFrom(const py::dict& dict) {
 std::string reprOf(const ProbabilityResult& result) {
   std::ostringstream text;
   text.precision(6);
-  text << "<ProbabilityResult P = " << result.probability();
+  text << "<ProbabilityResult P " << detail::relationText(result);
   if (result.standard_error) text << " ± " << *result.standard_error << " (standard error)";
   if (result.lower && result.upper) {
     text << ", certified in [" << *result.lower << ", " << *result.upper << "]";

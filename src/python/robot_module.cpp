@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/decision.h"
+#include "base/known_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_query.h"
 #include "fcl_prob/robot_scene.h"
@@ -119,7 +120,7 @@ void bindRobot(py::module_& module) {
 std::string reprOf(const RobotResult& result) {
   std::ostringstream text;
   text.precision(6);
-  text << "<RobotResult P = " << result.probability();
+  text << "<RobotResult P " << detail::relationText(result.estimate, result.any);
   if (result.standard_error) text << " ± " << *result.standard_error << " (standard error)";
   text << ", certified in [" << result.any.lower << ", " << result.any.upper << "]";
   if (result.decision != Decision::none) text << ", decision " << toString(result.decision);

@@ -12,12 +12,24 @@
 
 namespace fcl_prob::detail {
 
+/// How much of the limits of a request: of its time, its cells (general_pcd: pairs), its samples.
+struct Allowance {
+  double seconds = 0.0;  ///< infinite without a time limit
+  std::size_t cells = 0;
+  std::size_t samples = 0;
+
+  /// This part of it, from 0 to 1.
+  Allowance part(double of_it) const;
+};
+
 /// What is left of the limits of a request. The clock starts when this is made.
 class CallBudget {
  public:
   explicit CallBudget(const ProbabilityRequest& request) : request_(request) {}
 
   double seconds() const;
+
+  Allowance left() const;
 
   /// `time_limit` or `cell_limit` once nothing is left.
   std::optional<ProbabilityStatus> exhausted() const;
@@ -26,9 +38,10 @@ class CallBudget {
   /// to an even share: what one of them does not use is there for the next.
   void shareTime(std::size_t parts, ProbabilityRequest& part) const;
 
-  /// The same for the time limit, the cells (general_pcd: pairs) and the samples, of which each
-  /// part has at least one. Memory is given back after each part, so that each may have all of it.
-  void share(std::size_t parts, ProbabilityRequest& part) const;
+  /// The same for the time limit, the cells and the samples, of which each part has at least one.
+  /// Memory is given back after each part, so that each may have all of it.
+  /// \param kept_back  what the parts leave for later
+  void share(std::size_t parts, ProbabilityRequest& part, const Allowance& kept_back = {}) const;
 
   void spend(const ProbabilityStatistics& statistics);
 

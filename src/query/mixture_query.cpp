@@ -13,7 +13,7 @@
 
 #include "base/constants.h"
 #include "base/decision.h"
-#include "query/call_budget.h"
+#include "query/parts_loop.h"
 #include "query/tolerance_note.h"
 
 namespace fcl_prob::detail {
@@ -21,6 +21,9 @@ namespace {
 
 /// The first look at every component, to see which of them matter.
 constexpr double kCoarse = 0.3;
+
+/// Of the limits: what that may use.
+constexpr double kShareOfCoarse = 0.5;
 
 /// How often components are asked again whose standard errors do not add up to what was asked for.
 constexpr int kMostRounds = 4;
@@ -32,13 +35,20 @@ class MixtureQuery {
       : components_(mixture.components()),
         request_(request),
         query_(query),
-        budget_(request),
-        results_(components_.size()) {}
+        ask_([this](std::size_t i, const ProbabilityRequest& of_one) {
+          return query_(components_[i].displacement, of_one);
+        }),
+        combine_([this](const std::vector<Bounds>& parts) {
+          return weightedSum([&](std::size_t i) { return parts[i]; });
+        }),
+        loop_(request, ask_, combine_, std::vector<Bounds>(components_.size(), Bounds{0.0, 1.0}),
+              weightsOf(components_)) {
+    loop_.endWhen([this] { return decided(); });
+  }
 
   ProbabilityResult answer() {
     if (components_.size() == 1) {
-      results_[0] = query_(components_[0].displacement, request_);
-      ProbabilityResult result = *results_[0];
+      ProbabilityResult result = query_(components_[0].displacement, request_);
       result.plan.insert(result.plan.begin(), "mixture of 1 Gaussian");
       return result;
     }
@@ -50,6 +60,15 @@ class MixtureQuery {
   }
 
  private:
+  static std::vector<double> weightsOf(const std::vector<GaussianMixture::Component>& components) {
+    std::vector<double> weights;
+    for (const auto& component : components) weights.push_back(component.weight);
+    return weights;
+  }
+
+  /// The best of each component.
+  const std::vector<std::optional<ProbabilityResult>>& results() const { return loop_.answers(); }
+
   bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
   bool isSampled() const { return request_.method == ProbabilityMethod::rare_event; }
 
@@ -63,8 +82,7 @@ class MixtureQuery {
     ProbabilityRequest coarse = ofOne();
     coarse.relative_tolerance = std::max(kCoarse, request_.relative_tolerance);
     coarse.gradient = false;
-    const std::size_t count = components_.size();
-    for (std::size_t i = 0; i < count && !finished(); ++i) ask(i, 2 * count - i, coarse);
+    loop_.askEach([&](std::size_t) { return coarse; }, kShareOfCoarse);
   }
 
   void askFinely(int round) {
@@ -73,11 +91,11 @@ class MixtureQuery {
       fine.absolute_tolerance = toleranceOfOne() / (1 << round);
       fine.relative_tolerance = fine.absolute_tolerance > 0.0 ? 0.0 : request_.relative_tolerance;
     }
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < components_.size(); ++i) left += !isFine(i, fine);
-    for (std::size_t i = 0; i < components_.size() && !finished(); ++i) {
-      if (!isFine(i, fine)) ask(i, left--, fine);
-    }
+    const PartsLoop::Wanted finely = [&](std::size_t i) {
+      return isFine(i, fine) ? std::nullopt : std::make_optional(fine);
+    };
+    loop_.askEach(finely);
+    loop_.askAgain(finely);
   }
 
   /// Such that what all components leave open adds up to no more than the tolerance: widths by
@@ -93,62 +111,23 @@ class MixtureQuery {
     return request_.toleranceAt(kReserve * estimate) / std::sqrt(squares);
   }
 
-  /// The threshold is that of the sum, and so is the progress. The error probabilities of
-  /// confidence intervals add up to that of their sum.
-  ProbabilityRequest ofOne() {
+  /// The threshold is that of the sum. The error probabilities of confidence intervals add up to
+  /// that of their sum.
+  ProbabilityRequest ofOne() const {
     ProbabilityRequest request = request_;
     request.threshold.reset();
     const double error = (1.0 - request_.confidence) / static_cast<double>(components_.size());
     if (isSampled()) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
-    if (!request_.on_progress) return request;
-    request.on_progress = [this](const ProbabilityProgress& of_component) {
-      ProbabilityProgress progress = of_component;
-      progress.interval = interval();
-      progress.seconds = budget_.seconds();
-      const double queries = static_cast<double>(components_.size() * (looksTwice() ? 2 : 1));
-      fraction_ =
-          std::max(fraction_,
-                   std::min(1.0, (static_cast<double>(asked_) + of_component.fraction) / queries));
-      progress.fraction = fraction_;
-      cancelled_ = cancelled_ || !request_.on_progress(progress);
-      return !cancelled_;
-    };
     return request;
   }
 
   /// The answer so far is good enough.
   bool isFine(std::size_t i, const ProbabilityRequest& fine) const {
-    const auto& result = results_[i];
+    const auto& result = results()[i];
     if (!result || !looksTwice() || request_.gradient) return false;
     if (isEstimate()) return errorOf(i) <= fine.absolute_tolerance;
     return result->lower && result->upper &&
            *result->upper - *result->lower <= fine.absolute_tolerance;
-  }
-
-  /// \param left  components that are still to be asked, this one included
-  void ask(std::size_t i, std::size_t left, ProbabilityRequest request) {
-    budget_.share(left, request);
-    ProbabilityResult result = query_(components_[i].displacement, request);
-    budget_.spend(result.statistics);
-    addStatistics(result.statistics);
-    ++asked_;
-    if (results_[i] && results_[i]->lower && results_[i]->upper && result.lower && result.upper) {
-      // Both hold; one that was stopped may be the wider one.
-      result.lower = std::max(*result.lower, *results_[i]->lower);
-      result.upper = std::min(*result.upper, *results_[i]->upper);
-      const bool better = result.standard_error && results_[i]->standard_error &&
-                          *results_[i]->standard_error < *result.standard_error;
-      if (better) {
-        result.estimate = results_[i]->estimate;
-        result.standard_error = results_[i]->standard_error;
-      }
-    }
-    results_[i] = std::move(result);
-  }
-
-  bool finished() {
-    if (!limit_) limit_ = budget_.exhausted();
-    return cancelled_ || limit_ || decided();
   }
 
   bool decided() const {
@@ -157,10 +136,11 @@ class MixtureQuery {
     return now.upper < *request_.threshold || now.lower > *request_.threshold;
   }
 
-  Bounds weightedSum(const std::function<Bounds(const ProbabilityResult&)>& boundsOf) const {
+  template <typename BoundsOf>
+  Bounds weightedSum(const BoundsOf& boundsOf) const {
     Bounds sum;
     for (std::size_t i = 0; i < components_.size(); ++i) {
-      const Bounds one = results_[i] ? boundsOf(*results_[i]) : Bounds{0.0, 1.0};
+      const Bounds one = boundsOf(i);
       sum.lower += components_[i].weight * one.lower;
       sum.upper += components_[i].weight * one.upper;
     }
@@ -169,23 +149,19 @@ class MixtureQuery {
             std::min(1.0, sum.upper * (1.0 + rounding) + std::numeric_limits<double>::min())};
   }
 
-  Bounds interval() const {
-    return weightedSum([](const ProbabilityResult& one) {
-      return Bounds{one.lower.value_or(0.0), one.upper.value_or(1.0)};
-    });
-  }
+  Bounds interval() const { return combine_(loop_.bounds()); }
 
   /// What is certain of a component needs no confidence.
   Bounds confidenceInterval() const {
-    return weightedSum([](const ProbabilityResult& one) {
-      if (one.confidence_interval) return *one.confidence_interval;
-      return Bounds{one.lower.value_or(0.0), one.upper.value_or(1.0)};
+    return weightedSum([this](std::size_t i) {
+      const auto& one = results()[i];
+      return one && one->confidence_interval ? *one->confidence_interval : loop_.bounds()[i];
     });
   }
 
   /// Of a component that was not estimated: half of what is possible of it.
   double errorOf(std::size_t i) const {
-    const auto& one = results_[i];
+    const auto& one = results()[i];
     if (one && one->estimate) return one->standard_error.value_or(0.0);
     return one ? 0.5 * (one->upper.value_or(1.0) - one->lower.value_or(0.0)) : 0.5;
   }
@@ -193,7 +169,7 @@ class MixtureQuery {
   std::pair<double, double> estimateOfAll() const {
     double estimate = 0.0, variance = 0.0;
     for (std::size_t i = 0; i < components_.size(); ++i) {
-      const auto& one = results_[i];
+      const auto& one = results()[i];
       const double weight = components_[i].weight;
       const double middle = one ? 0.5 * (one->lower.value_or(0.0) + one->upper.value_or(1.0)) : 0.5;
       estimate += weight * (one && one->estimate ? *one->estimate : middle);
@@ -203,18 +179,18 @@ class MixtureQuery {
   }
 
   bool isEstimateTooCoarse() {
-    if (!isEstimate() || finished()) return false;
+    if (!isEstimate() || loop_.isOut() || decided()) return false;
     const auto [estimate, error] = estimateOfAll();
     return error > request_.toleranceAt(estimate);
   }
 
   bool all(const std::function<bool(const ProbabilityResult&)>& has) const {
-    return std::all_of(results_.begin(), results_.end(),
+    return std::all_of(results().begin(), results().end(),
                        [&has](const auto& result) { return result && has(*result); });
   }
 
   ProbabilityResult sum() {
-    const bool stopped = finished();
+    const bool stopped = loop_.isOut() || decided();
     ProbabilityResult total;
     const Bounds bounds = interval();
     if (isSampled()) {
@@ -231,8 +207,12 @@ class MixtureQuery {
       if (total.lower) total.estimate = std::clamp(*total.estimate, bounds.lower, bounds.upper);
     }
     if (all([](const auto& one) { return one.gradient.has_value(); })) addGradients(total);
-    total.statistics = statistics_;
-    total.method = results_[0] ? results_[0]->method : request_.method;
+    for (const auto& one : results()) {
+      if (!one) continue;
+      addStatistics(one->statistics, total.statistics);
+      total.statistics.cells_open += one->statistics.cells_open;
+    }
+    total.method = results()[0] ? results()[0]->method : request_.method;
     total.decision = decisionOf(total.confidence_interval.value_or(bounds), request_);
     total.status = statusOf(total);
     total.plan.push_back("mixture of " + std::to_string(components_.size()) +
@@ -248,11 +228,11 @@ class MixtureQuery {
   /// enough all the same.
   ProbabilityStatus statusOf(const ProbabilityResult& total) const {
     if (isDecided(total.decision)) return ProbabilityStatus::decided;
-    if (cancelled_) return ProbabilityStatus::cancelled;
+    if (loop_.out() == ProbabilityStatus::cancelled) return ProbabilityStatus::cancelled;
     const bool fine = isGoodEnough(total);
-    if (limit_ && !fine) return *limit_;
+    if (loop_.out() && !fine) return *loop_.out();
     std::optional<ProbabilityStatus> common;
-    for (const auto& result : results_) {
+    for (const auto& result : results()) {
       if (!result) return ProbabilityStatus::converged;
       const bool complete = result->status == ProbabilityStatus::exact ||
                             result->status == ProbabilityStatus::converged;
@@ -291,7 +271,7 @@ class MixtureQuery {
     Eigen::Vector3d lower = middle, upper = middle, size = middle, variance = middle;
     for (std::size_t i = 0; i < components_.size(); ++i) {
       const double weight = components_[i].weight;
-      const ProbabilityResult& one = *results_[i];
+      const ProbabilityResult& one = *results()[i];
       middle += weight * *one.gradient;
       if (sampled) variance += (weight * *one.gradient_standard_error).cwiseAbs2();
       if (!bounded) continue;
@@ -307,28 +287,12 @@ class MixtureQuery {
     total.gradient_upper = upper + size;
   }
 
-  void addStatistics(const ProbabilityStatistics& one) {
-    statistics_.cells += one.cells;
-    statistics_.cells_open += one.cells_open;
-    statistics_.pairs_tested += one.pairs_tested;
-    statistics_.leaf_pairs += one.leaf_pairs;
-    statistics_.peak_front = std::max(statistics_.peak_front, one.peak_front);
-    statistics_.peak_memory = std::max(statistics_.peak_memory, one.peak_memory);
-    statistics_.samples += one.samples;
-    statistics_.hits += one.hits;
-    statistics_.seconds.insert(statistics_.seconds.end(), one.seconds.begin(), one.seconds.end());
-  }
-
   const std::vector<GaussianMixture::Component>& components_;
   const ProbabilityRequest& request_;
   const GaussianQuery& query_;
-  CallBudget budget_;
-  std::vector<std::optional<ProbabilityResult>> results_;  ///< the best of each component
-  ProbabilityStatistics statistics_;                       ///< of all queries
-  std::size_t asked_ = 0;
-  double fraction_ = 0.0;
-  bool cancelled_ = false;
-  std::optional<ProbabilityStatus> limit_;
+  const PartsLoop::Ask ask_;
+  const PartsLoop::Combine combine_;
+  PartsLoop loop_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ constexpr double kRoundedKinematics = 1e-8;
 /// What one joint does in a step.
 struct JointShare {
   double change;   ///< |change of its value| to either side
+  double off;      ///< of that: what is not along the line of the step
   double lever;    ///< of a turning one no point is farther from its axis; else 1
   double rounded;  ///< what its value may be off
   bool turns;
@@ -36,24 +37,28 @@ std::vector<JointShare> sharesOf(const std::vector<CarryingJoint>& joints, const
   for (std::size_t j = joints.size(); j-- > 0;) {
     const CarryingJoint& joint = joints[j];
     const auto k = static_cast<Eigen::Index>(joint.joint);
-    const double change = std::fabs(joint.factor * step.half[k]);
-    const double value = std::fabs(joint.factor) * (step.sizes[k] + std::fabs(step.half[k])) +
-                         std::fabs(joint.offset);
+    const double off = std::fabs(joint.factor) * step.off[k];
+    const double change = std::fabs(joint.factor * step.half[k]) + off;
+    const double value =
+        std::fabs(joint.factor) * (step.sizes[k] + std::fabs(step.half[k]) + step.off[k]) +
+        std::fabs(joint.offset);
     const double lever =
         joint.turns ? distanceFromAxis(body.centre, joint) + body.radius + moved : 1.0;
-    shares[j] = {change, (1.0 + kRoundedKinematics) * lever, 8 * kEpsilon * value, joint.turns};
+    shares[j] = {change, off, (1.0 + kRoundedKinematics) * lever, 8 * kEpsilon * value,
+                 joint.turns};
     moved += change * shares[j].lever;
   }
   return shares;
 }
 
-// Half of the largest |d²x/ds²|.
+// Half of the largest |d²x/ds²| on the way to any of the values, and what joints do across the
+// line.
 double offTheLine(const std::vector<JointShare>& shares) {
   double sum = 0.0;
   double turned = 0.0;  // by the joints closer to the root
   for (const JointShare& share : shares) {
     const double own = share.turns ? share.change : 0.0;
-    sum += 0.5 * share.change * share.lever * (own + 2.0 * turned);
+    sum += 0.5 * share.change * share.lever * (own + 2.0 * turned) + share.off * share.lever;
     turned += own;
   }
   return sum;

@@ -9,18 +9,19 @@
 
 namespace fcl_prob::detail {
 
-/// Joint values middle + s * half, s from -1 to 1.
+/// Joint values middle + s * half + r, s from -1 to 1 and |r| <= off, joint by joint.
 struct JointStep {
   Eigen::VectorXd middle;
   Eigen::VectorXd half;
   Eigen::VectorXd sizes;  ///< of the numbers that the middle was made of: what it is rounded by
+  Eigen::VectorXd off;    ///< >= 0
 };
 
-/// All that a body does in a step. At every s a point of it is within `reach` of where it is in the
+/// All that a body does in a step. A point of it is always within `reach` of where it is in the
 /// middle, and more closely where `motion` says: along s times its velocity there, and off that by
-/// no more than half the largest acceleration. (For a chain of joints the acceleration is the sum
-/// of a_i × (a_j × (x - p_j)) over all pairs of them, j the one farther out, so that the lever arms
-/// bound it.)
+/// no more than half the largest acceleration and what the joints are off their line. (For a chain
+/// of joints the acceleration is the sum of a_i × (a_j × (x - p_j)) over all pairs of them, j the
+/// one farther out, so that the lever arms bound it.)
 struct BodySweep {
   fcl::Transform3d middle;  ///< pose of the body, world frame, metres
   PointMotion motion;

@@ -4,121 +4,122 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/decision.h"
 #include "fcl_prob/combined_bounds.h"
-#include "query/call_budget.h"
 
 namespace fcl_prob::detail {
 namespace {
 
+/// Of what a time limit leaves: what asking every event once may use. The rest is for those that it
+/// was not enough for.
+constexpr double kShareOfFirst = 0.5;
+
 class EventAnswers {
  public:
-  /// \param combine  null: the events are independent
-  EventAnswers(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask,
-               const CombineEvents* combine, std::vector<Bounds> known = {})
+  EventAnswers(std::vector<Bounds> known, const ProbabilityRequest& request,
+               const PartsLoop::Ask& ask, const PartsLoop::Combine& combine, bool independent)
       : request_(request),
-        ask_(ask),
         combine_(combine),
-        budget_(request),
-        bounds_(std::move(known)) {
-    bounds_.resize(count, Bounds{0.0, 1.0});
-    result_.parts.resize(count);
+        independent_(independent),
+        first_(request.time_limit && known.size() > 1 ? kShareOfFirst : 1.0),
+        loop_(request, ask, combine, std::move(known)) {
+    loop_.endWhen([this] { return isDecided(); });
   }
 
   RobotResult run() {
-    if (request_.threshold && bounds_.size() > 1) {
-      ProbabilityRequest share = request_;
-      share.threshold = *request_.threshold / static_cast<double>(bounds_.size());
-      askAll(share, [&](std::size_t i) { return !(bounds_[i].upper < *share.threshold); });
-      if (!combine_) askForWhatIsLeft();
-    }
+    const bool several = bounds().size() > 1;
+    if (several && request_.threshold) askForDecision();
     ProbabilityRequest fine = request_;
-    fine.absolute_tolerance /= static_cast<double>(bounds_.size());
-    if (bounds_.size() > 1) fine.threshold.reset();
-    askAll(fine, [this, &fine](std::size_t i) { return !isFine(result_.parts[i], fine); });
+    fine.absolute_tolerance /= static_cast<double>(bounds().size());
+    if (several) fine.threshold.reset();
+    const PartsLoop::Wanted finely = [this, &fine](std::size_t i) {
+      return isFine(loop_.answers()[i], fine) ? std::nullopt : std::make_optional(fine);
+    };
+    loop_.askEach(finely, first_);
+    loop_.endWhen([this] { return isDecided() || isWithinTolerance(); });
+    loop_.askAgain(finely);
+    if (several && !isEstimate()) narrowToDecide(fine);
     return finished();
   }
 
  private:
-  static bool isFine(const ProbabilityResult& part, const ProbabilityRequest& request) {
-    if (!part.upper) return false;
+  const std::vector<Bounds>& bounds() const { return loop_.bounds(); }
+  bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
+  Bounds any() const { return combine_(bounds()); }
+  bool isDecided() const { return detail::isDecided(decisionOf(any(), request_)); }
+
+  static bool isFine(const std::optional<ProbabilityResult>& part,
+                     const ProbabilityRequest& request) {
+    if (!part || !part->upper) return false;
     if (request.method == ProbabilityMethod::estimate) return false;
-    const double width = *part.upper - part.lower.value_or(0.0);
-    return width <= request.toleranceAt(*part.upper);
+    const double width = *part->upper - part->lower.value_or(0.0);
+    return width <= request.toleranceAt(*part->upper);
   }
 
-  template <typename Needed>
-  void askAll(const ProbabilityRequest& part, const Needed& is_needed) {
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < bounds_.size(); ++i) left += is_needed(i);
-    for (std::size_t i = 0; i < bounds_.size(); ++i) {
-      if (!is_needed(i)) continue;
-      if (isDecided() || isOut()) return;
-      askOne(i, part, left--);
-    }
-  }
-
-  bool isOut() {
-    if (!stopped_) stopped_ = budget_.exhausted();
-    return stopped_.has_value();
-  }
-
-  /// \param left  events that are still to be asked for, this one included
-  void askOne(std::size_t i, ProbabilityRequest request, std::size_t left) {
-    budget_.share(left, request);
-    ProbabilityResult answer;
-    ask_(i, request, answer);
-    budget_.spend(answer.statistics);
-    bounds_[i] = {std::max(bounds_[i].lower, answer.lower.value_or(0.0)),
-                  std::min(bounds_[i].upper, answer.upper.value_or(1.0))};
-    if (isStopped(answer.status)) stopped_ = answer.status;
-    result_.parts[i] = std::move(answer);
-  }
-
-  /// Of independent events: each against what the upper bounds of the others leave of the
-  /// threshold. Where one event has most of it, that decides.
-  void askForWhatIsLeft() {
-    std::vector<std::size_t> order(bounds_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [this](std::size_t x, std::size_t y) {
-      return bounds_[x].width() > bounds_[y].width();
-    });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const std::size_t i = order[k];
-      ProbabilityRequest part = request_;
-      *part.threshold = leftTo(i);
+  /// Each event against its share of the threshold; then, of independent ones, each against what
+  /// the upper bounds of the others leave of it: where one event has most of it, that decides.
+  void askForDecision() {
+    ProbabilityRequest part = request_;
+    const double share = *request_.threshold / static_cast<double>(bounds().size());
+    const PartsLoop::Wanted against_share = [&](std::size_t i) {
+      part.threshold = share;
+      return bounds()[i].upper < share ? std::nullopt : std::make_optional(part);
+    };
+    loop_.askEach(against_share, first_);
+    if (!independent_) return;
+    const PartsLoop::Wanted against_rest = [&](std::size_t i) {
+      part.threshold = leftTo(i);
       const bool may_tell =
-          *part.threshold > bounds_[i].lower && *part.threshold < bounds_[i].upper;
-      if (!may_tell) continue;
-      if (isDecided() || isOut()) return;
-      askOne(i, part, order.size() - k);
-    }
+          *part.threshold > bounds()[i].lower && *part.threshold < bounds()[i].upper;
+      return may_tell ? std::make_optional(part) : std::nullopt;
+    };
+    loop_.askEach(against_rest, first_);
   }
 
   double leftTo(std::size_t i) const {
     double free = 1.0;
-    for (std::size_t j = 0; j < bounds_.size(); ++j) free *= j == i ? 1.0 : 1.0 - bounds_[j].upper;
+    for (std::size_t j = 0; j < bounds().size(); ++j) {
+      free *= j == i ? 1.0 : 1.0 - bounds()[j].upper;
+    }
     return free > 0.0 ? 1.0 - (1.0 - *request_.threshold) / free : 0.0;
   }
 
-  static bool isStopped(ProbabilityStatus status) {
-    return status == ProbabilityStatus::cancelled || status == ProbabilityStatus::time_limit;
+  /// With a threshold only a decision or a limit is the end.
+  void narrowToDecide(const ProbabilityRequest& fine) {
+    if (!request_.threshold) return;
+    while (mayBeDecided() && loop_.narrowWidest(fine)) {
+    }
   }
 
-  bool isDecided() {
-    result_.any = combine_ ? (*combine_)(bounds_) : anyOfIndependent(bounds_);
-    result_.decision = decisionOf(result_.any, request_);
-    return detail::isDecided(result_.decision);
+  /// Not where the threshold is between what the events allow, however exactly they were known.
+  bool mayBeDecided() const {
+    std::vector<Bounds> least = bounds(), most = bounds();
+    for (Bounds& one : least) one.upper = one.lower;
+    for (Bounds& one : most) one.lower = one.upper;
+    return combine_(least).upper < *request_.threshold ||
+           combine_(most).lower > *request_.threshold;
   }
 
   RobotResult finished() {
-    const bool decided = isDecided();
-    if (!combine_) addEstimate();
-    result_.status = decided ? ProbabilityStatus::decided : statusOfParts();
+    result_.any = any();
+    result_.decision = decisionOf(result_.any, request_);
+    for (std::size_t i = 0; i < bounds().size(); ++i) result_.parts.push_back(partOf(i));
+    if (independent_) addEstimate();
+    result_.status =
+        detail::isDecided(result_.decision) ? ProbabilityStatus::decided : statusOfParts();
     return std::move(result_);
+  }
+
+  ProbabilityResult partOf(std::size_t i) const {
+    if (loop_.answers()[i]) return *loop_.answers()[i];
+    ProbabilityResult part;
+    if (!(bounds()[i].width() < 1.0)) return part;
+    part.lower = bounds()[i].lower;
+    part.upper = bounds()[i].upper;
+    part.plan.push_back("known by bounds only: more was not asked");
+    return part;
   }
 
   // Of 1 - Π(1 - e), to first order in the errors, which are independent.
@@ -144,43 +145,59 @@ class EventAnswers {
     result_.standard_error = std::sqrt(variance);
   }
 
-  ProbabilityStatus statusOfParts() const {
-    if (stopped_) return *stopped_;
-    ProbabilityStatus common = ProbabilityStatus::exact;
+  ProbabilityStatus statusOfParts() {
+    if (isWithinTolerance() && isAskedOfAll()) return commonStatus();
+    if (loop_.isOut()) return *loop_.out();
     for (const ProbabilityResult& part : result_.parts) {
       if (!isAnswered(part.status)) return part.status;
-      if (part.status != ProbabilityStatus::exact) common = ProbabilityStatus::converged;
     }
-    if (common == ProbabilityStatus::exact || combine_ || isWithinTolerance()) return common;
+    const ProbabilityStatus common = commonStatus();
+    if (common == ProbabilityStatus::exact || !independent_ || request_.threshold) return common;
     return ProbabilityStatus::resolution_limit;
   }
 
+  bool isAskedOfAll() const {
+    return std::all_of(loop_.answers().begin(), loop_.answers().end(),
+                       [](const auto& answer) { return answer.has_value(); });
+  }
+
+  ProbabilityStatus commonStatus() const {
+    const bool exact = std::all_of(
+        result_.parts.begin(), result_.parts.end(),
+        [](const ProbabilityResult& part) { return part.status == ProbabilityStatus::exact; });
+    return exact ? ProbabilityStatus::exact : ProbabilityStatus::converged;
+  }
+
+  /// Of the whole; without a threshold, which only a decision satisfies, and of independent events.
   bool isWithinTolerance() const {
-    const bool sampled = result_.estimate && request_.method == ProbabilityMethod::estimate;
-    const double error = sampled ? *result_.standard_error : result_.any.width();
-    const double size = sampled ? *result_.estimate : result_.any.upper;
+    if (request_.threshold || !independent_) return false;
+    const bool sampled = result_.estimate && isEstimate();
+    if (isEstimate() && !sampled) return false;
+    const Bounds whole = any();
+    const double error = sampled ? *result_.standard_error : whole.width();
+    const double size = sampled ? *result_.estimate : whole.upper;
     return error <= request_.toleranceAt(size);
   }
 
   const ProbabilityRequest& request_;
-  const AskEvent& ask_;
-  const CombineEvents* combine_;
-  CallBudget budget_;
-  std::vector<Bounds> bounds_;
+  const PartsLoop::Combine& combine_;
+  const bool independent_;
+  const double first_;
+  PartsLoop loop_;
   RobotResult result_;
-  std::optional<ProbabilityStatus> stopped_;
 };
 
 }  // namespace
 
-RobotResult anyOfAsked(std::size_t count, const ProbabilityRequest& request, const AskEvent& ask,
-                       std::vector<Bounds> known) {
-  return EventAnswers(count, request, ask, nullptr, std::move(known)).run();
+RobotResult anyOfAsked(std::vector<Bounds> known, const ProbabilityRequest& request,
+                       const PartsLoop::Ask& ask) {
+  const PartsLoop::Combine independent = &anyOfIndependent;
+  return EventAnswers(std::move(known), request, ask, independent, true).run();
 }
 
-RobotResult anyOfDependent(std::size_t count, const ProbabilityRequest& request,
-                           const AskEvent& ask, const CombineEvents& combine) {
-  return EventAnswers(count, request, ask, &combine).run();
+RobotResult anyOfDependent(std::vector<Bounds> known, const ProbabilityRequest& request,
+                           const PartsLoop::Ask& ask, const PartsLoop::Combine& combine) {
+  return EventAnswers(std::move(known), request, ask, combine, false).run();
 }
 
 }  // namespace fcl_prob::detail

@@ -50,6 +50,16 @@ ProbabilityResult ofGroup(const ObstacleAmongBodies& scene, const ObstacleState&
       state.displacement);
 }
 
+/// The request whose on_progress hears of all bodies, `far` being what is left out may add.
+ProbabilityRequest tellingOfAll(ProbabilityRequest request, double far) {
+  if (!request.on_progress || !(far > 0.0)) return request;
+  request.on_progress = [far, told = std::move(request.on_progress)](ProbabilityProgress progress) {
+    progress.interval.upper = std::min(1.0, sumAbove(progress.interval.upper, far));
+    return told(progress);
+  };
+  return request;
+}
+
 /// Far apart as far as half-spaces tell.
 ProbabilityResult allUnlikely(double upper) {
   ProbabilityResult result;
@@ -84,7 +94,8 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   if (likelier.size() == bodies.size() || !(left > 0.0)) return std::nullopt;
   ProbabilityRequest of_likelier = request;
   of_likelier.threshold = left;
-  ProbabilityResult result = ofGroup(scene, state, likelier, of_likelier);
+  ProbabilityResult result =
+      ofGroup(scene, state, likelier, tellingOfAll(std::move(of_likelier), left_out));
   const double upper = std::min(1.0, sumAbove(*result.upper, left_out));
   result.upper = upper;
   result.decision = decisionOf({*result.lower, std::min(1.0, sumAbove(upper, far))}, request);
@@ -141,7 +152,7 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   // What is left out widens the interval, too.
-  ProbabilityRequest of_near = request;
+  ProbabilityRequest of_near = tellingOfAll(request, far);
   if (far > 0.0) {
     of_near.absolute_tolerance *= 1.0 - kShareOfFar;
     of_near.relative_tolerance *= 1.0 - kShareOfFar;

@@ -30,6 +30,15 @@ using detail::Ball;
 using detail::FarBodies;
 using detail::PlacedBody;
 
+// More bodies at waypoints than these are not taken together at once, but as what they sweep over
+// many waypoints first, so that there are bounds long before each of them has been looked at.
+constexpr std::size_t kMostTogether = 400;
+
+// What is between waypoints is asked for after the waypoints, to this tolerance and with this share
+// of the limits.
+constexpr double kToleranceOfWaypoints = 0.1;
+constexpr double kShareOfWaypoints = 0.125;
+
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
 
@@ -154,6 +163,15 @@ struct RobotQuery::Implementation {
     return result;
   }
 
+  /// What half-spaces say of an event, before any of `count` is asked. (A single one begins with
+  /// them itself, and estimates are of what is likely.)
+  Bounds cheapBounds(std::size_t obstacle, const ObstacleState& state,
+                     std::vector<PlacedBody> bodies, std::size_t count,
+                     const ProbabilityRequest& request) const {
+    if (count == 1 || request.method == ProbabilityMethod::estimate) return {0.0, 1.0};
+    return {0.0, detail::unlikelyUpper(sceneOf(obstacle), state, std::move(bodies))};
+  }
+
   ProbabilityResult askObstacle(std::size_t index, const ObstacleState& state,
                                 std::vector<PlacedBody> bodies, const ProbabilityRequest& request,
                                 FarBodies& left_out) const {
@@ -185,23 +203,51 @@ struct RobotQuery::Implementation {
     return relative;
   }
 
+  /// One obstacle, whose error is the same at all waypoints. \param body  < 0: all of them
+  ProbabilityResult askUnion(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
+                             int body, const std::vector<PlacedBody>& relative,
+                             const ProbabilityRequest& request, FarBodies& far) const {
+    if (relative.size() <= kMostTogether || request.method == ProbabilityMethod::estimate) {
+      return askObstacle(index, detail::stateAt(obstacles[index], 0), relative, request, far);
+    }
+    detail::SweptAnswer answer = askSwept(
+        index, sweptPath(index, waypoints, body, BetweenWaypoints::ignored), {0.0, 1.0}, request);
+    far = {answer.far, answer.far_upper};
+    return std::move(answer.result);
+  }
+
+  detail::SweptPath sweptPath(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
+                              int body, BetweenWaypoints between) const {
+    std::vector<std::size_t> bodies;
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      const bool wanted = body < 0 || i == static_cast<std::size_t>(body);
+      if (wanted && meets(i, index)) bodies.push_back(i);
+    }
+    return {robot, balls, waypoints, std::move(bodies), obstacles[index], between};
+  }
+
+  detail::SweptAnswer askSwept(std::size_t index, const detail::SweptPath& path,
+                               const Bounds& known, const ProbabilityRequest& request) const {
+    const ObstacleState state = detail::stateAt(obstacles[index], 0);
+    return detail::sweptMotion(path, geometries,
+                               {*obstacle_geometries[index], state.pose, state.displacement},
+                               obstacle_balls[index].placed(state.pose),
+                               detail::kShareOfFar * request.absolute_tolerance, known, request);
+  }
+
   RobotResult ofUnion(const std::vector<Eigen::VectorXd>& waypoints, int body,
                       const ProbabilityRequest& request) const {
     const auto relative = relativeTo(waypoints, body);
     std::vector<FarBodies> far(obstacles.size());
-    // A decision for a single obstacle begins with those bounds itself.
     std::vector<Bounds> known;
-    const bool is_sum = request.threshold && request.method != ProbabilityMethod::estimate;
-    for (std::size_t i = 0; i < obstacles.size() && is_sum && obstacles.size() > 1; ++i) {
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
       known.push_back(
-          {0.0, detail::unlikelyUpper(sceneOf(i), detail::stateAt(obstacles[i], 0), relative[i])});
+          cheapBounds(i, detail::stateAt(obstacles[i], 0), relative[i], obstacles.size(), request));
     }
     RobotResult result = detail::anyOfAsked(
-        obstacles.size(), request,
-        [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
-          answer = askObstacle(i, detail::stateAt(obstacles[i], 0), relative[i], of_one, far[i]);
-        },
-        std::move(known));
+        std::move(known), request, [&](std::size_t i, const ProbabilityRequest& of_one) {
+          return askUnion(i, waypoints, body, relative[i], of_one, far[i]);
+        });
     addUp(far, result);
     return result;
   }
@@ -281,15 +327,20 @@ struct RobotQuery::Implementation {
                           const ProbabilityRequest& request) const {
     const std::size_t count = obstacles.size();
     std::vector<FarBodies> far(waypoints.size() * count);
-    const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one,
-                         ProbabilityResult& answer) {
-      const std::size_t k = i / count;
-      answer = askObstacle(i % count, detail::stateAt(obstacles[i % count], k),
-                           placed(waypoints[k]), of_one, far[i]);
+    const auto stateOf = [&](std::size_t i) {
+      return detail::stateAt(obstacles[i % count], i / count);
     };
+    const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one) {
+      return askObstacle(i % count, stateOf(i), placed(waypoints[i / count]), of_one, far[i]);
+    };
+    std::vector<Bounds> known;
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      known.push_back(
+          cheapBounds(i % count, stateOf(i), placed(waypoints[i / count]), far.size(), request));
+    }
     RobotResult result = errors == ErrorsOverTime::independent
-                             ? detail::anyOfAsked(far.size(), request, ask)
-                             : detail::anyOfDependent(far.size(), request, ask,
+                             ? detail::anyOfAsked(std::move(known), request, ask)
+                             : detail::anyOfDependent(std::move(known), request, ask,
                                                       [count](const std::vector<Bounds>& events) {
                                                         return ofAnyDependence(events, count);
                                                       });
@@ -298,27 +349,50 @@ struct RobotQuery::Implementation {
     return result;
   }
 
+  /// What the waypoints say, soon: at any time P is at least that.
+  ProbabilityResult atWaypoints(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
+                                const std::vector<PlacedBody>& relative,
+                                const detail::CallBudget& budget,
+                                const ProbabilityRequest& request) const {
+    ProbabilityRequest soon = request;
+    soon.threshold.reset();
+    soon.relative_tolerance = std::max(kToleranceOfWaypoints, request.relative_tolerance);
+    budget.share(1, soon, budget.left().part(1.0 - kShareOfWaypoints));
+    if (request.on_progress) {
+      soon.on_progress = [&request](ProbabilityProgress progress) {
+        progress.interval.upper = 1.0;
+        return request.on_progress(progress);
+      };
+    }
+    FarBodies far;
+    return askUnion(index, waypoints, -1, relative, soon, far);
+  }
+
   /// At any time: what the bodies sweep between the waypoints, too.
   RobotResult ofAllTimes(const std::vector<Eigen::VectorXd>& waypoints,
                          const ProbabilityRequest& request) const {
-    std::vector<detail::SweptPath> paths;
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      std::vector<std::size_t> bodies;
-      for (std::size_t body = 0; body < geometries.size(); ++body) {
-        if (meets(body, i)) bodies.push_back(body);
-      }
-      paths.emplace_back(robot, balls, waypoints, std::move(bodies), obstacles[i]);
-    }
+    const auto relative = relativeTo(waypoints, -1);
     std::vector<detail::SweptAnswer> answers(obstacles.size());
+    std::vector<std::optional<Bounds>> known(obstacles.size());
     RobotResult result = detail::anyOfAsked(
-        obstacles.size(), request,
-        [&](std::size_t i, const ProbabilityRequest& of_one, ProbabilityResult& answer) {
-          const ObstacleState state = detail::stateAt(obstacles[i], 0);
-          answers[i] = detail::sweptMotion(
-              paths[i], geometries, {*obstacle_geometries[i], state.pose, state.displacement},
-              obstacle_balls[i].placed(state.pose), detail::kShareOfFar * of_one.absolute_tolerance,
-              of_one);
-          answer = answers[i].result;
+        std::vector<Bounds>(obstacles.size(), Bounds{0.0, 1.0}), request,
+        [&](std::size_t i, const ProbabilityRequest& of_one) {
+          detail::CallBudget budget(of_one);
+          ProbabilityStatistics statistics;
+          if (!known[i]) {
+            const ProbabilityResult soon = atWaypoints(i, waypoints, relative[i], budget, of_one);
+            known[i] = {soon.lower.value_or(0.0), 1.0};
+            statistics = soon.statistics;
+            budget.spend(statistics);
+          }
+          ProbabilityRequest rest = of_one;
+          budget.share(1, rest);
+          answers[i] =
+              askSwept(i, sweptPath(i, waypoints, -1, BetweenWaypoints::swept), *known[i], rest);
+          ProbabilityResult& answer = answers[i].result;
+          known[i] = {*answer.lower, *answer.upper};
+          detail::addStatistics(statistics, answer.statistics);
+          return answer;
         });
     result.swept_band = 0.0;
     for (const detail::SweptAnswer& answer : answers) {

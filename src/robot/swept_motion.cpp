@@ -8,19 +8,16 @@
 #include <utility>
 
 #include "base/decision.h"
-#include "query/call_budget.h"
+#include "query/parts_loop.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {
 
 /// Distances are made smaller so many times at most, and by these factors.
-constexpr int kMostRounds = 20;
-constexpr double kMostShrunk = 0.125;
+constexpr int kMostRounds = 40;
+constexpr double kMostShrunk = 0.25;
 constexpr double kLeastShrunk = 0.5;
-
-/// A half that reaches this part of its step, or more, does so by rounding.
-constexpr double kMostOfHalf = 0.8;
 
 /// How narrow an interval is asked for while the steps are still long: of P, and of what the last
 /// interval says of the next one.
@@ -57,7 +54,7 @@ class SweptMotion {
  public:
   SweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
               const PlacedObstacle& obstacle, const Ball& around_obstacle, double most_far,
-              const ProbabilityRequest& request)
+              const Bounds& known, const ProbabilityRequest& request)
       : path_(path),
         geometries_(geometries),
         obstacle_(obstacle),
@@ -65,24 +62,23 @@ class SweptMotion {
         most_far_(most_far),
         request_(request),
         budget_(request),
-        near_(path.wholeSteps()) {
-    for (SweptBody& step : near_) step.far_upper = farUpper(step);
+        known_(known) {
+    answer_.result.method = ProbabilityMethod::interval;
   }
 
   SweptAnswer run() {
+    for (SweptBody& step : path_.wholeSteps()) add(std::move(step));
     double distance = firstDistance();
     for (int round = 0; round < kMostRounds; ++round) {
-      const SweptAnswer before = answer_;
-      if (!halveTo(distance)) {
-        answer_ = before;
-        return finished(budget_.exhausted().value_or(ProbabilityStatus::memory_limit));
-      }
+      const bool has_room = halveTo(distance);
+      if (const auto status = budget_.exhausted()) return finished(*status);
       const ProbabilityResult answer = ask();
       keep(answer);
       if (const auto status = isEnough()) return finished(*status);
       if (stops(answer.status)) return finished(answer.status);
       if (const auto status = budget_.exhausted()) return finished(*status);
       if (!(answer_.reach > 0.0)) return finished(answer.status);
+      if (!has_room) return finished(ProbabilityStatus::memory_limit);
       if (answer_.reach > distance) break;
       distance = answer_.reach * shrunk();
     }
@@ -90,107 +86,118 @@ class SweptMotion {
   }
 
  private:
-  double farUpper(const SweptBody& step) const {
-    return farContactUpper(step.sweep.around, around_obstacle_, obstacle_.displacement);
+  static bool isShorter(const SweptBody& x, const SweptBody& y) {
+    return x.sweep.reach < y.sweep.reach;
   }
 
   /// Within its share of what may be left out.
   bool isFar(const SweptBody& step) const { return step.far_upper <= most_far_ * step.weight; }
 
+  double bytesOf(const SweptBody& step) const {
+    return static_cast<double>(memoryOf({step}, geometries_) + sizeof(SweptBody));
+  }
+
+  /// To the steps that are to be halved, the longest first, unless it is far.
+  void add(SweptBody step) {
+    step.far_upper = farContactUpper(step.sweep.around, around_obstacle_, obstacle_.displacement);
+    if (isFar(step)) {
+      far_ += path_.statesIn(step);
+      far_upper_ = sumAbove(far_upper_, step.far_upper);
+      return;
+    }
+    bytes_ += bytesOf(step);
+    near_.push_back(std::move(step));
+    std::push_heap(near_.begin(), near_.end(), isShorter);
+  }
+
   double firstDistance() const {
     const double deviation =
         std::visit([](const auto& one) { return deviationOf(one); }, obstacle_.displacement);
     if (deviation > 0.0) return deviation;
-    double longest = 0.0;
-    for (const SweptBody& step : near_) longest = std::max(longest, step.sweep.reach);
-    return kLeastShrunk * longest;
+    return near_.empty() ? 0.0 : kLeastShrunk * near_.front().sweep.reach;
   }
 
-  /// Half the way is half the reach, but for what rounding adds to it.
-  static bool isWorthHalving(const SweptBody& step, const std::vector<SweptBody>& halves) {
-    return std::all_of(halves.begin(), halves.end(), [&](const SweptBody& half) {
-      return half.sweep.reach < kMostOfHalf * step.sweep.reach;
-    });
-  }
-
-  /// False if there are more steps than memory or time allows.
+  /// Halves the longest steps. \return  false if memory is full before all are short enough
   bool halveTo(double distance) {
-    std::vector<SweptBody> left = std::move(near_);
-    near_.clear();
-    answer_.reach = 0.0;
     const double most = kShareOfTrees * static_cast<double>(request_.max_memory);
-    double bytes = 0.0;
-    for (std::size_t i = 0; !left.empty(); ++i) {
+    for (std::size_t i = 0; !near_.empty() && near_.front().sweep.reach > distance; ++i) {
       if (i % kStepsBetweenLooks == 0 && budget_.exhausted()) return false;
-      SweptBody step = std::move(left.back());
-      left.pop_back();
-      if (isFar(step)) {
-        ++answer_.far;
-        answer_.far_upper = sumAbove(answer_.far_upper, step.far_upper);
+      if (bytes_ + bytesOf(near_.front()) > most) return false;
+      std::pop_heap(near_.begin(), near_.end(), isShorter);
+      SweptBody step = std::move(near_.back());
+      near_.pop_back();
+      std::vector<SweptBody> halves = path_.halvesOf(step);
+      if (halves.empty()) {
+        shortest_.push_back(std::move(step));
         continue;
       }
-      if (step.sweep.reach > distance) {
-        std::vector<SweptBody> halves = path_.halvesOf(step);
-        if (isWorthHalving(step, halves)) {
-          for (SweptBody& half : halves) {
-            half.far_upper = farUpper(half);
-            left.push_back(std::move(half));
-          }
-          continue;
-        }
-      }
-      bytes += static_cast<double>(memoryOf({step}, geometries_) + sizeof(SweptBody));
-      if (bytes > most) return false;
-      answer_.reach = std::max(answer_.reach, step.sweep.reach);
-      near_.push_back(std::move(step));
+      bytes_ -= bytesOf(step);
+      for (SweptBody& half : halves) add(std::move(half));
     }
-    answer_.steps = near_.size();
     return true;
   }
 
-  ProbabilityResult ask() const {
+  ProbabilityResult ask() {
+    std::vector<SweptBody> steps = shortest_;
+    steps.insert(steps.end(), near_.begin(), near_.end());
+    answer_.steps = steps.size();
+    answer_.reach = 0.0;
+    for (const SweptBody& step : steps) answer_.reach = std::max(answer_.reach, step.sweep.reach);
+    answer_.far = far_;
+    answer_.far_upper = far_upper_;
     ProbabilityResult none;
     none.lower = 0.0;
     none.upper = 0.0;
     none.status = ProbabilityStatus::exact;
-    if (near_.empty()) return none;
+    if (steps.empty()) return none;
     ProbabilityRequest of_round = request_;
     budget_.share(1, of_round);
     if (answer_.reach > 0.0) {
       of_round.relative_tolerance *= kShareOfCells;
       of_round.absolute_tolerance =
           std::max(kShareOfCells * request_.absolute_tolerance, expected_);
+      if (request_.threshold) of_round.relative_tolerance = 0.0;
       if (!asked_) of_round.relative_tolerance = std::max(of_round.relative_tolerance, kCoarse);
+      // Steps that are too long may not tell it, however long they are asked.
+      of_round.threshold.reset();
     }
-    return sweptProbability(near_, geometries_, obstacle_, of_round);
+    watch(of_round);
+    return sweptProbability(steps, geometries_, obstacle_, of_round);
+  }
+
+  /// Ends a round that has decided the threshold, and makes its progress that of the motion.
+  void watch(ProbabilityRequest& of_round) const {
+    if (!request_.on_progress && !request_.threshold) return;
+    of_round.on_progress = [this](ProbabilityProgress progress) {
+      const Bounds now = narrowed(progress.interval);
+      progress.interval = now;
+      progress.seconds = budget_.seconds();
+      if (request_.on_progress && !request_.on_progress(progress)) return false;
+      return !isDecided(decisionOf(now, request_));
+    };
+  }
+
+  /// What is known, with what steps tell that are not far.
+  Bounds narrowed(const Bounds& of_near) const {
+    return {std::max(known_.lower, of_near.lower),
+            std::min(known_.upper, sumAbove(of_near.upper, far_upper_))};
   }
 
   /// The best bounds of all rounds.
   void keep(const ProbabilityResult& answer) {
     budget_.spend(answer.statistics);
-    const Bounds before{answer_.result.lower.value_or(0.0), answer_.result.upper.value_or(1.0)};
-    const double upper = sumAbove(answer.upper.value_or(1.0), answer_.far_upper);
+    known_ = narrowed({answer.lower.value_or(0.0), answer.upper.value_or(1.0)});
     ProbabilityStatistics statistics = answer.statistics;
-    statistics.cells += answer_.result.statistics.cells;
-    statistics.pairs_tested += answer_.result.statistics.pairs_tested;
+    addStatistics(answer_.result.statistics, statistics);
     answer_.result = answer;
     answer_.result.statistics = std::move(statistics);
-    answer_.result.lower = std::max(before.lower, answer.lower.value_or(0.0));
-    answer_.result.upper = std::min({before.upper, upper, 1.0});
     asked_ = true;
   }
 
-  Bounds known() const { return {*answer_.result.lower, *answer_.result.upper}; }
-
-  std::optional<ProbabilityStatus> isEnough() {
-    const Decision decision = decisionOf(known(), request_);
-    answer_.result.decision = decision;
-    if (isDecided(decision)) {
-      return ProbabilityStatus::decided;
-    }
-    if (known().width() <= request_.toleranceAt(known().upper)) {
-      return ProbabilityStatus::converged;
-    }
+  std::optional<ProbabilityStatus> isEnough() const {
+    if (isDecided(decisionOf(known_, request_))) return ProbabilityStatus::decided;
+    if (request_.threshold) return std::nullopt;
+    if (known_.width() <= request_.toleranceAt(known_.upper)) return ProbabilityStatus::converged;
     return std::nullopt;
   }
 
@@ -202,19 +209,17 @@ class SweptMotion {
 
   /// What steps add to the interval falls between in proportion to their length and to its square.
   double shrunk() {
-    const double width = known().width();
-    const double wanted = request_.toleranceAt(known().upper);
+    const double width = known_.width();
+    const double wanted = request_.toleranceAt(known_.upper);
     const double factor = std::clamp(0.7 * std::sqrt(wanted / width), kMostShrunk, kLeastShrunk);
     expected_ = kShareOfNext * factor * factor * width;
     return factor;
   }
 
   SweptAnswer finished(ProbabilityStatus status) {
-    if (!asked_) {
-      answer_.result.lower = 0.0;
-      answer_.result.upper = 1.0;
-      answer_.result.decision = decisionOf({0.0, 1.0}, request_);
-    }
+    answer_.result.lower = known_.lower;
+    answer_.result.upper = known_.upper;
+    answer_.result.decision = decisionOf(known_, request_);
     answer_.result.method = ProbabilityMethod::interval;
     answer_.result.status = status;
     return std::move(answer_);
@@ -227,7 +232,12 @@ class SweptMotion {
   double most_far_;
   const ProbabilityRequest& request_;
   CallBudget budget_;
-  std::vector<SweptBody> near_;
+  Bounds known_;
+  std::vector<SweptBody> near_;      ///< a heap by reach
+  std::vector<SweptBody> shortest_;  ///< as short as steps get
+  double bytes_ = 0.0;               ///< of the trees of all steps
+  std::size_t far_ = 0;
+  double far_upper_ = 0.0;
   SweptAnswer answer_;
   double expected_ = 0.0;  ///< a tolerance that the next round can use
   bool asked_ = false;
@@ -237,8 +247,8 @@ class SweptMotion {
 
 SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
                         const PlacedObstacle& obstacle, const Ball& around_obstacle,
-                        double most_far, const ProbabilityRequest& request) {
-  return SweptMotion(path, geometries, obstacle, around_obstacle, most_far, request).run();
+                        double most_far, const Bounds& known, const ProbabilityRequest& request) {
+  return SweptMotion(path, geometries, obstacle, around_obstacle, most_far, known, request).run();
 }
 
 }  // namespace fcl_prob::detail

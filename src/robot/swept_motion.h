@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Continuous time: the steps of a motion are halved until what they sweep says enough.
+// The steps of a motion are halved until what they sweep says enough.
 #pragma once
 
 #include "robot/swept_query.h"
@@ -11,19 +11,20 @@ struct SweptAnswer {
   ProbabilityResult result;
   double reach = 0.0;      ///< metres: of the longest step that was looked at last
   std::size_t steps = 0;   ///< looked at last
-  std::size_t far = 0;     ///< of steps, left out
+  std::size_t far = 0;     ///< left out: steps, or waypoints of bodies where only those count
   double far_upper = 0.0;  ///< of all that was left out
 };
 
-/// P(the motion touches one obstacle at any time), whose error is the same all along.
+/// P(the motion, or one of its waypoints, touches one obstacle), whose error is the same all along.
 ///
 /// The steps of every body are halved until no point moves farther than some distance from the
 /// middle of its step, but for those that are too far from the obstacle to matter; one partition
-/// answers for all of them. Where the interval is too wide the distance is made smaller. Every
-/// answer holds, and so do the best bounds of all.
+/// answers for all of them. Where the interval is too wide the distance is made smaller, as far as
+/// memory allows. Every answer holds, and so do the best bounds of all.
 /// \param most_far  what may be left out
+/// \param known     what is certain before
 SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
                         const PlacedObstacle& obstacle, const Ball& around_obstacle,
-                        double most_far, const ProbabilityRequest& request);
+                        double most_far, const Bounds& known, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

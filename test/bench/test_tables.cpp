@@ -235,3 +235,19 @@ TEST_CASE("bench lists its tables and refuses others", "[cli]") {
   CHECK(fcl_prob_test::runCommand({"bench", "nothing", "--models", "."}, folder).refused());
   CHECK(fcl_prob_test::runCommand({"bench", "certified", "--models", "."}, folder).refused());
 }
+
+TEST_CASE("a table that was interrupted says so in whatever is written of it", "[cli]") {
+  BenchReport report;
+  report.title = "Some";
+  report.table = TextTable({"a", "b"});
+  report.table.add({"1", "2"});
+  report.records.push_back({{"a", 1}});
+  for (const bool interrupted : {false, true}) {
+    report.interrupted = interrupted;
+    for (const std::string& text : {report.markdown(), report.csv(), report.json()}) {
+      CAPTURE(text);
+      CHECK((text.find("nterrupted") != std::string::npos) == interrupted);
+    }
+    CHECK(nlohmann::json::parse(report.json()).size() == (interrupted ? 2 : 1));
+  }
+}

@@ -138,3 +138,15 @@ TEST_CASE("tables as text, Markdown and CSV", "[cli]") {
   CHECK(table.markdown() == "| a | long |\n| --- | --- |\n| 1,5 | x\"y |\n");
   CHECK(table.csv() == "a,long\n\"1,5\",\"x\"\"y\"\n");
 }
+
+TEST_CASE("a comparison that was interrupted says so in whatever is written of it", "[cli]") {
+  for (const bool interrupted : {false, true}) {
+    fcl_prob::cli::Comparison comparison;
+    comparison.interrupted = interrupted;
+    const std::string table = fcl_prob::cli::tableOf(comparison);
+    const std::string csv = fcl_prob::cli::csvOf(comparison);
+    CHECK((table.find("INTERRUPTED") != std::string::npos) == interrupted);
+    CHECK((csv.find("interrupted") != std::string::npos) == interrupted);
+    CHECK(fcl_prob::cli::jsonOf(comparison).at("interrupted") == interrupted);
+  }
+}

@@ -77,7 +77,8 @@ TEST_CASE("no point of a body leaves what its sweep says") {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   double closest_reach = 0.0, closest_ball = 0.0;
   for (int i = 0; i < 300; ++i) {
-    detail::JointStep step{randomValues(arm, random), Eigen::VectorXd::Zero(6), {}};
+    detail::JointStep step{
+        randomValues(arm, random), Eigen::VectorXd::Zero(6), {}, Eigen::VectorXd::Zero(6)};
     const double size = std::pow(10.0, -3.0 * std::fabs(uniform(random)));
     for (int k = 0; k < 6; ++k) step.half[k] = size * uniform(random);
     step.sizes = step.middle.cwiseAbs();
