@@ -49,17 +49,28 @@ struct Noise {
   double relative, absolute;
 };
 
-/// Panels are halved until each is wrong by less than `tolerance`, or as rounding leaves it.
-double integral(const Function& f, double from, double to, double tolerance, const Noise& noise,
+struct Panel {
+  double from, to, value, error;
+
+  Panel(const Function& f, double begin, double end) : from(begin), to(end) {
+    using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+    value = Rule::integrate(f, from, to, 0, 0.0, &error);
+  }
+};
+
+/// Panels are halved until each is wrong by less than `tolerance`, or as rounding leaves it, by
+/// what its two rules and its halves say: a kink close to an end is between the points of both
+/// rules.
+double integral(const Function& f, const Panel& panel, double tolerance, const Noise& noise,
                 int depth) {
-  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
-  double error = 0.0;
-  const double value = Rule::integrate(f, from, to, 0, 0.0, &error);
-  const double rounding = noise.relative * std::fabs(value) + noise.absolute;
-  if (error <= std::max(tolerance, rounding) || depth == 0) return value;
-  const double middle = 0.5 * (from + to);
-  return integral(f, from, middle, tolerance, noise, depth - 1) +
-         integral(f, middle, to, tolerance, noise, depth - 1);
+  const double middle = 0.5 * (panel.from + panel.to);
+  const Panel first(f, panel.from, middle), second(f, middle, panel.to);
+  const double halves = first.value + second.value;
+  const double error = std::max(panel.error, std::fabs(panel.value - halves));
+  const double rounding = noise.relative * std::fabs(halves) + noise.absolute;
+  if (error <= std::max(tolerance, rounding) || depth == 0) return halves;
+  return integral(f, first, tolerance, noise, depth - 1) +
+         integral(f, second, tolerance, noise, depth - 1);
 }
 
 double rootBetween(const Function& g, double below, double above) {
@@ -79,23 +90,35 @@ double peakBetween(const Function& g, double from, double to) {
   return 0.5 * (from + to);
 }
 
-/// Where g is not negative: found at steps, ends by halving, peaks between steps by thirds.
+/// g at steps over all that counts.
+struct Steps {
+  std::vector<double> at, values;
+
+  Steps(const Function& g, double step) {
+    const int count = static_cast<int>(std::ceil(2.0 * kReach / step));
+    for (int i = 0; i <= count; ++i) {
+      at.push_back(-kReach + 2.0 * kReach * i / count);
+      values.push_back(g(at.back()));
+    }
+  }
+
+  bool isPeak(std::size_t i) const {
+    return i > 0 && i + 1 < at.size() && values[i - 1] < values[i] && values[i + 1] < values[i];
+  }
+};
+
+/// Where g is not negative: ends by halving, peaks between steps by thirds.
 std::vector<std::pair<double, double>> piecesInside(const Function& g, double step) {
   std::vector<std::pair<double, double>> pieces;
-  const int count = static_cast<int>(std::ceil(2.0 * kReach / step));
-  std::vector<double> at(static_cast<std::size_t>(count) + 1), values;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    at[i] = -kReach + 2.0 * kReach * static_cast<double>(i) / count;
-    values.push_back(g(at[i]));
-  }
+  const Steps steps(g, step);
+  const auto& [at, values] = steps;
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (values[i] >= 0.0) {
       const bool begins = i == 0 || values[i - 1] < 0.0;
       if (begins) pieces.push_back({i == 0 ? at[0] : rootBetween(g, at[i - 1], at[i]), at[i]});
       const bool ends = i + 1 < at.size() && values[i + 1] < 0.0;
       pieces.back().second = ends ? rootBetween(g, at[i + 1], at[i]) : at[i];
-    } else if (i > 0 && i + 1 < at.size() && values[i - 1] < values[i] &&
-               values[i + 1] < values[i]) {
+    } else if (steps.isPeak(i)) {
       const double peak = peakBetween(g, at[i - 1], at[i + 1]);
       if (g(peak) < 0.0) continue;
       pieces.push_back({rootBetween(g, at[i - 1], peak), rootBetween(g, at[i + 1], peak)});
@@ -104,48 +127,65 @@ std::vector<std::pair<double, double>> piecesInside(const Function& g, double st
   return pieces;
 }
 
-/// Of the last of the dimensions: from end to end of what is inside, where roots are smoothed by a
-/// sine.
-double meanInside(const Integrand& integrand, Vector3d z, int axis, double tolerance) {
-  const auto movedTo = [&](double at) {
-    z[axis] = at;
-    return z;
+double stepOf(const Integrand& integrand) { return std::min(0.5, integrand.feature); }
+
+/// The most that `inside` has where the first `axis` + 1 numbers are given.
+double mostInside(const Integrand& integrand, Vector3d z, int axis) {
+  if (axis + 1 == integrand.dimension) return integrand.inside(z);
+  const Function g = [&](double at) {
+    z[axis + 1] = at;
+    return mostInside(integrand, z, axis + 1);
   };
-  double total = 0.0;
-  for (const auto& [from, to] :
-       piecesInside([&](double at) { return integrand.inside(movedTo(at)); },
-                    std::min(0.5, integrand.feature))) {
-    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-    total += integral(
-        [&](double phi) {
-          const double at = middle + half * std::sin(phi);
-          return half * std::cos(phi) * density(at) * integrand.value(movedTo(at));
-        },
-        -0.5 * M_PI, 0.5 * M_PI, tolerance, {1e-11, 1e-16}, 8);
+  const Steps steps(g, stepOf(integrand));
+  double most = *std::max_element(steps.values.begin(), steps.values.end());
+  for (std::size_t i = 0; i < steps.at.size(); ++i) {
+    if (!steps.isPeak(i)) continue;
+    most = std::max(most, g(peakBetween(g, steps.at[i - 1], steps.at[i + 1])));
   }
-  return total;
+  return most;
+}
+
+double panelsOver(const Integrand& integrand, Vector3d z, int axis, double tolerance);
+
+/// density·f, f being the mean over the numbers that follow.
+double weighted(const Integrand& integrand, Vector3d z, int axis, double at, double tolerance) {
+  z[axis] = at;
+  if (axis + 1 == integrand.dimension) return density(at) * integrand.value(z);
+  // What is within is to be known better than what is made of it.
+  const double within = std::min(1e-3, 0.02 * tolerance / density(at));
+  return density(at) * panelsOver(integrand, z, axis + 1, within);
 }
 
 double panelsOver(const Integrand& integrand, Vector3d z, int axis, double tolerance) {
-  const bool innermost = axis + 1 == integrand.dimension;
-  if (innermost && integrand.inside) return meanInside(integrand, z, axis, tolerance);
-  const Function f = [&](double at) {
-    z[axis] = at;
-    if (innermost) return density(at) * integrand.value(z);
-    // What is within is to be known better than what is made of it.
-    const double within = std::min(1e-3, 0.02 * tolerance / density(at));
-    return density(at) * panelsOver(integrand, z, axis + 1, within);
-  };
-  const int panels =
-      static_cast<int>(std::ceil(2.0 * kReach / std::min(1.0, 4.0 * integrand.feature)));
-  const double width = 2.0 * kReach / panels;
+  std::vector<std::pair<double, double>> pieces{{-kReach, kReach}};
+  if (integrand.inside) {
+    pieces = piecesInside(
+        [&](double at) {
+          z[axis] = at;
+          return mostInside(integrand, z, axis);
+        },
+        stepOf(integrand));
+  }
   // Boost's distributions have 12 digits; what is within has one less.
+  const bool innermost = axis + 1 == integrand.dimension;
   const Noise noise = innermost ? Noise{1e-11, 1e-16} : Noise{1e-10, 2e-15};
+  // What is inside has no kinks; a kink halves its panel until nothing is left of it.
+  const int depth = integrand.inside ? 8 : 45;
   double total = 0.0;
-  for (int i = 0; i < panels; ++i) {
-    const double from = -kReach + i * width;
-    // A kink halves its panel until nothing is left of it.
-    total += integral(f, from, from + width, tolerance / panels, noise, 45);
+  for (const auto& [from, to] : pieces) {
+    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    const int panels =
+        static_cast<int>(std::ceil((to - from) / std::min(1.0, 8.0 * integrand.feature)));
+    // Roots at the ends of a piece are smoothed by a sine.
+    const Function f = [&, axis](double phi) {
+      return half * std::cos(phi) *
+             weighted(integrand, z, axis, middle + half * std::sin(phi), tolerance);
+    };
+    for (int i = 0; i < panels; ++i) {
+      const Panel panel(f, M_PI * (double(i) / panels - 0.5),
+                        M_PI * (double(i + 1) / panels - 0.5));
+      total += integral(f, panel, tolerance / panels, noise, depth);
+    }
   }
   return total;
 }

@@ -126,6 +126,9 @@ double logOdds(double probability) { return std::log(probability) - std::log1p(-
 std::optional<JudgedScene> sized(const Draft& draft, double probability) {
   const double wanted = logOdds(probability);
   double least = draft.least, most = draft.most;
+  if (draft.make(least).roughTruth() > probability || draft.make(most).roughTruth() < probability) {
+    return std::nullopt;
+  }
   for (int round = 0; round < 30; ++round) {
     const double size = 0.5 * (least + most);
     JudgedScene scene = draft.make(size);
