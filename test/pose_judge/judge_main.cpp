@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The judge of estimates and decisions over poses and joints as a program: docs/pose.md.
+// The judge of estimates and decisions over poses and joints as a program (docs/pose.md).
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -208,10 +208,14 @@ int run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--help") {
+    std::cout << kUsage;
+    return 0;
+  }
   try {
     return run(parsed(argc, argv));
   } catch (const std::exception& exception) {
-    std::cerr << "pose_judge: " << exception.what() << "\n" << kUsage;
+    std::cerr << "pose_judge: " << exception.what() << " (--help tells the options)\n";
     return 2;
   }
 }
