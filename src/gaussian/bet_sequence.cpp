@@ -56,12 +56,12 @@ double BetSequence::stakeFor(double target, double most) const {
   return room > 0.0 ? std::min(best, kMostLost / room) : best;
 }
 
-void BetSequence::add(double x, double most, double stake) {
-  if (!(stake > 0.0)) return;
-  bets_.push_back({x, stake});
-  count_ += 1.0;
-  sum_ += x - expected_;
-  squares_ += (x - expected_) * (x - expected_);
+void BetSequence::add(double x, double most, double stake, double count) {
+  if (!(stake > 0.0 && count > 0.0)) return;
+  bets_.push_back({x, stake, count});
+  count_ += count;
+  sum_ += count * (x - expected_);
+  squares_ += count * (x - expected_) * (x - expected_);
   least_p_ = std::max(least_p_, most - 1.0 / stake);
 }
 
@@ -71,7 +71,14 @@ double BetSequence::logCapital(double p) const {
   for (std::size_t i = 0; i < bets_.size();) {
     double product = 1.0;
     const std::size_t end = std::min(bets_.size(), i + kFactors);
-    for (; i < end; ++i) product *= 1.0 + bets_[i].stake * (p - bets_[i].x);
+    for (; i < end; ++i) {
+      const double gain = bets_[i].stake * (p - bets_[i].x);
+      if (bets_[i].count == 1.0) {
+        product *= 1.0 + gain;
+      } else {
+        sum += bets_[i].count * std::log1p(gain);
+      }
+    }
     sum += std::log(product);
   }
   return sum - kRoundedLog * (1.0 + std::fabs(sum));

@@ -26,9 +26,8 @@ class BetSequence {
   /// The stake for the next samples. \param most  of those: >= target
   double stakeFor(double target, double most) const;
 
-  void add(double x, double most, double stake);
-
-  std::size_t samples() const { return bets_.size(); }
+  /// \param count  samples that are all equal to x
+  void add(double x, double most, double stake, double count = 1.0);
 
   /// Samples are of a finer kind from now on: what those before told counts as expected.
   void changeKind();
@@ -51,6 +50,7 @@ class BetSequence {
   struct Bet {
     double x;
     double stake;
+    double count;
   };
 
   double logCapital(double p) const;

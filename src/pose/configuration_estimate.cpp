@@ -4,123 +4,177 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "base/constants.h"
 #include "base/decision.h"
-#include "base/quantiles.h"
 #include "pose/counting_source.h"
-#include "pose/pair_source.h"
-#include "pose/query_costs.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// A threshold so many standard errors away is decided.
-constexpr double kDecided = 4.0;
+// Samples of the first look; and between two looks: stakes and tolerances follow what was seen, but
+// a look costs time of its own.
+constexpr std::size_t kFirstSamples = 256;
+constexpr double kLeastGrowth = 1.25;
+constexpr double kMostGrowth = 4.0;
 
-/// Whichever source is expected to come to an end first goes on.
+// So many are drawn at most where none says that the tolerance can be reached: the more, the
+// smaller the probability that is answered by counting, and the later the answer where it cannot
+// be.
+constexpr double kMostBlind = 1 << 15;
+constexpr double kMostBlindPairs = 1 << 10;
+
+// A mean of fewer configurations than this may be anything.
+constexpr double kEnoughSamples = 16.0;
+
+// Drawn beyond what the last look says is needed.
+constexpr double kReserve = 1.05;
+
+// Added to both ends of an interval: what the known mass of a quadric and the sums may be wrong by.
+constexpr double kErrorOfSums = 2e-9;
+
 class Estimator {
  public:
-  Estimator(const RandomConfiguration& configuration, const ConditionalAnswer& answer,
+  Estimator(const ConfigurationMixture& mixture, const ConditionalAnswer& answer,
             const GeometryList& a, const GeometryList& b, const ProbabilityRequest& request)
-      : request_(request),
-        watch_(request),
-        pairs_(configuration, answer, queryCost(a, b), request, watch_) {
-    if (CountingSource::isFor(configuration, a, b, request)) {
-      counting_.emplace(configuration, a, b, request, watch_);
-    }
+      : request_(request), watch_(request), pairs_(mixture, answer, request, watch_) {
+    source_ = &pairs_;
+    if (!watch_.goOn() || !CountingSource::isFor(mixture, a, b, request)) return;
+    counting_ = std::make_unique<CountingSource>(mixture, a, b, request, watch_);
+    source_ = counting_.get();
   }
 
   ProbabilityResult run() {
-    EstimateSource* next = cheapestToBegin();
-    std::optional<ProbabilityStatus> status;
-    do {
-      next->draw(request_.toleranceAt(probability_));
-      status = look(*next);
-      if (status) break;
-      next = cheapest();
-      if (next == nullptr) status = ProbabilityStatus::resolution_limit;
-    } while (!status);
+    std::size_t next = isCounting() ? kFirstSamples : PairSource::kLeastPairs;
+    std::optional<ProbabilityStatus> status = watch_.reason();
+    while (!status) {
+      aim();
+      source_->drawTo(next, tolerance());
+      status = look();
+      next = nextCount();
+      if (status == ProbabilityStatus::resolution_limit && isCounting() && !request_.threshold) {
+        source_ = &pairs_;
+        next = PairSource::kLeastPairs;
+        status = watch_.reason();
+      }
+    }
+    if (isCounting() && request_.gradient) drawGradient();
     return resultOf(*status);
   }
 
  private:
-  struct Answer {
-    const EstimateSource* source;
-    EstimatedMean mean;
-    Bounds interval;
-  };
+  bool isCounting() const { return source_ == counting_.get(); }
 
-  std::optional<ProbabilityStatus> look(const EstimateSource& source) {
-    const auto mean = source.mean();
-    if (!mean) return watch_.reason();
-    probability_ = std::clamp(mean->mean, 0.0, 1.0);
-    ++looks_;
-    const Answer answer{&source, *mean, intervalAt(looks_, *mean)};
-    watch_.setProgress(answer.interval);
-    const auto status = source.isAnswer() ? satisfied(answer) : std::nullopt;
-    const bool is_best =
-        !best_ || best_->source == &source || mean->standard_error < best_->mean.standard_error;
-    if (status || is_best) best_ = answer;
-    return status ? status : watch_.reason();
+  double probability() const {
+    return std::clamp(source_->offset() + source_->samples().mean(), 0.0, 1.0);
+  }
+  double tolerance() const { return request_.toleranceAt(probability()); }
+
+  // The stakes of the samples to come are to tell P from the threshold, or from about what the
+  // interval of an answer ends at.
+  void aim() {
+    constexpr double kEnds = 3.0;
+    const double p = probability(), away = kEnds * tolerance();
+    source_->aim(request_.threshold.value_or(p - away), request_.threshold.value_or(p + away));
   }
 
-  std::optional<ProbabilityStatus> satisfied(const Answer& answer) const {
-    const Decision decision = decisionOf(answer.interval, request_);
-    if (isDecided(decision)) {
-      return ProbabilityStatus::decided;
+  std::optional<ProbabilityStatus> look() {
+    const MeanSequence& samples = source_->samples();
+    const Bounds bounds = samples.interval(1.0 - request_.confidence);
+    const double by = source_->offset();
+    interval_ = {std::clamp(by + bounds.lower - kErrorOfSums, 0.0, 1.0),
+                 std::clamp(by + bounds.upper + kErrorOfSums, 0.0, 1.0)};
+    watch_.setProgress(interval_);
+    if (const auto status = satisfied(samples)) return status;
+    return watch_.reason();
+  }
+
+  /// A threshold is satisfied by a decision and by nothing else, a tolerance by the standard error.
+  std::optional<ProbabilityStatus> satisfied(const MeanSequence& samples) const {
+    if (request_.threshold) {
+      if (isDecided(decisionOf(interval_, request_))) return ProbabilityStatus::decided;
+      if (isHopeless(samples)) return ProbabilityStatus::resolution_limit;
+      return std::nullopt;
     }
-    if (answer.mean.standard_error <= request_.toleranceAt(probability_)) {
-      return ProbabilityStatus::converged;
-    }
+    if (samples.standardError() <= tolerance()) return ProbabilityStatus::converged;
+    if (isUnreachable(samples)) return ProbabilityStatus::resolution_limit;
     return std::nullopt;
   }
 
-  EstimateSource* cheapestToBegin() {
-    if (counting_ && counting_->costOfFirst() < pairs_.costOfFirst()) return &*counting_;
-    return &pairs_;
+  // With all samples at the end of their range that tells most, capital grows by a factor of
+  // 1 / (1 - t) each, t being the distance of the threshold from that end.
+  bool isHopeless(const MeanSequence& samples) const {
+    const double t = *request_.threshold;
+    const double room = probability() < t ? t : 1.0 - t;
+    const double fewest = -std::log(0.5 * (1.0 - request_.confidence)) / -std::log1p(-room);
+    return fewest > samples.count() + source_->mostSamples();
   }
 
-  /// Null if no more work helps.
-  EstimateSource* cheapest() {
-    double needed = request_.toleranceAt(probability_);
-    if (request_.threshold) {
-      needed = std::max(needed, std::fabs(probability_ - *request_.threshold) / kDecided);
+  // A probability so small cannot be told from what none of the samples shows, not with as many as
+  // the limits allow. Calls of fcl::collide then end soon; answers that are made of many
+  // configurations end once they are as near together as was asked for.
+  bool isUnreachable(const MeanSequence& samples) const {
+    const double most = source_->mostSamples();
+    if (samples.samplesFor(tolerance()) <= most) return false;
+    if (isCounting()) return samples.count() >= std::min(kMostBlind, most);
+    if (samples.spreadError() > tolerance()) return false;
+    return tellsMuch(samples) || samples.count() >= kMostBlindPairs;
+  }
+
+  static bool tellsMuch(const MeanSequence& samples) {
+    return samples.effectiveSamples() >= kEnoughSamples;
+  }
+
+  std::size_t nextCount() const {
+    const MeanSequence& samples = source_->samples();
+    const double count = samples.count();
+    const double wanted =
+        request_.threshold ? count + samples.samplesToTell(*request_.threshold - source_->offset(),
+                                                           1.0 - request_.confidence)
+                           : samples.samplesFor(tolerance());
+    const double next =
+        std::clamp(kReserve * wanted, kLeastGrowth * count + 1.0, kMostGrowth * count + 1.0);
+    return static_cast<std::size_t>(std::ceil(next));
+  }
+
+  // As many pairs as their own spread asks for.
+  void drawGradient() {
+    std::size_t next = PairSource::kLeastPairs;
+    while (!watch_.reason()) {
+      pairs_.drawTo(next, tolerance());
+      const double ratio = pairs_.samples().spreadError() / tolerance();
+      if (!(ratio > 1.0)) break;
+      const double count = pairs_.samples().count();
+      next = static_cast<std::size_t>(
+          std::ceil(count * std::clamp(kReserve * ratio * ratio, kLeastGrowth, kMostGrowth)));
     }
-    const double by_pairs = pairs_.costTo(needed, probability_);
-    const double by_counting = counting_ ? counting_->costTo(needed, probability_) : kInfinity;
-    if (std::min(by_pairs, by_counting) == kInfinity) return nullptr;
-    if (by_counting < by_pairs) return &*counting_;
-    return &pairs_;
-  }
-
-  // The error probabilities of all looks add up to that of the request.
-  Bounds intervalAt(int look, const EstimatedMean& mean) const {
-    const double error = (1.0 - request_.confidence) * std::ldexp(1.0, -look);
-    const double reach = studentQuantileAbove(mean.freedom, 0.5 * error) * mean.standard_error;
-    return {std::clamp(mean.mean - reach, 0.0, 1.0), std::clamp(mean.mean + reach, 0.0, 1.0)};
   }
 
   ProbabilityResult resultOf(ProbabilityStatus status) const {
+    const MeanSequence& samples = source_->samples();
     ProbabilityResult result;
     result.method = request_.method == ProbabilityMethod::rare_event ? ProbabilityMethod::rare_event
                                                                      : ProbabilityMethod::estimate;
     result.status = status;
     result.lower = 0.0;
     result.upper = 1.0;
-    result.statistics = pairs_.statistics();
-    result.statistics.seconds.emplace_back("configurations", watch_.seconds());
-    result.decision = decisionOf(best_ ? best_->interval : Bounds{0.0, 1.0}, request_);
-    if (best_) {
-      result.estimate = std::clamp(best_->mean.mean, 0.0, 1.0);
-      result.standard_error = best_->mean.standard_error;
-      result.confidence_interval = best_->interval;
+    result.decision = decisionOf(interval_, request_);
+    const bool unreachable =
+        !request_.threshold && status == ProbabilityStatus::resolution_limit && tellsMuch(samples);
+    if (samples.count() >= 2.0) {
+      result.estimate = probability();
+      result.standard_error = unreachable ? samples.spreadError() : samples.standardError();
+      result.confidence_interval = interval_;
     }
-    const bool by_pairs = !best_ || best_->source == &pairs_;
-    if (by_pairs || pairs_.mean()) pairs_.describe(result);
-    if (counting_ && counting_->mean()) counting_->describe(result);
-    if (!by_pairs) {
-      result.plan.push_back("the estimate is that of fcl::collide, which gets there sooner");
+    result.statistics.seconds.emplace_back("configurations", watch_.seconds());
+    if (counting_) counting_->describe(result);
+    if (pairs_.samples().count() > 0.0) pairs_.describe(result);
+    pairs_.fillGradient(result);
+    if (unreachable) {
+      result.plan.push_back(
+          "the standard error is the spread of the configurations drawn; what none of them shows "
+          "is in the confidence interval only, and more of them than the limits allow would tell");
     }
     return result;
   }
@@ -128,18 +182,17 @@ class Estimator {
   const ProbabilityRequest& request_;
   RunWatch watch_;
   PairSource pairs_;
-  std::optional<CountingSource> counting_;
-  std::optional<Answer> best_;
-  double probability_ = 0.0;  ///< by the last look
-  int looks_ = 0;
+  std::unique_ptr<CountingSource> counting_;
+  EstimateSource* source_ = nullptr;
+  Bounds interval_{0.0, 1.0};
 };
 
 }  // namespace
 
-ProbabilityResult configurationEstimate(const RandomConfiguration& configuration,
+ProbabilityResult configurationEstimate(const ConfigurationMixture& mixture,
                                         const ConditionalAnswer& answer, const GeometryList& a,
                                         const GeometryList& b, const ProbabilityRequest& request) {
-  return Estimator(configuration, answer, a, b, request).run();
+  return Estimator(mixture, answer, a, b, request).run();
 }
 
 }  // namespace fcl_prob::detail

@@ -3,24 +3,19 @@
 // P = E[P(contact | configuration)], estimated over random configurations.
 #pragma once
 
-#include <functional>
-
-#include "fcl_prob/probability_request.h"
-#include "fcl_prob/probability_result.h"
-#include "fcl_prob/random_configuration.h"
 #include "montecarlo/placement_collider.h"
+#include "pose/configuration_mixture.h"
+#include "pose/pair_source.h"
 
 namespace fcl_prob::detail {
 
-/// The probability given a configuration, which leaves a translation; called from several threads.
-using ConditionalAnswer =
-    std::function<ProbabilityResult(const PlacedConfiguration&, const ProbabilityRequest&)>;
-
-/// Draws until the standard error is within the tolerance: configurations in antithetic pairs, or
-/// calls of fcl::collide at evenly spread points, whichever gets there sooner.
-/// \param configuration  of dimension 1 at least
-/// \param a, b           what the answers are about
-ProbabilityResult configurationEstimate(const RandomConfiguration& configuration,
+/// Draws until the standard error is within the tolerance or, with a threshold, until it is decided
+/// with the confidence that the request states, whatever the distribution: by calls of fcl::collide
+/// where it can be asked and the limits are enough, else by answers at configurations in antithetic
+/// pairs. A gradient is always that of such pairs.
+/// \param mixture  of dimension 1 at least
+/// \param a, b     what the answers are about
+ProbabilityResult configurationEstimate(const ConfigurationMixture& mixture,
                                         const ConditionalAnswer& answer, const GeometryList& a,
                                         const GeometryList& b, const ProbabilityRequest& request);
 

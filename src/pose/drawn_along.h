@@ -23,6 +23,9 @@ class DrawnAlong {
   DrawnAlong(double level, double spread)
       : level_(level), scale_(std::max(kScale * spread, kLeastScale)) {}
 
+  /// No weight is larger.
+  static constexpr double largestWeight() { return 1.0 / kAsTheyAre; }
+
   double at(double uniform) const {
     double rest = uniform;
     if (rest < kNear) return level_ + scale_ * logit(rest / kNear);
@@ -43,10 +46,11 @@ class DrawnAlong {
   }
 
  private:
-  // Shares of samples, and the deviation of those far out.
-  static constexpr double kNear = 0.3;
-  static constexpr double kAround = 0.25;
-  static constexpr double kAsTheyAre = 0.35;
+  // Shares of samples, and the deviation of those far out. More as they are: smaller weights, so
+  // that fewer samples bound what none of them shows; more near: less variance of what they do.
+  static constexpr double kNear = 0.25;
+  static constexpr double kAround = 0.2;
+  static constexpr double kAsTheyAre = 0.45;
   static constexpr double kFarOut = 0.1;
   static constexpr double kWide = 2.5;
 

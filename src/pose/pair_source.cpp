@@ -5,133 +5,168 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
-#include "base/constants.h"
+#include "base/random_words.h"
+#include "montecarlo/sample_loop.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-// Pairs of the first look, which says how large P is; and of the least answer, whose standard error
-// then has some degrees of freedom.
-constexpr std::size_t kFirstPairs = 4;
-constexpr std::size_t kLeastPairs = 32;
+// Streams of the request's seed that no other method draws from.
+constexpr std::uint64_t kConfigurations = 0x706f7365;
+constexpr std::uint64_t kSeedsOfAnswers = 0x696e6e72;
+constexpr std::uint64_t kChoices = 0x6d697874;
 
-// So many are expected to be needed before any are drawn.
-constexpr double kExpectedPairs = 64.0;
+// Work of an answer that counts no cells of its own, in cells: whitening, and the cheapest bounds.
+constexpr std::size_t kCellsOfAnswer = 32;
 
-// A single answer is as accurate as if so many pairs made up the estimate.
-constexpr double kPairsOfAccuracy = 32.0;
-
-// What of the variance single answers may make up where configurations do not vary.
+// Of the variance of the mean, what single answers may make up: the less, the longer each takes.
 constexpr double kInnerShare = 0.5;
 
-// A single answer need not be much better than the spread over configurations.
-constexpr double kInnerDeviation = 0.7;
-
+// An answer need be no more accurate than this.
 constexpr double kCoarsest = 0.3;
 
-// The fit of squares and products is expected to divide the variance over configurations by so
-// much.
-constexpr double kExpectedOfFit = 16.0;
+// Of the spread between configurations, what a single answer may have as its standard error.
+constexpr double kInnerDeviation = 0.7;
 
-// Drawn beyond what the last look says is needed.
-constexpr double kReserve = 1.1;
-constexpr double kMostGrowth = 8.0;
+Eigen::VectorXd normalsOf(std::uint64_t seed, std::size_t pair, int dimension) {
+  Eigen::VectorXd z(dimension);
+  for (int k = 0; k < dimension; k += 3) {
+    const Eigen::Vector3d three = standardNormalFrom(
+        randomWords({seed, kConfigurations}, pair, static_cast<std::uint64_t>(k / 3)));
+    const int count = std::min(3, dimension - k);
+    z.segment(k, count) = three.head(count);
+  }
+  return z;
+}
 
-// Microseconds that answers were seen to take, for each of what they count.
-constexpr double kCostOfPairTest = 0.2;
-constexpr double kCostOfSample = 2.0;
-
-double innerFactor() { return std::sqrt(kInnerShare * 2.0 * kPairsOfAccuracy); }
+// |∂P/∂mean| along an axis is at most that of a half-space across it through the mean.
+Eigen::Vector3d largestGradient(const GaussianDisplacement& displacement) {
+  Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const double sigma = displacement.standardDeviations()[k];
+    if (sigma > 0.0) inverse += displacement.axes().col(k).cwiseAbs2() / (sigma * sigma);
+  }
+  return inverse.cwiseSqrt() / std::sqrt(2.0 * M_PI);
+}
 
 }  // namespace
 
-PairSource::PairSource(const RandomConfiguration& configuration, const ConditionalAnswer& answer,
-                       const QueryCost& cost, const ProbabilityRequest& request, RunWatch& watch)
-    : configuration_(configuration),
-      cost_(cost),
+PairSource::PairSource(const ConfigurationMixture& mixture, const ConditionalAnswer& answer,
+                       const ProbabilityRequest& request, RunWatch& watch)
+    : mixture_(mixture),
+      answer_(answer),
       request_(request),
-      samples_(configuration, answer, request, watch) {}
+      watch_(watch),
+      samples_({0.0, 1.0}, 0.5, 0.5, 0.5) {}
 
-bool PairSource::isAnswer() const { return samples_.pairs().size() >= kLeastPairs; }
-
-void PairSource::draw(double standard_error) {
-  const std::size_t before = samples_.pairs().size();
-  if (before < kFirstPairs) {
-    samples_.drawTo(kFirstPairs, firstTolerance());
-  } else if (before < kLeastPairs) {
-    samples_.drawTo(kLeastPairs, nextTolerance(standard_error));
-  } else {
-    const double wanted = kReserve * pairsTo(standard_error);
-    const double next = std::ceil(std::clamp(wanted, count() + 2.0, kMostGrowth * count()));
-    samples_.drawTo(static_cast<std::size_t>(next), nextTolerance(standard_error));
+PairSource::Answer PairSource::answerAt(std::size_t index, double tolerance) const {
+  Answer answer;
+  if (!watch_.goOn()) return answer;
+  const std::size_t pair = index / 2;
+  const double choice = unitUniform(randomWords({request_.seed, kChoices}, pair)[0]);
+  const RandomConfiguration& configuration =
+      *mixture_.components()[mixture_.chosenBy(choice)].configuration;
+  const Eigen::VectorXd z = normalsOf(request_.seed, pair, configuration.dimension());
+  const PlacedConfiguration placed = configuration.at(index % 2 == 0 ? z : Eigen::VectorXd(-z));
+  ProbabilityRequest request = request_;
+  // Rare events are counted by fcl::collide, given the configuration; all else is estimated.
+  if (request_.method != ProbabilityMethod::rare_event) {
+    request.method = ProbabilityMethod::estimate;
   }
-  if (samples_.pairs().size() < kFirstPairs) return;
-  mean_ = meanOfPairs(samples_.pairs());
-  // Where P given the configuration may jump, all that were seen being alike says little: as in
-  // counting, half a hit is added.
-  const double unseen = samples_.mayJump() ? 0.35 / count() : 0.0;
-  mean_->standard_error = std::hypot(mean_->standard_error, unseen) + samples_.doubt();
+  request.relative_tolerance = std::min(
+      kCoarsest, request_.relative_tolerance * std::sqrt(static_cast<double>(kLeastPairs)));
+  request.absolute_tolerance = std::max(tolerance, std::numeric_limits<double>::min());
+  request.threshold.reset();
+  request.time_limit.reset();
+  request.threads = 1;
+  request.seed = randomWords({request_.seed, kSeedsOfAnswers}, index)[0];
+  request.on_progress = [this](const ProbabilityProgress&) { return watch_.goOn(); };
+  const ProbabilityResult result = answer_(placed, request);
+  // Of what is no sample P is somewhere in an interval.
+  const double p = result.probability();
+  answer.value = result.standard_error ? Bounds{p, p} : Bounds{*result.lower, *result.upper};
+  answer.gradient = result.gradient;
+  answer.largest_gradient = largestGradient(placed.displacement);
+  answer.statistics = result.statistics;
+  answer.complete = result.status != ProbabilityStatus::cancelled;
+  return answer;
 }
 
-InnerTolerance PairSource::firstTolerance() const {
-  const double factor = innerFactor();
-  return {std::min(kCoarsest, factor * request_.relative_tolerance),
-          factor * request_.absolute_tolerance};
+void PairSource::drawTo(std::size_t count, double tolerance) {
+  if (count <= pairs_) return;
+  // Single answers have independent errors; none need be better than what is left of the tolerance
+  // after dividing it among all, or than the spread between configurations makes worth while.
+  const auto wanted = static_cast<double>(std::max(count, kLeastPairs));
+  double inner = std::sqrt(kInnerShare * 2.0 * wanted) * tolerance;
+  inner = std::min(inner, std::max(kCoarsest * samples_.mean(), kInnerShare * tolerance));
+  if (pairs_ > 0) inner = std::max(inner, kInnerDeviation * samples_.deviation());
+  const std::size_t first = pairs_;
+  std::vector<Answer> answers(2 * (count - first));
+  SampleLoop loop(request_.threads);
+  loop.run(
+      0, answers.size(), [&](std::size_t i) { answers[i] = answerAt(2 * first + i, inner); },
+      [this](std::size_t) { return watch_.goOn(); });
+  for (std::size_t i = 0; i < answers.size(); i += 2) {
+    if (!answers[i].complete || !answers[i + 1].complete) break;
+    add(answers[i], answers[i + 1]);
+  }
 }
 
-InnerTolerance PairSource::nextTolerance(double standard_error) const {
-  // A mean near 0 so far may be that of configurations which all are far away: no answer need be
-  // better than what is asked for.
-  const double most = std::max(kCoarsest * mean_->mean, kInnerShare * standard_error);
-  const double absolute =
-      std::max(std::min(innerFactor() * standard_error, most), kInnerDeviation * mean_->deviation);
-  if (absolute > 0.0) return {0.0, absolute};
-  return firstTolerance();
+void PairSource::add(const Answer& at_z, const Answer& at_opposite) {
+  ++pairs_;
+  samples_.add({0.5 * (at_z.value.lower + at_opposite.value.lower),
+                0.5 * (at_z.value.upper + at_opposite.value.upper)},
+               1.0);
+  if (at_z.gradient && at_opposite.gradient) {
+    const Eigen::Vector3d gradient = 0.5 * (*at_z.gradient + *at_opposite.gradient);
+    ++gradients_;
+    gradient_sum_ += gradient;
+    gradient_squares_ += gradient.cwiseAbs2();
+    largest_gradient_ = largest_gradient_.cwiseMax(at_z.largest_gradient);
+  }
+  addStatistics(at_z.statistics);
+  addStatistics(at_opposite.statistics);
 }
 
-double PairSource::pairsTo(double standard_error) const {
-  const double ratio = mean_->standard_error / standard_error;
-  return count() * ratio * ratio;
+void PairSource::addStatistics(const ProbabilityStatistics& of_one) {
+  // An answer without cells is work all the same: the limit on cells ends every query.
+  watch_.addCells(std::max(of_one.cells, kCellsOfAnswer));
+  statistics_.cells += of_one.cells;
+  statistics_.pairs_tested += of_one.pairs_tested;
+  statistics_.leaf_pairs += of_one.leaf_pairs;
+  statistics_.samples += of_one.samples;
+  statistics_.peak_front = std::max(statistics_.peak_front, of_one.peak_front);
+  statistics_.peak_memory = std::max(statistics_.peak_memory, of_one.peak_memory);
 }
 
-// What few pairs show of the spread will be less by what is fitted later.
-double PairSource::pairsAtFirst(double standard_error) const {
-  if (!mean_) return kExpectedPairs;
-  return std::max(static_cast<double>(kLeastPairs), pairsTo(standard_error) / kExpectedOfFit);
+double PairSource::mostSamples() const {
+  return static_cast<double>(request_.max_cells) / (2.0 * static_cast<double>(kCellsOfAnswer));
 }
 
-double PairSource::costOfAnswer() const {
-  if (!mean_) return cost_.least + cost_.rough;
-  const ProbabilityStatistics& sum = samples_.statistics();
-  const double counted = kCostOfPairTest * static_cast<double>(sum.pairs_tested) +
-                         kCostOfSample * static_cast<double>(sum.samples);
-  return cost_.least + counted / (2.0 * count());
-}
-
-double PairSource::costOfFirst() const {
-  return 2.0 * static_cast<double>(kFirstPairs) * costOfAnswer();
-}
-
-double PairSource::costTo(double standard_error, double /*probability*/) const {
-  // No number of configurations makes up for what their answers leave open.
-  if (isAnswer() && samples_.doubt() > standard_error) return kInfinity;
-  const double wanted = isAnswer() ? pairsTo(standard_error) : pairsAtFirst(standard_error);
-  return 2.0 * std::max(0.0, wanted - count()) * costOfAnswer();
+// As in MeanSequence, two unseen pairs with the largest gradient at one of their configurations
+// join the spread.
+void PairSource::fillGradient(ProbabilityResult& result) const {
+  if (!request_.gradient || gradients_ < 2 || gradients_ < pairs_) return;
+  const auto n = static_cast<double>(gradients_);
+  const Eigen::Vector3d mean = gradient_sum_ / n;
+  const Eigen::Vector3d variance =
+      (gradient_squares_ / n - mean.cwiseAbs2()).cwiseMax(0.0) / (n - 1.0);
+  result.gradient = mean;
+  result.gradient_standard_error = (variance + (largest_gradient_ / n).cwiseAbs2()).cwiseSqrt();
 }
 
 void PairSource::describe(ProbabilityResult& result) const {
-  if (mean_) samples_.fillGradient(result);
-  result.plan.push_back(std::to_string(2 * samples_.pairs().size()) + " configurations of " +
-                        std::to_string(configuration_.dimension()) +
-                        " dimensions in antithetic pairs, " +
-                        (mean_ && mean_->quadratic ? "with a quadratic control variate"
-                                                   : "without a control variate"));
-  if (samples_.mayJump()) {
-    result.plan.push_back(
-        "given the configuration, A does not move along every axis: P may jump from one to the "
-        "next");
-  }
+  result.statistics.cells += statistics_.cells;
+  result.statistics.pairs_tested += statistics_.pairs_tested;
+  result.statistics.leaf_pairs += statistics_.leaf_pairs;
+  result.statistics.samples += statistics_.samples;
+  result.statistics.peak_front = std::max(result.statistics.peak_front, statistics_.peak_front);
+  result.statistics.peak_memory = std::max(result.statistics.peak_memory, statistics_.peak_memory);
+  result.plan.push_back(std::to_string(2 * pairs_) + " configurations of " +
+                        std::to_string(mixture_.dimension()) +
+                        " dimensions in antithetic pairs, each answered by itself");
 }
 
 }  // namespace fcl_prob::detail

@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/pose_probability.h"
 
+#include <fcl/geometry/shape/sphere.h>
+
 #include "base/refuse_band.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
+#include "fcl_prob/prior_methods.h"
 #include "geometry/validation.h"
 #include "pose/configuration_estimate.h"
 #include "pose/pose_interval.h"
@@ -15,6 +18,19 @@ namespace {
 
 std::shared_ptr<const fcl::CollisionGeometryd> unowned(const fcl::CollisionGeometryd* geometry) {
   return {std::shared_ptr<const void>(), geometry};
+}
+
+ProbabilityResult farApart(double bound, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.method = ProbabilityMethod::estimate;
+  result.lower = 0.0;
+  result.upper = bound;
+  result.estimate = result.standard_error = 0.5 * bound;
+  result.confidence_interval = Bounds{0.0, bound};
+  result.decision = request.threshold ? Decision::below : Decision::none;
+  result.status = request.threshold ? ProbabilityStatus::decided : ProbabilityStatus::converged;
+  result.plan.emplace_back("a ball around all that A can turn to hardly meets B: certified");
+  return result;
 }
 
 [[noreturn]] void refuse(ProbabilityMethod method) {
@@ -35,13 +51,40 @@ struct PreparedPoseQuery::Implementation {
         b(std::make_shared<const detail::PreparedGeometry>(std::move(geometry_b), "object B")),
         pair(a, b) {}
 
+  /// However A turns about its frame's origin it stays within a ball around that: an upper bound,
+  /// certified, whatever the rotation's error is. 1 where there is none.
+  double ballBound(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                   const PoseError& error) const {
+    const PoseError in_world = error.inWorldFrame(pose_a);
+    const bool turns_about_origin = in_world.convention() == PoseConvention::world_rotation_vector;
+    if (!turns_about_origin || !a->hasPieces() || !b->hasPieces()) return 1.0;
+    const BoundingSphere of_a = boundingSphere(a->geometry());
+    const double radius = (of_a.centre.norm() + of_a.radius) * (1.0 + 1e-9);
+    const auto ball = std::make_shared<const detail::PreparedGeometry>(
+        std::make_shared<fcl::Sphered>(radius), "object A");
+    const fcl::Transform3d pose(Eigen::Translation3d(pose_a.translation()));
+    ProbabilityRequest request;
+    request.method = ProbabilityMethod::convex_pcd;
+    return *detail::PairQuery(ball, b).answer(pose, pose_b, in_world.translation(), request).upper;
+  }
+
+  ProbabilityResult estimateOrBound(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                    const PoseError& error, const RandomPoses& poses,
+                                    const ProbabilityRequest& request) const {
+    const double bound = request.gradient ? 1.0 : ballBound(pose_a, pose_b, error);
+    const bool is_enough =
+        request.threshold ? bound < *request.threshold : bound <= request.absolute_tolerance;
+    return is_enough ? farApart(bound, request) : estimate(poses, request);
+  }
+
   ProbabilityResult estimate(const RandomPoses& poses, const ProbabilityRequest& request) const {
     const auto answer = [this](const PlacedConfiguration& placed,
                                const ProbabilityRequest& of_one) {
       return pair.answer(placed.poses_a[0], placed.poses_b[0], placed.displacement, of_one);
     };
-    return detail::configurationEstimate(poses, answer, {unowned(&a->geometry())},
-                                         {unowned(&b->geometry())}, request);
+    return detail::configurationEstimate(detail::ConfigurationMixture({{1.0, &poses}}), answer,
+                                         {unowned(&a->geometry())}, {unowned(&b->geometry())},
+                                         request);
   }
 };
 
@@ -72,6 +115,8 @@ double PreparedPoseQuery::collisionProbability(const fcl::Transform3d& pose_a,
   switch (request.method) {
     case ProbabilityMethod::automatic:
     case ProbabilityMethod::estimate:
+      result = implementation_->estimateOrBound(pose_a, pose_b, error, poses, request);
+      break;
     case ProbabilityMethod::rare_event:
       result = implementation_->estimate(poses, request);
       break;
