@@ -19,7 +19,7 @@
 #include "robot/obstacle_gradient.h"
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
-#include "robot/seeds_apart.h"
+#include "base/seeds_apart.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {
