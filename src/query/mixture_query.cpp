@@ -13,6 +13,7 @@
 
 #include "base/constants.h"
 #include "base/decision.h"
+#include "base/seeds_apart.h"
 #include "query/call_budget.h"
 #include "query/tolerance_note.h"
 
@@ -128,6 +129,8 @@ class MixtureQuery {
   /// \param left  components that are still to be asked, this one included
   void ask(std::size_t i, std::size_t left, ProbabilityRequest request) {
     budget_.share(left, request);
+    // Else what is off of similar components would be off together, and not evened out.
+    request.seed += i * kSeedsApart;
     ProbabilityResult result = query_(components_[i].displacement, request);
     budget_.spend(result.statistics);
     addStatistics(result.statistics);
