@@ -38,6 +38,16 @@ class SampledDisplacements {
     return whitenings_[static_cast<std::size_t>(at - cumulated_.begin())];
   }
 
+  /// The largest lengths of the columns of W.
+  Eigen::Vector3d speeds() const {
+    Eigen::Vector3d speeds = Eigen::Vector3d::Zero();
+    for (const Whitening& whitening : whitenings_) {
+      const Eigen::Vector3d of_one = whitening.matrix().colwise().norm().transpose();
+      speeds = speeds.cwiseMax(of_one);
+    }
+    return speeds;
+  }
+
   bool haveFullRank() const {
     return std::all_of(whitenings_.begin(), whitenings_.end(),
                        [](const Whitening& whitening) { return whitening.rank() == 3; });
@@ -48,6 +58,9 @@ class SampledDisplacements {
   std::vector<double> cumulated_;  ///< weights up to each, of several
 };
 
+// Deviations, of a coordinate of a sample: what is beyond has 2e-10 of its mean absolute value.
+constexpr double kFarthest = 6.0;
+
 class MonteCarloRun : public detail::CountingRun {
  public:
   MonteCarloRun(const detail::DisplacedCollider& collider, SampledDisplacements displacements,
@@ -55,7 +68,8 @@ class MonteCarloRun : public detail::CountingRun {
       : CountingRun(request),
         collider_(collider),
         displacements_(std::move(displacements)),
-        request_(request) {}
+        request_(request),
+        gradient_(displacements_.speeds(), kFarthest) {}
 
   ProbabilityResult resultWithGradient(const detail::Stopwatch& watch) {
     ProbabilityResult answer = result(watch);

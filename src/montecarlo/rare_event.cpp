@@ -29,6 +29,9 @@ constexpr double kCoverShareOfPilots = 0.4;
 constexpr double kCoverShare = 0.2;
 constexpr int kMostComponents = 8;
 
+// Deviations behind the nearest contact: what collides farther out is less than 1e-8 of the rest.
+constexpr double kBehindNearest = 6.0;
+
 /// fcl::collide as a function of the whitened displacement.
 class WhitenedCollider {
  public:
@@ -142,15 +145,18 @@ class DensityAdaptation {
 class RareEventRun : public SamplingRun {
  public:
   RareEventRun(const WhitenedCollider& collider, const ImportanceDensity& density,
-               const Whitening& whitening, const ProbabilityRequest& request, std::size_t samples)
+               const WhitenedObstacle& obstacle, const ProbabilityRequest& request,
+               std::size_t samples)
       : SamplingRun(request, samples, 0.0),
         collider_(collider),
         density_(density),
-        whitening_(whitening),
+        whitening_(obstacle.whitening),
         request_(request),
         points_(kSlots),
         weights_(kSlots),
-        unit_(std::max(density.largestWeight(), std::numeric_limits<double>::min())) {}
+        unit_(std::max(density.largestWeight(), std::numeric_limits<double>::min())),
+        gradient_(whitening_.matrix().colwise().norm().transpose(),
+                  unit_ * ((obstacle.nearest ? obstacle.nearest->norm() : 0.0) + kBehindNearest)) {}
 
   ProbabilityResult result(const Stopwatch& watch) {
     ProbabilityResult result = run(watch);
@@ -218,7 +224,7 @@ ProbabilityResult sampleRareEvent(const DisplacedCollider& displaced,
   const WhitenedCollider collider(displaced, obstacle.whitening);
   DensityAdaptation adaptation(collider, obstacle, request, watch, interruption);
   const ImportanceDensity density = adaptation.adapt();
-  RareEventRun run(collider, density, obstacle.whitening, request,
+  RareEventRun run(collider, density, obstacle, request,
                    request.samples - adaptation.samplesUsed());
   if (adaptation.interruption()) run.interrupt(*adaptation.interruption());
   ProbabilityResult result = run.result(watch);

@@ -78,10 +78,14 @@ std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interva
   return std::nullopt;
 }
 
+GradientSum::GradientSum(const Eigen::Vector3d& speeds, double most)
+    : means_{BoundedMean(-most * speeds[0], most * speeds[0]),
+             BoundedMean(-most * speeds[1], most * speeds[1]),
+             BoundedMean(-most * speeds[2], most * speeds[2])} {}
+
 void GradientSum::add(const Whitening& whitening, const Eigen::Vector3d& y, double weight) {
   const Eigen::Vector3d weighted = whitening.matrix().transpose() * (weight * y);
-  sum_ += weighted;
-  sum_squares_ += weighted.cwiseAbs2();
+  for (std::size_t k = 0; k < 3; ++k) means_[k].add(weighted[static_cast<Eigen::Index>(k)]);
 }
 
 void GradientSum::report(bool full_rank, std::size_t samples, ProbabilityResult& result) const {
@@ -90,10 +94,9 @@ void GradientSum::report(bool full_rank, std::size_t samples, ProbabilityResult&
     return;
   }
   const auto n = static_cast<double>(samples);
-  const Eigen::Vector3d mean = sum_ / n;
-  const Eigen::Vector3d variance = sum_squares_ / n - mean.cwiseAbs2();
-  result.gradient = mean;
-  result.gradient_standard_error = (variance.cwiseMax(0.0) / n).cwiseSqrt();
+  result.gradient = Eigen::Vector3d(means_[0].mean(n), means_[1].mean(n), means_[2].mean(n));
+  result.gradient_standard_error = Eigen::Vector3d(
+      means_[0].standardError(n), means_[1].standardError(n), means_[2].standardError(n));
 }
 
 }  // namespace fcl_prob::detail

@@ -3,6 +3,7 @@
 // What all sampling methods have in common: drawing samples until something says stop.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/whitening.h"
+#include "gaussian/bounded_mean.h"
 #include "montecarlo/confidence.h"
 #include "montecarlo/sample_loop.h"
 
@@ -68,6 +70,11 @@ class SamplingRun {
 /// ∂P/∂mean = Wᵀ E[y 1_V(y)].
 class GradientSum {
  public:
+  /// \param speeds  no less than the lengths of the columns of W, of each displacement
+  /// \param most    no less than |m·y| of a hit times its weight, for unit vectors m, but for what
+  ///                is nothing beside the rest of the gradient
+  GradientSum(const Eigen::Vector3d& speeds, double most);
+
   /// Adds a hit at `y` (standard normal coordinates along the axes of the displacement) of this
   /// weight.
   void add(const Whitening& whitening, const Eigen::Vector3d& y, double weight);
@@ -77,8 +84,7 @@ class GradientSum {
   void report(bool full_rank, std::size_t samples, ProbabilityResult& result) const;
 
  private:
-  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();  ///< 1/metres, world frame
-  Eigen::Vector3d sum_squares_ = Eigen::Vector3d::Zero();
+  std::array<BoundedMean, 3> means_;  ///< 1/metres, world frame
 };
 
 }  // namespace fcl_prob::detail

@@ -11,10 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
-#include "base/random_words.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/normal_density.h"
+#include "partition/flux_means.h"
 #include "partition/line_crossings.h"
 #include "pieces/containment.h"
 
@@ -30,60 +31,49 @@ constexpr std::size_t kLinesOfLook = 64;
 constexpr std::size_t kLinesOfBatch = 4;
 constexpr std::size_t kLinesOfTable = 8 * kLinesOfLook;
 
-// One over the mean of |n·u| for a unit vector u of random direction, by its dimension.
-constexpr double kCrofton[] = {0.0, 1.0, 1.5707963267948966, 2.0};
-
-constexpr double kTwoPi = 6.283185307179586;
-
-struct RandomLine {
-  Eigen::Vector3d origin;  ///< across the direction
-  Eigen::Vector3d direction;
-};
-
-RandomLine randomLine(std::uint64_t seed, std::uint64_t number, int rank) {
-  const std::array<std::uint64_t, 4> words = randomWords({seed, 0x6c696e65}, number);
-  if (rank == 1) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()};
-  const double radius = std::sqrt(-2.0 * std::log(unitUniform(words[0])));
-  const double turn = kTwoPi * unitUniform(words[1]);
-  const double angle = kTwoPi * unitUniform(words[2]);
-  if (rank == 2) {
-    const Eigen::Vector3d u(std::cos(angle), std::sin(angle), 0.0);
-    return {radius * std::cos(turn) * Eigen::Vector3d(-u.y(), u.x(), 0.0), u};
-  }
-  const double z = 2.0 * unitUniform(words[3]) - 1.0;
-  const double flat = std::sqrt((1.0 - z) * (1.0 + z));
-  const Eigen::Vector3d u(flat * std::cos(angle), flat * std::sin(angle), z);
-  const Eigen::Vector3d first = u.unitOrthogonal();
-  return {radius * (std::cos(turn) * first + std::sin(turn) * u.cross(first)), u};
-}
-
 /// What is the same for all lines.
 class FluxScene {
  public:
   FluxScene(const PartitionObject& a, const PartitionObject& b,
-            const GaussianDisplacement& displacement, const PartVelocities& velocities)
+            const GaussianDisplacement& displacement, std::uint64_t seed)
       : whitening_(displacement, std::max({a.tree->radius(), b.tree->radius(), 1e-150})),
-        velocities_(velocities),
         origin_(a.parts[0].pose * a.tree->parts[0].origin),
-        pair_(whiten(a, b, whitening_)) {
+        pair_(whiten(a, b, whitening_)),
+        lines_(pair_, displacement.rank(), seed) {
     if (a.hasSolid() || b.hasSolid()) {
       solids_ = std::make_unique<const SolidContact>(a, b, whitening_, pair_);
     }
   }
 
   const WhitenedPair& pair() const { return pair_; }
-  Eigen::Index columns() const { return 1 + velocities_[0].cols(); }
+  const PartLines& lines() const { return lines_; }
 
-  /// Writes mass and flux on a line.
-  void evaluate(const RandomLine& line, LineCrossings& crossings,
-                Eigen::Ref<Eigen::VectorXd> values) const {
-    values.setZero();
+  FluxLine evaluate(std::size_t number, LineCrossings& crossings) const {
+    const RandomLine line = lines_.line(number);
     std::vector<LineStretch> stretches = crossings.on(line.origin, line.direction);
     if (solids_) joinContained(line, stretches);
+    FluxLine result;
+    result.frequency = lines_.frequency(line);
     for (const LineStretch& stretch : stretches) {
-      values[0] += normalIntervalMass(stretch.from.at, stretch.to.at);
-      for (const LineEnd* end : {&stretch.from, &stretch.to}) addEnd(*end, crossings, values);
+      result.mass += normalIntervalMass(stretch.from.at, stretch.to.at);
+      for (const LineEnd* end : {&stretch.from, &stretch.to}) addEnd(*end, crossings, result);
     }
+    return result;
+  }
+
+  /// Of each part by those parameters that move it: of a point of it the speed is largest at a
+  /// corner of its box.
+  std::vector<std::vector<PartSpeed>> speeds(const PartVelocities& velocities) const {
+    std::vector<std::vector<PartSpeed>> speeds(velocities.size());
+    for (std::size_t part = 0; part < velocities.size(); ++part) {
+      const int root = pair_.a.tree->parts[part].root;
+      if (root < 0) continue;
+      for (Eigen::Index k = 0; k < velocities[part].cols(); ++k) {
+        if (velocities[part].col(k).isZero(0.0)) continue;
+        speeds[part].push_back(fastest(pair_.a.boxOf(root), velocities[part].col(k), k));
+      }
+    }
+    return speeds;
   }
 
  private:
@@ -104,21 +94,37 @@ class FluxScene {
     stretches = std::move(joined);
   }
 
-  void addEnd(const LineEnd& end, const LineCrossings& crossings,
-              Eigen::Ref<Eigen::VectorXd> values) const {
+  PartSpeed fastest(const NodeBox& box, const Eigen::Matrix<double, 6, 1>& velocity,
+                    Eigen::Index parameter) const {
+    PartSpeed fastest{parameter, 0.0, 0.0};
+    for (int corner = 0; corner < 8; ++corner) {
+      Eigen::Vector3d y;
+      for (int k = 0; k < 3; ++k) y[k] = (corner >> k) % 2 == 0 ? box.lo[k] : box.hi[k];
+      const Eigen::Vector3d x = origin_ + whitening_.inverse() * y;
+      Eigen::Vector3d along =
+          whitening_.matrix() * (velocity.head<3>() + velocity.tail<3>().cross(x));
+      Eigen::Vector3d across = Eigen::Vector3d::Zero();
+      for (int k = whitening_.rank(); k < 3; ++k) std::swap(along[k], across[k]);
+      fastest.along = std::max(fastest.along, along.norm());
+      fastest.across = std::max(fastest.across, across.norm());
+    }
+    return fastest;
+  }
+
+  void addEnd(const LineEnd& end, const LineCrossings& crossings, FluxLine& line) const {
     const int rank = whitening_.rank();
     const double across = end.normal.head(rank).norm();
     if (!(across > 0.0)) return;
     // Where B touches A in the world, the displacement taken back.
     const Eigen::Vector3d x = origin_ + whitening_.inverse() * crossings.touchingPointOfA(end);
     const Eigen::Vector3d n = whitening_.matrix().transpose() * end.normal;
-    Eigen::Matrix<double, 6, 1> of_velocity;
-    of_velocity << n, x.cross(n);
     const double weight = -kCrofton[rank] * normalDensity(end.at) / across;
-    values.tail(columns() - 1) += weight * velocityOf(end).transpose() * of_velocity;
+    FluxEnd flux{partOf(end), {}, end.normal.norm() / across};
+    flux.per_velocity << weight * n, weight * x.cross(n);
+    line.ends.push_back(flux);
   }
 
-  const Eigen::Matrix<double, 6, Eigen::Dynamic>& velocityOf(const LineEnd& end) const {
+  std::size_t partOf(const LineEnd& end) const {
     const PieceTree& tree = *pair_.a.tree;
     const int piece = tree.nodes[static_cast<std::size_t>(end.leaves.a)].piece;
     const bool triangle = tree.isTriangle(piece);
@@ -128,13 +134,13 @@ class FluxScene {
         std::find_if(tree.parts.begin(), tree.parts.end(), [&](const PieceTree::Part& part) {
           return index < (triangle ? part.vertices.end : part.bodies.end);
         });
-    return velocities_[static_cast<std::size_t>(behind - tree.parts.begin())];
+    return static_cast<std::size_t>(behind - tree.parts.begin());
   }
 
   Whitening whitening_;
-  const PartVelocities& velocities_;
   Eigen::Vector3d origin_;  ///< of the whitened frame as A's, world frame
   WhitenedPair pair_;
+  PartLines lines_;
   std::unique_ptr<const SolidContact> solids_;
 };
 
@@ -142,47 +148,37 @@ std::size_t nextLook(std::size_t done) {
   return done == 0 ? kFirstLines : (done / kLinesOfLook + 1) * kLinesOfLook;
 }
 
-MeanAndError meanOfLines(const Eigen::MatrixXd& values) {
-  const auto n = static_cast<double>(values.cols());
-  MeanAndError result;
-  result.lines = static_cast<std::size_t>(values.cols());
-  result.mean = values.rowwise().mean();
-  const Eigen::MatrixXd off = values.colwise() - result.mean;
-  result.standard_error = (off.rowwise().squaredNorm() / (n * (n - 1.0))).cwiseSqrt();
-  return result;
-}
-
 }  // namespace
 
 MeanAndError motionFlux(const PartitionObject& a, const PartitionObject& b,
                         const GaussianDisplacement& displacement, const PartVelocities& velocities,
                         const LineDraws& draws) {
-  const FluxScene scene(a, b, displacement, velocities);
-  Eigen::MatrixXd values(scene.columns(), static_cast<Eigen::Index>(draws.count));
+  const FluxScene scene(a, b, displacement, draws.seed);
+  const std::size_t count = displacement.rank() == 1 ? 1 : draws.count;
+  std::vector<FluxLine> lines;
   tbb::enumerable_thread_specific<LineCrossings> crossings(
       [&scene] { return LineCrossings(scene.pair()); });
   const auto evaluate = [&](const tbb::blocked_range<std::size_t>& range) {
     LineCrossings& own = crossings.local();
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const RandomLine line = randomLine(draws.seed, i, displacement.rank());
-      scene.evaluate(line, own, values.col(static_cast<Eigen::Index>(i)));
-    }
+    for (std::size_t i = range.begin(); i < range.end(); ++i) lines[i] = scene.evaluate(i, own);
   };
   tbb::task_arena arena(static_cast<int>(draws.threads));
   std::size_t done = 0;
-  while (done < draws.count) {
-    const std::size_t next = std::min(draws.count, nextLook(done));
+  while (done < count) {
+    const std::size_t next = std::min(count, nextLook(done));
     const tbb::blocked_range<std::size_t> range(done, next, kLinesOfBatch);
+    lines.resize(next);
     if (draws.threads == 1) {
       evaluate(range);
     } else {
       arena.execute([&] { tbb::parallel_for(range, evaluate); });
     }
     done = next;
-    if (done < draws.count && draws.go_on && !draws.go_on(done)) break;
+    if (done < count && draws.go_on && !draws.go_on(done)) break;
     if (done % kLinesOfTable == 0) crossings.clear();
   }
-  return meanOfLines(values.leftCols(static_cast<Eigen::Index>(done)));
+  return meansOfLines(scene.lines(), displacement.rank(), lines, velocities,
+                      scene.speeds(velocities));
 }
 
 }  // namespace fcl_prob::detail

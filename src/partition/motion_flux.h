@@ -16,7 +16,8 @@ namespace fcl_prob::detail {
 /// point of the part that is at the world's origin (metres) and the angular velocity (radians).
 using PartVelocities = std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>>;
 
-/// A mean over lines, and its standard error.
+/// Means over lines and their standard errors, six of which hold but for a chance of 1e-6 however
+/// few lines tell (see BoundedMean).
 struct MeanAndError {
   Eigen::VectorXd mean;
   Eigen::VectorXd standard_error;
@@ -33,13 +34,15 @@ struct LineDraws {
   std::function<bool(std::size_t)> go_on;
 };
 
-/// P, and behind it ∂P/∂parameter for every column of the velocities: estimates.
+/// P, and behind it ∂P/∂parameter for every column of the velocities: estimates. Of a displacement
+/// of rank 1 there is one line, which has it all.
 ///
 /// On a line the C-obstacles are intervals, whose mass is known. Lines of random direction meet the
 /// boundary of their union evenly but for a factor that is the same everywhere (Crofton's formula):
 /// the sum over the ends of the intervals, weighted with the density, is the flux of what moves
 /// through the boundary, and that is what P changes by. In three dimensions and with whitened
 /// coordinates: ∂P/∂θ = 2 E Σ φ(s) (-n·W v_A(θ)), v_A the velocity of the touching point of A.
+/// More lines are drawn where parts of A may touch, each counted by how frequent it is (PartLines).
 ///
 /// \param displacement  not of rank 0
 /// \param velocities    of the parts of A, in their order, all with as many columns

@@ -22,7 +22,12 @@ constexpr double kLeastEdges = 8.0;
 constexpr double kAim = 0.8;
 constexpr double kNoDifference = 1e-3;
 
+// More lines are drawn where those before leave open whether P is below the aim, their standard
+// error being more than this share of it, up to what a step may take.
 constexpr std::size_t kLines = 512;
+constexpr std::size_t kMostLines = 16 * kLines;
+constexpr double kTold = 0.25;
+
 constexpr int kMostDescentSteps = 30;
 constexpr double kLittleDescent = 1e-3;
 
@@ -131,16 +136,8 @@ class MotionDescent {
       if (step.fraction == 0.0) continue;
       states.back() += step.fraction * (path[step.from + 1] - path[step.from]);
     }
-    MotionGradientRequest lines;
-    lines.lines = kLines;
-    lines.seed = self.request_.seed;
-    if (self.request_.go_on) {
-      lines.on_progress = [&self](const ProbabilityProgress&) { return self.request_.go_on(); };
-    }
-    const JointGradient found = self.query_.gradient(states, lines);
-    // What is known of few lines is nothing to go by.
-    if (found.status == ProbabilityStatus::cancelled) throw nlopt::forced_stop();
     const double aim = kAim * self.request_.threshold;
+    const JointGradient found = self.gradientAt(states, aim);
     const double p = found.probability + kNoDifference * aim;
     self.note(path, p);
     Waypoints slopes(path.size(), Eigen::VectorXd::Zero(path[0].size()));
@@ -152,6 +149,23 @@ class MotionDescent {
     }
     self.writeGradient(slopes, gradient);
     return std::log(p / aim);
+  }
+
+  JointGradient gradientAt(const Waypoints& states, double aim) const {
+    MotionGradientRequest lines;
+    lines.lines = kLines;
+    lines.seed = request_.seed;
+    if (request_.go_on) {
+      lines.on_progress = [this](const ProbabilityProgress&) { return request_.go_on(); };
+    }
+    for (;; lines.lines *= 4) {
+      const JointGradient found = query_.gradient(states, lines);
+      // What is known of few lines is nothing to go by.
+      if (found.status == ProbabilityStatus::cancelled) throw nlopt::forced_stop();
+      const bool is_open = std::fabs(found.probability - aim) < found.standard_error;
+      const bool is_told = !is_open || found.standard_error <= kTold * aim;
+      if (is_told || lines.lines >= kMostLines) return found;
+    }
   }
 
   /// The shortest path that came to what was aimed at.

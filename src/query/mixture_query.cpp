@@ -13,6 +13,7 @@
 
 #include "base/constants.h"
 #include "base/decision.h"
+#include "base/seeds_apart.h"
 #include "query/parts_loop.h"
 #include "query/tolerance_note.h"
 
@@ -36,7 +37,10 @@ class MixtureQuery {
         request_(request),
         query_(query),
         ask_([this](std::size_t i, const ProbabilityRequest& of_one) {
-          return query_(components_[i].displacement, of_one);
+          // Else what is off of similar components would be off together, and not evened out.
+          ProbabilityRequest apart = of_one;
+          apart.seed += i * kSeedsApart;
+          return query_(components_[i].displacement, apart);
         }),
         combine_([this](const std::vector<Bounds>& parts) {
           return weightedSum([&](std::size_t i) { return parts[i]; });

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "base/seeds_apart.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
 #include "robot/gradient_parts.h"
@@ -47,7 +48,9 @@ class ObstacleLines {
     sum.status = ProbabilityStatus::exact;
     for (std::size_t i = 0; i < components.size(); ++i) {
       const double weight = components[i].weight;
-      const MotionGradient part = of(components[i].displacement, parts.requestOf(i));
+      MotionGradientRequest of_one = parts.requestOf(i);
+      of_one.seed += i * kSeedsApart;
+      const MotionGradient part = of(components[i].displacement, of_one);
       sum.probability += weight * part.probability;
       sum.standard_error = std::hypot(sum.standard_error, weight * part.standard_error);
       sum.gradient += weight * part.gradient;
@@ -109,6 +112,22 @@ class ObstacleLines {
   Eigen::Index parameters_ = 0;
 };
 
+/// Π (1 - P_k) over all obstacles but two, each factor with so much of its standard error.
+double noneTouches(const std::vector<MotionGradient>& parts, std::size_t but, std::size_t and_but,
+                   double errors) {
+  double none = 1.0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k == but || k == and_but) continue;
+    none *= std::hypot(1.0 - parts[k].probability, errors * parts[k].standard_error);
+  }
+  return none;
+}
+
+/// Of a gradient with its standard error.
+Eigen::ArrayXd sizeOf(const MotionGradient& part) {
+  return (part.gradient.array().square() + part.gradient_standard_error.array().square()).sqrt();
+}
+
 }  // namespace
 
 MotionGradient obstacleGradient(const Robot& robot, const std::vector<Eigen::VectorXd>& waypoints,
@@ -120,7 +139,10 @@ MotionGradient obstacleGradient(const Robot& robot, const std::vector<Eigen::Vec
                     state.displacement);
 }
 
-// P = 1 - Π (1 - P_i), so that ∂P = Σ ∂P_i Π_{j ≠ i} (1 - P_j).
+// P = 1 - Π (1 - P_i), so that ∂P = Σ ∂P_i Π_{j ≠ i} (1 - P_j). What is off of one obstacle, which
+// is told by the same lines, changes its own term by its gradient and those of all others by its P:
+// both may be off together, what is off of different obstacles is independent. The other factors
+// are taken as large as their errors make them in the mean of squares.
 JointGradient anyOfGradients(const std::vector<MotionGradient>& parts, Eigen::Index joints,
                              Eigen::Index waypoints) {
   JointGradient result;
@@ -129,16 +151,21 @@ JointGradient anyOfGradients(const std::vector<MotionGradient>& parts, Eigen::In
   double none = 1.0;
   double square = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    double others = 1.0;
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      if (j != i) others *= 1.0 - parts[j].probability;
-    }
+    const double others = noneTouches(parts, i, i, 0.0);
+    const double others_or_more = noneTouches(parts, i, i, 1.0);
     none *= 1.0 - parts[i].probability;
-    square += std::pow(others * parts[i].standard_error, 2);
+    square += std::pow(others_or_more * parts[i].standard_error, 2);
     result.lines += parts[i].lines;
     result.status = statusOfBoth(result.status, parts[i].status);
     gradient += others * parts[i].gradient.array();
-    variance += (others * parts[i].gradient_standard_error.array()).square();
+    // An error may be infinite, which counts for nothing where a factor is certainly 0.
+    Eigen::ArrayXd error = Eigen::ArrayXd::Zero(joints * waypoints);
+    if (others_or_more > 0.0) error = others_or_more * parts[i].gradient_standard_error.array();
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      const double factor = noneTouches(parts, i, j, 1.0) * parts[i].standard_error;
+      if (j != i && factor > 0.0) error += factor * sizeOf(parts[j]);
+    }
+    variance += error.square();
   }
   result.probability = 1.0 - none;
   result.standard_error = std::sqrt(square);

@@ -11,7 +11,7 @@
 #include "fcl_prob/combined_bounds.h"
 #include "query/call_budget.h"
 #include "robot/obstacle_sampling.h"
-#include "robot/seeds_apart.h"
+#include "base/seeds_apart.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "base/number_text.h"
 #include "base/refuse_band.h"
+#include "base/seeds_apart.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
@@ -20,7 +21,6 @@
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
 #include "robot/robot_notes.h"
-#include "robot/seeds_apart.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {

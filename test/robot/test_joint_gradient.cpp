@@ -5,6 +5,7 @@
 #include "fcl_prob/exceptions.h"
 #include "mesh_shapes.h"
 #include "robot/gradient_parts.h"
+#include "robot/obstacle_gradient.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
@@ -13,11 +14,11 @@ namespace {
 
 using Waypoints = std::vector<Eigen::VectorXd>;
 
-double certified(const RobotQuery& query, const Waypoints& waypoints) {
+double certified(const RobotQuery& query, const Waypoints& waypoints, double tolerance = 1e-4) {
   ProbabilityRequest request;
   request.method = ProbabilityMethod::interval;
   request.relative_tolerance = 0.0;
-  request.absolute_tolerance = 1e-4;
+  request.absolute_tolerance = tolerance;
   return query.motion(waypoints, ErrorsOverTime::persistent, request).any.middle();
 }
 
@@ -144,6 +145,80 @@ TEST_CASE("parts of a gradient share its time, and leave to others what they do 
   whole.time_limit = 1e-12;
   fcl_prob::detail::GradientParts none(whole, 2);
   CHECK(*none.requestOf(1).time_limit > 0.0);
+}
+
+TEST_CASE("joint gradients of few lines are within their errors, whatever the seed", "[slow]") {
+  const Robot arm = shippedArm();
+  const RobotQuery query(arm, ballAndBox());
+  const Waypoints waypoints{near(arm, 0.75), near(arm, -0.3)};
+  const double step = 5e-3, tolerance = 2e-5;
+  const auto moved = [&](Eigen::Index joint, Eigen::Index k, double by) {
+    Waypoints changed = waypoints;
+    changed[static_cast<std::size_t>(k)][joint] += by;
+    return certified(query, changed, tolerance);
+  };
+  const auto joints = static_cast<Eigen::Index>(arm.joints().size());
+  Eigen::MatrixXd slopes(joints, 2);
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    for (Eigen::Index joint = 0; joint < joints; ++joint) {
+      slopes(joint, k) = (moved(joint, k, step) - moved(joint, k, -step)) / (2.0 * step);
+    }
+  }
+  for (const std::size_t lines : {64, 1024}) {
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      MotionGradientRequest request;
+      request.lines = lines;
+      request.seed = seed;
+      const JointGradient found = query.gradient(waypoints, request);
+      const Eigen::ArrayXXd off = (found.gradient - slopes).array().abs() - tolerance / step -
+                                  0.01 * slopes.array().abs().maxCoeff();
+      CAPTURE(lines, seed, found.gradient, found.gradient_standard_error, slopes);
+      CHECK((off < 6.0 * found.gradient_standard_error.array()).all());
+    }
+  }
+}
+
+TEST_CASE("components of a mixture that are alike are not off together") {
+  const Robot arm = shippedArm();
+  std::vector<Obstacle> obstacles = ballAndBox();
+  obstacles.resize(1);
+  const auto displacement = sigma(0.03, 0.02, 0.04);
+  const auto gradientOf = [&](std::size_t lines) {
+    MotionGradientRequest request;
+    request.lines = lines;
+    return RobotQuery(arm, obstacles).gradient({near(arm, 0.5)}, request);
+  };
+  const JointGradient one = gradientOf(1000);
+  obstacles[0].displacement =
+      GaussianMixture({{0.25, displacement}, {0.25, displacement}, {0.5, displacement}});
+  const JointGradient several = gradientOf(1000);
+  CHECK(several.lines == 3000);
+  CHECK(several.probability != Approx(one.probability).epsilon(1e-9));
+  CHECK(several.standard_error < 0.9 * one.standard_error);
+  CHECK(std::fabs(several.probability - one.probability) <
+        6.0 * std::hypot(several.standard_error, one.standard_error));
+}
+
+TEST_CASE("what P of other obstacles is off by is in the error of a gradient") {
+  MotionGradient known, seldom;
+  known.probability = 0.5;
+  known.gradient = Eigen::VectorXd::Constant(1, 2.0);
+  known.gradient_standard_error = Eigen::VectorXd::Zero(1);
+  seldom.probability = 0.2;
+  seldom.standard_error = 0.1;
+  seldom.gradient = seldom.gradient_standard_error = Eigen::VectorXd::Zero(1);
+  const JointGradient both = detail::anyOfGradients({known, seldom}, 1, 1);
+  CHECK(both.probability == Approx(0.6));
+  CHECK(both.standard_error == Approx(0.05));
+  CHECK(both.gradient(0, 0) == Approx(1.6));
+  CHECK(both.gradient_standard_error(0, 0) == Approx(0.2));
+  // Where the others touch surely as far as is known, they may yet not.
+  known.gradient_standard_error[0] = 1.0;
+  seldom.probability = 1.0;
+  CHECK(detail::anyOfGradients({known, seldom}, 1, 1).gradient_standard_error(0, 0) > 0.2);
+  // What is not known of one is not known of all.
+  seldom.gradient_standard_error[0] = std::numeric_limits<double>::infinity();
+  CHECK(std::isinf(detail::anyOfGradients({known, seldom}, 1, 1).gradient_standard_error(0, 0)));
 }
 
 TEST_CASE("joint gradients refuse what has none") {

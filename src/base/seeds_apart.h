@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Seeds of what is drawn for different obstacles.
+// Seeds of what is drawn for different things.
 #pragma once
 
 #include <cstdint>
