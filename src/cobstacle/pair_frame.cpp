@@ -21,8 +21,9 @@ constexpr double kRoundings = 128.0;
 /// Sums and products below the smallest normal double.
 constexpr double kTiny = 1e-300;
 
-/// The cube of this, and what a sum of many of them has, is finite.
-constexpr double kLargestWhitened = 1e100;
+/// The fourth power of this, and what a sum of many of them has, is finite: lengths of products of
+/// two whitened lengths are roots of such.
+constexpr double kLargestWhitened = 1e75;
 
 /// The coordinates that do not move are in about the largest length that there is, so that nothing
 /// depends on the scale; a power of two, of which the square is finite.

@@ -44,8 +44,8 @@ struct PairFrame {
   /// volumes included, which miss their own contents by 1e-15 of their size.
   double error;
 
-  /// Whether products of three whitened lengths stay finite. Where they do not (a standard
-  /// deviation of 1e-100 of the objects' size), nothing is known of P from this frame.
+  /// Whether products of four whitened lengths stay finite. Where they do not (a standard
+  /// deviation of 1e-75 of the objects' size), nothing is known of P from this frame.
   bool fits;
 
   /// By how much an error of so many metres can change each whitened coordinate.

@@ -8,12 +8,14 @@
 #include <limits>
 
 #include "cobstacle/pair_obstacle.h"
+#include "cobstacle/resolved_part.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/agreed_bounds.h"
 #include "narrowphase/ball_pair.h"
 #include "narrowphase/curved_pair.h"
 #include "narrowphase/ellipsoid_polytope.h"
 #include "narrowphase/layered_mass.h"
+#include "narrowphase/near_section.h"
 #include "narrowphase/pair_bounds.h"
 #include "narrowphase/polytope_section.h"
 #include "narrowphase/rounded_pair.h"
@@ -34,6 +36,10 @@ constexpr int kFewSections = 10, kMostSections = 40;
 
 /// What is below cannot be told from nothing.
 constexpr double kNothing = 1e-300;
+
+/// Of the bodies' size: how far apart sections are that tell of each other. Far more than positions
+/// are rounded by, and little beside a body.
+constexpr double kStepOfSection = 0x1p-16;
 
 /// Mass of a ball, of which the closed form for equal deviations is the fastest.
 Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& displacement) {
@@ -60,6 +66,15 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
                               const ConvexBody& b, const fcl::Transform3d& pose_b,
                               const GaussianDisplacement& displacement,
                               const Interruption& interruption, double inset) {
+  const double size = std::max(a.set().size(), b.set().size());
+  const ResolvedPart resolved = resolvedPart(displacement, size);
+  if (resolved.left_out > 0.0) {
+    const auto mass_of = [&](const GaussianDisplacement& of) {
+      return detail::convexPairMass(a, pose_a, b, pose_b, of, interruption, inset);
+    };
+    const Bounds mass = massNear(mass_of, resolved, kStepOfSection * size);
+    if (mass.width() < 1.0) return mass;
+  }
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   const PairObstacle obstacle(frame, a.set(), b.set());
   PairBounds pair;

@@ -60,7 +60,7 @@ std::unique_ptr<LineBets> LineBets::of(const PartitionObject& a, const Partition
   if (a.hasSolid() || b.hasSolid()) {
     bets.solids_ = std::make_unique<SolidContact>(a, b, bets.frame_.whitening, bets.frame_.pair);
   }
-  bets.lines_ = WholeBodyLines::of(bets.frame_.pair, a, b, displacement,
+  bets.lines_ = WholeBodyLines::of(bets.frame_.pair, a, b, bets.frame_.displacement,
                                    bets.frame_.whitening.matrix(), bets.solids_.get());
   if (!bets.lines_) return nullptr;
   bets.below_.source = std::make_shared<Source>(*bets.lines_, Taken::hulls);

@@ -88,15 +88,20 @@ void fillEstimate(const QueryFrame& frame, const PartitionEngine& engine,
   result.gradient_standard_error = variance.cwiseSqrt();
 }
 
-void describe(const QueryFrame& frame, bool solids, const ProbabilityRequest& request,
-              ProbabilityResult& result) {
+void describe(const QueryFrame& frame, int of_covariance, bool solids,
+              const ProbabilityRequest& request, ProbabilityResult& result) {
   const int rank = frame.whitening.rank();
   result.plan.push_back("partition of the displacement space into " +
                         std::to_string(result.statistics.cells) + " cells, " +
                         std::to_string(result.statistics.leaf_pairs) + " pairs of pieces refined");
-  if (rank < 3) {
-    result.plan.push_back("covariance of rank " + std::to_string(rank) + ": " +
-                          std::to_string(3 - rank) + " axes left out of the cells");
+  if (rank < of_covariance) {
+    result.plan.push_back(
+        "deviations below what positions are rounded by: " + std::to_string(of_covariance - rank) +
+        " axes left out of the cells, their reach added to the rounding");
+  }
+  if (of_covariance < 3) {
+    result.plan.push_back("covariance of rank " + std::to_string(of_covariance) + ": " +
+                          std::to_string(3 - of_covariance) + " axes left out of the cells");
   }
   if (request.gradient && rank < 3) result.plan.push_back(kNoGradient);
   if (request.hasBand()) {
@@ -165,14 +170,13 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
 }
 
 // Polytope cells, within what is left of the limits. The interval is that of all so far.
-bool carveInTime(const PartitionObject& a, const PartitionObject& b,
-                 const GaussianDisplacement& displacement, const QueryFrame& frame,
+bool carveInTime(const PartitionObject& a, const PartitionObject& b, const QueryFrame& frame,
                  const SolidContact* solids, const ProbabilityRequest& whole_request,
                  StageClock& clock, Bounds& known, ProbabilityResult& result) {
   ProbabilityRequest request = whole_request;
   if (request.time_limit) request.time_limit = clock.leftOf(*request.time_limit);
   const bool reached =
-      carve(a, b, displacement, frame.whitening, frame.pair, solids, request, result);
+      carve(a, b, frame.displacement, frame.whitening, frame.pair, solids, request, result);
   clock.finish("carving");
   known.lower = std::max(known.lower, result.lower.value_or(0.0));
   known.upper = std::min(known.upper, result.upper.value_or(1.0));
@@ -187,13 +191,12 @@ bool carveInTime(const PartitionObject& a, const PartitionObject& b,
 constexpr double kMostRoundingOfLines = 0.03;
 
 // The estimate by lines, where an object can be taken whole and nothing but P is asked for.
-bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
-                     const GaussianDisplacement& displacement, const QueryFrame& frame,
+bool estimateByLines(const PartitionObject& a, const PartitionObject& b, const QueryFrame& frame,
                      const SolidContact* solids, const ProbabilityRequest& request,
                      ProbabilityResult& result) {
   if (request.gradient || request.threshold) return false;
   const auto lines =
-      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+      WholeBodyLines::of(frame.pair, a, b, frame.displacement, frame.whitening.matrix(), solids);
   if (!lines || !lines->isExact()) return false;
   if (lines->rounding() > kMostRoundingOfLines * request.relative_tolerance) return false;
   const EngineLimits limits(request, result.statistics);
@@ -215,12 +218,11 @@ bool estimateByLines(const PartitionObject& a, const PartitionObject& b,
 
 // What columns tell, where an object can be taken whole. The interval is that of all so far.
 std::optional<ColumnBounds> lookAtColumns(const PartitionObject& a, const PartitionObject& b,
-                                          const GaussianDisplacement& displacement,
                                           const QueryFrame& frame, const SolidContact* solids,
                                           const ProbabilityRequest& request, Bounds& known,
                                           ProbabilityResult& result) {
   const auto lines =
-      WholeBodyLines::of(frame.pair, a, b, displacement, frame.whitening.matrix(), solids);
+      WholeBodyLines::of(frame.pair, a, b, frame.displacement, frame.whitening.matrix(), solids);
   if (!lines) return std::nullopt;
   const ColumnBounds columns = columnBounds(*lines, *request.threshold, request.max_cells);
   known = columns.bounds;
@@ -264,8 +266,9 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   StageClock clock(result.statistics);
   ProbabilityRequest request = whole_request;
   Bounds known{0.0, 1.0};
-  bool may_be_carved = !ball && !request.hasBand() && mayBeCarved(a, b, displacement, request);
-  const QueryFrame frame = queryFrame(a, b, displacement, request);
+  const QueryFrame frame = queryFrame(a, b, displacement, request, ball != nullptr);
+  bool may_be_carved =
+      !ball && !request.hasBand() && mayBeCarved(a, b, frame.displacement, request);
   std::unique_ptr<SolidContact> solids;
   if (a.hasSolid() || b.hasSolid()) {
     solids = std::make_unique<SolidContact>(a, b, frame.whitening, frame.pair);
@@ -276,7 +279,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   // What carving claimed is over if it did not get there.
   const auto carvedInstead = [&] {
     const bool reached =
-        carveInTime(a, b, displacement, frame, solids.get(), whole_request, clock, known, result);
+        carveInTime(a, b, frame, solids.get(), whole_request, clock, known, result);
     if (!reached) announceFrame();
     return reached;
   };
@@ -290,14 +293,12 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const bool estimate = request.method == ProbabilityMethod::estimate;
   result.method = estimate ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
   if (request.time_limit) request.time_limit = clock.leftOf(*request.time_limit);
-  if (estimate && !ball &&
-      estimateByLines(a, b, displacement, frame, solids.get(), request, result)) {
+  if (estimate && !ball && estimateByLines(a, b, frame, solids.get(), request, result)) {
     clock.finish("lines");
     return result;
   }
   if (may_be_carved) {
-    const auto columns =
-        lookAtColumns(a, b, displacement, frame, solids.get(), request, known, result);
+    const auto columns = lookAtColumns(a, b, frame, solids.get(), request, known, result);
     clock.finish("columns");
     if (result.status == ProbabilityStatus::decided) return result;
     const bool is_pair = a.parts.size() == 1 && b.parts.size() == 1;
@@ -313,7 +314,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   const auto makeTester = [&] {
     return std::make_unique<PointTester>(
         frame.pair, engine.obstacles(), solids.get(),
-        WholeBodyTester::of(frame.pair, a, b, displacement, frame.whitening.matrix()));
+        WholeBodyTester::of(frame.pair, a, b, frame.displacement, frame.whitening.matrix()));
   };
   std::unique_ptr<PointTester> tester;
   if (estimate) tester = makeTester();
@@ -348,7 +349,7 @@ ProbabilityResult partitionProbability(const PartitionObject& a, const Partition
   if (with_gradient) fillGradient(frame, engine.moment(), result);
   if (estimate) fillEstimate(frame, engine, sampled, with_gradient, result);
   result.decision = decisionOf({*result.lower, *result.upper}, request);
-  describe(frame, solids != nullptr, request, result);
+  describe(frame, displacement.rank(), solids != nullptr, request, result);
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/number_text.h"
+#include "cobstacle/resolved_part.h"
 #include "fcl_prob/exceptions.h"
 #include "pieces/band_margin.h"
 #include "pieces/closest_approach.h"
@@ -19,11 +21,25 @@ namespace {
 // that is not along an axis would make their bounding boxes useless.
 constexpr double kMostStretched = 30.0;
 
+// Products of three whitened lengths have to be finite.
+constexpr double kMostWhitened = 1e100;
+
+void requireFitting(const GaussianDisplacement& displacement, double size) {
+  if (displacement.rank() == 0) return;
+  const double least = displacement.standardDeviations()[displacement.rank() - 1];
+  if (size <= kMostWhitened * least) return;
+  throw InvalidDistribution("a truncated displacement of a standard deviation of " +
+                            numberText(least) + " m, of objects of " + numberText(size) +
+                            " m: less than 1e-100 of them");
+}
+
 // The objects with the bands of the request among their motions.
 class BandedPair {
  public:
-  BandedPair(const PartitionObject& a, const PartitionObject& b, const ProbabilityRequest& request)
-      : a_(a), b_(b), request_(request), swept_(a.isSwept() || b.isSwept()) {
+  /// \param moved  as of detail::whiten()
+  BandedPair(const PartitionObject& a, const PartitionObject& b, const ProbabilityRequest& request,
+             double moved)
+      : a_(a), b_(b), request_(request), moved_(moved), swept_(a.isSwept() || b.isSwept()) {
     if (!request.hasBand() && !swept_) return;
     if (a.motion || b.motion) throw InvalidRequest("bands around shapes that turn at random");
     if (request.hasBand() && swept_) throw InvalidRequest("bands around shapes that are swept");
@@ -38,7 +54,7 @@ class BandedPair {
   BandedPair& operator=(const BandedPair&) = delete;
 
   void whiten(const Whitening& whitening, WhitenedPair& pair) const {
-    detail::whiten(a_, b_, whitening, pair);
+    detail::whiten(a_, b_, whitening, pair, moved_);
     const Eigen::Matrix3d& w = whitening.matrix();
     if (swept_) pair.band = std::make_shared<const BandMargin>(a_, b_, w);
     pair.turning.reset();
@@ -55,6 +71,7 @@ class BandedPair {
   PartitionObject a_;
   PartitionObject b_;
   const ProbabilityRequest& request_;
+  double moved_;
   bool swept_;
   PointMotion of_a_;
   PointMotion of_b_;
@@ -71,20 +88,25 @@ Care careFor(const PartitionObject& a, const PartitionObject& b,
 }  // namespace
 
 QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
-                      const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
+                      const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+                      bool all_axes) {
   const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
-  const Whitening plain(displacement, unit);
-  const BandedPair banded(a, b, request);
+  if (all_axes) requireFitting(displacement, unit);
+  const ResolvedPart resolved =
+      all_axes ? ResolvedPart{displacement} : resolvedPart(displacement, unit);
+  const GaussianDisplacement& moving = resolved.displacement;
+  const Whitening plain(moving, unit);
+  const BandedPair banded(a, b, request, resolved.left_out);
   WhitenedPair pair;
   banded.whiten(plain, pair);
-  const Eigen::Vector3d& sigma = displacement.standardDeviations();
-  if (displacement.rank() < 2 || sigma[0] > kMostStretched * sigma[displacement.rank() - 1]) {
-    return {plain, std::move(pair)};
+  const Eigen::Vector3d& sigma = moving.standardDeviations();
+  if (moving.rank() < 2 || sigma[0] > kMostStretched * sigma[moving.rank() - 1]) {
+    return {moving, plain, std::move(pair)};
   }
-  const Care care = careFor(a, b, displacement, request);
-  const Whitening rotated = plain.rotatedTo(closestApproach(pair, displacement.rank(), care));
+  const Care care = careFor(a, b, moving, request);
+  const Whitening rotated = plain.rotatedTo(closestApproach(pair, moving.rank(), care));
   banded.whiten(rotated, pair);
-  return {rotated, std::move(pair)};
+  return {moving, rotated, std::move(pair)};
 }
 
 }  // namespace fcl_prob::detail

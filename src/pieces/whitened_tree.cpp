@@ -152,7 +152,7 @@ void boundMotions(const PartitionObject& object, const Eigen::Matrix3d& whitenin
 }
 
 void whitenOne(const PartitionObject& object, const Whitening& whitening,
-               const ExactPosition& minus_origin, WhitenedTree& result) {
+               const ExactPosition& minus_origin, double moved, WhitenedTree& result) {
   result.tree = object.tree;
   result.vertices.clear();
   result.linear.clear();
@@ -171,8 +171,8 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
   }
   const Eigen::Vector3d stretch = whitening.matrix().cwiseAbs().rowwise().sum();
   const Eigen::Vector3d size = 1.8 * object.tree->radius() * stretch;
-  result.error =
-      16 * kEpsilon * (2 * size + farthest) + (object.tree->error() + kLostInProducts) * stretch;
+  result.error = 16 * kEpsilon * (2 * size + farthest) +
+                 (object.tree->error() + kLostInProducts + moved) * stretch;
   result.error.array() += std::numeric_limits<double>::min();
   boundMotions(object, whitening.matrix(), result);
   result.boxes.fit(result);
@@ -188,12 +188,12 @@ NodeBox bodyBox(const WhitenedTree& whitened, int body) {
 }
 
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
-            WhitenedPair& result) {
+            WhitenedPair& result, double moved) {
   ExactPosition minus_origin;
   minus_origin.add(a.parts[0].pose, a.tree->parts[0].origin, -1.0);
-  whitenOne(a, whitening, minus_origin, result.a);
+  whitenOne(a, whitening, minus_origin, 0.0, result.a);
   minus_origin.add(whitening.mean(), -1.0);
-  whitenOne(b, whitening, minus_origin, result.b);
+  whitenOne(b, whitening, minus_origin, moved, result.b);
 }
 
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b,

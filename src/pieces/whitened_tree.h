@@ -81,8 +81,10 @@ struct WhitenedPair {
 WhitenedPair whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening);
 
 /// The same into the memory of an earlier one, which must not be referred to any more.
+/// \param moved  how far B as a whole may be from where it is said to be, metres: it is part of the
+///               error of its points
 void whiten(const PartitionObject& a, const PartitionObject& b, const Whitening& whitening,
-            WhitenedPair& result);
+            WhitenedPair& result, double moved = 0.0);
 
 /// Bound on the error of b - a over the points of two nodes, without what `band` pays for.
 inline Eigen::Vector3d slabError(const WhitenedPair& pair, NodePair nodes) {
