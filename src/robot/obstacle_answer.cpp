@@ -14,6 +14,13 @@
 namespace fcl_prob::detail {
 namespace {
 
+/// By how much the tolerance of a round of a decision is less than that of the one before: every
+/// round begins anew, so that the last should take most of the time.
+constexpr double kFiner = 1.0 / 16;
+
+/// What rounding leaves of a probability; less is no tolerance.
+constexpr double kLeastTolerance = 1e-15;
+
 class EventAnswers {
  public:
   /// \param combine  null: the events are independent
@@ -38,7 +45,8 @@ class EventAnswers {
     ProbabilityRequest fine = request_;
     fine.absolute_tolerance /= static_cast<double>(bounds_.size());
     if (bounds_.size() > 1) fine.threshold.reset();
-    askAll(fine, [this, &fine](std::size_t i) { return !isFine(result_.parts[i], fine); });
+    askFor(fine);
+    if (asksForDecision(request_) && bounds_.size() > 1) narrowUntilDecided(fine);
     return finished();
   }
 
@@ -48,6 +56,51 @@ class EventAnswers {
     if (request.method == ProbabilityMethod::estimate) return false;
     const double width = *part.upper - part.lower.value_or(0.0);
     return width <= request.toleranceAt(*part.upper);
+  }
+
+  void askFor(const ProbabilityRequest& fine) {
+    askAll(fine, [this, &fine](std::size_t i) { return !isFine(result_.parts[i], fine); });
+  }
+
+  /// Rounds with less and less tolerance, until they decide or nothing becomes narrower.
+  void narrowUntilDecided(ProbabilityRequest fine) {
+    while (!isDecided() && !isOut() && mayBeDecided()) {
+      fine.absolute_tolerance *= kFiner;
+      fine.relative_tolerance *= kFiner;
+      if (fine.relative_tolerance + fine.absolute_tolerance < kLeastTolerance) return;
+      const std::vector<Bounds> before = bounds_;
+      askFor(fine);
+      if (!isNarrowerThan(before) && allAreDone()) return;
+    }
+  }
+
+  /// Bounds of the events get no farther than to each other.
+  bool mayBeDecided() const {
+    std::vector<Bounds> least = bounds_, most = bounds_;
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      least[i].upper = bounds_[i].lower;
+      most[i].lower = bounds_[i].upper;
+    }
+    return detail::isDecided(decisionOf(anyOf(least), request_)) ||
+           detail::isDecided(decisionOf(anyOf(most), request_));
+  }
+
+  bool isNarrowerThan(const std::vector<Bounds>& before) const {
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      if (bounds_[i].width() < before[i].width()) return true;
+    }
+    return false;
+  }
+
+  /// Whether no event can become narrower, whatever the tolerance.
+  bool allAreDone() const {
+    return std::all_of(result_.parts.begin(), result_.parts.end(), [](const auto& part) {
+      return part.status == ProbabilityStatus::exact || !isAnswered(part.status);
+    });
+  }
+
+  Bounds anyOf(const std::vector<Bounds>& events) const {
+    return combine_ ? (*combine_)(events) : anyOfIndependent(events);
   }
 
   template <typename Needed>
@@ -109,7 +162,7 @@ class EventAnswers {
   }
 
   bool isDecided() {
-    result_.any = combine_ ? (*combine_)(bounds_) : anyOfIndependent(bounds_);
+    result_.any = anyOf(bounds_);
     result_.decision = decisionOf(result_.any, request_);
     return detail::isDecided(result_.decision);
   }
@@ -151,7 +204,9 @@ class EventAnswers {
       if (!isAnswered(part.status)) return part.status;
       if (part.status != ProbabilityStatus::exact) common = ProbabilityStatus::converged;
     }
-    if (common == ProbabilityStatus::exact || combine_ || isWithinTolerance()) return common;
+    if (common == ProbabilityStatus::exact) return common;
+    if (asksForDecision(request_)) return ProbabilityStatus::resolution_limit;
+    if (combine_ || isWithinTolerance()) return common;
     return ProbabilityStatus::resolution_limit;
   }
 

@@ -6,6 +6,7 @@
 
 #include "base/number_text.h"
 #include "base/refuse_band.h"
+#include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
@@ -314,8 +315,7 @@ struct RobotQuery::Implementation {
           const ObstacleState state = detail::stateAt(obstacles[i], 0);
           answers[i] = detail::sweptMotion(
               paths[i], geometries, {*obstacle_geometries[i], state.pose, state.displacement},
-              obstacle_balls[i].placed(state.pose), detail::kShareOfFar * of_one.absolute_tolerance,
-              of_one);
+              obstacle_balls[i].placed(state.pose), detail::mostFarOf(of_one), of_one);
           answer = answers[i].result;
         });
     result.swept_band = 0.0;
@@ -351,8 +351,9 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 }
 
 RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
-                               const ProbabilityRequest& request, BetweenWaypoints between) const {
-  implementation_->validate(waypoints, request);
+                               const ProbabilityRequest& of_user, BetweenWaypoints between) const {
+  implementation_->validate(waypoints, of_user);
+  const ProbabilityRequest request = detail::ofOneCall(of_user);
   if (between == BetweenWaypoints::swept) {
     requireContinuous(errors, request);
     return implementation_->ofAllTimes(waypoints, request);
@@ -378,22 +379,24 @@ ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& wa
   if (request.method != ProbabilityMethod::automatic) {
     throw InvalidRequest("a probable decision has its own method, not " + toString(request.method));
   }
-  return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error, request);
+  return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error,
+                                          detail::ofOneCall(request));
 }
 
 JointGradient RobotQuery::gradient(const std::vector<Eigen::VectorXd>& waypoints,
                                    const MotionGradientRequest& request) const {
   implementation_->validate(waypoints, ProbabilityRequest());
   detail::validateGradient(request);
-  return implementation_->gradient(waypoints, request);
+  return implementation_->gradient(waypoints, detail::ofOneCall(request));
 }
 
 std::vector<RobotResult> RobotQuery::byBody(const std::vector<Eigen::VectorXd>& waypoints,
                                             const ProbabilityRequest& request) const {
   implementation_->validate(waypoints, request);
+  const ProbabilityRequest of_call = detail::ofOneCall(request);
   std::vector<RobotResult> results;
   for (std::size_t i = 0; i < robot().bodies().size(); ++i) {
-    results.push_back(implementation_->ofUnion(waypoints, static_cast<int>(i), request));
+    results.push_back(implementation_->ofUnion(waypoints, static_cast<int>(i), of_call));
   }
   return results;
 }

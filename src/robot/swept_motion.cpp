@@ -82,7 +82,7 @@ class SweptMotion {
       if (const auto status = isEnough()) return finished(*status);
       if (stops(answer.status)) return finished(answer.status);
       if (const auto status = budget_.exhausted()) return finished(*status);
-      if (!(answer_.reach > 0.0)) return finished(answer.status);
+      if (!(answer_.reach > 0.0)) return finished(ofAllSteps(answer.status));
       if (answer_.reach > distance) break;
       distance = answer_.reach * shrunk();
     }
@@ -183,21 +183,20 @@ class SweptMotion {
   Bounds known() const { return {*answer_.result.lower, *answer_.result.upper}; }
 
   std::optional<ProbabilityStatus> isEnough() {
-    const Decision decision = decisionOf(known(), request_);
-    answer_.result.decision = decision;
-    if (isDecided(decision)) {
-      return ProbabilityStatus::decided;
-    }
-    if (known().width() <= request_.toleranceAt(known().upper)) {
-      return ProbabilityStatus::converged;
-    }
-    return std::nullopt;
+    answer_.result.decision = decisionOf(known(), request_);
+    return satisfied(known(), request_);
   }
 
   /// A limit that shorter steps do not move.
   static bool stops(ProbabilityStatus status) {
     return !isAnswered(status) && status != ProbabilityStatus::band_limit &&
            status != ProbabilityStatus::resolution_limit;
+  }
+
+  /// What is decided without the steps that are far need not be so with them.
+  ProbabilityStatus ofAllSteps(ProbabilityStatus of_near) const {
+    const bool is_undecided = asksForDecision(request_) && of_near == ProbabilityStatus::decided;
+    return is_undecided ? ProbabilityStatus::resolution_limit : of_near;
   }
 
   /// What steps add to the interval falls between in proportion to their length and to its square.
