@@ -28,10 +28,10 @@ bool fclSupportsPair(const fcl::CollisionGeometryd& a, const fcl::CollisionGeome
 /// The seed fixes every sample, whatever the number of threads. Sets estimate, standard_error (with
 /// half a hit added, so that it is not 0 without hits), confidence_interval (Clopper-Pearson) and,
 /// if asked for and the covariance has full rank, the gradient with its standard error. Stops after
-/// request.samples, or when the half-width of the interval is within the tolerance or the threshold
-/// is outside the interval; both are looked at on a fixed schedule (1024 samples, then doubling)
-/// whose looks share the error probability, so that stopping early does not spoil the coverage. A
-/// time limit or a cancellation stops it at any time.
+/// request.samples, or when the half-width of the interval is within the tolerance or, if there is
+/// one, the threshold is outside the interval, whatever its width; both are looked at on a fixed
+/// schedule (1024 samples, then doubling) whose looks share the error probability, so that stopping
+/// early does not spoil the coverage. A time limit or a cancellation stops it at any time.
 ///
 /// \throws InvalidGeometry, InvalidPose, InvalidRequest
 /// \throws UnsupportedGeometry if fclSupportsPair() is false

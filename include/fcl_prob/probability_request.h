@@ -52,7 +52,10 @@ struct ProbabilityRequest {
   double relative_tolerance = 0.01;
   double absolute_tolerance = 1e-6;
 
-  /// Stop as soon as it is certain on which side of this probability P lies.
+  /// Decide on which side of this probability P lies, and stop as soon as that is certain (methods
+  /// that sample: with their `confidence`). Only that or a limit ends the query then; tolerances do
+  /// not, however close to it P is. Method `estimate` ends at its tolerance all the same: its
+  /// standard error decides nothing, its interval may.
   std::optional<double> threshold;
 
   /// Seconds; not set means no limit, so that results repeat.
@@ -91,7 +94,7 @@ struct ProbabilityRequest {
   Band band_b;
 
   /// Called now and then from the calling thread; returning false cancels the query, whose result
-  /// is valid all the same (status `cancelled`).
+  /// is valid all the same (status `cancelled`); it is not called again in that call.
   std::function<bool(const ProbabilityProgress&)> on_progress;
 
   /// How wide an interval (or how large a standard error) may be where P is `probability`.

@@ -20,7 +20,7 @@ enum class Decision { none, below, above, undecided };
 
 /// Why a query stopped.
 enum class ProbabilityStatus {
-  converged,         ///< the tolerance was reached
+  converged,         ///< the tolerance was reached; with a threshold only by method estimate
   exact,             ///< everything is resolved: only the rounding margin is left
   decided,           ///< the threshold was decided
   bound_only,        ///< the method gives one upper bound and has no tolerance to reach

@@ -122,11 +122,10 @@ class RobotQuery {
   /// waypoint.
   ///
   /// With what is between them `lower` is that of states on the way, and `upper` is widened by how
-  /// far the points of a body can move besides. Steps are halved until the tolerance is met, the
-  /// threshold decided or a limit reached (`resolution_limit`: they are as short as they get);
-  /// far_bodies then counts steps of bodies.
-  /// \throws InvalidRequest without a waypoint, or unless an obstacle that moves has a state at
-  /// each;
+  /// far the points of a body can move besides. Steps are halved until the tolerance is met or, if
+  /// there is one, the threshold decided, or a limit reached (`resolution_limit`: they are as short
+  /// as they get); far_bodies then counts steps of bodies. \throws InvalidRequest without a
+  /// waypoint, or unless an obstacle that moves has a state at each;
   ///         with persistent errors for one that turns or whose covariance changes; with any
   ///         dependence for method estimate; for what is between waypoints with other than
   ///         persistent errors, which would be drawn without end, or method estimate; as state()

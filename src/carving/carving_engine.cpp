@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/decision.h"
 #include "base/rounded_sum.h"
 
 namespace fcl_prob::detail {
@@ -79,7 +80,7 @@ std::size_t CarvingEngine::mostOfRound() const {
 std::size_t CarvingEngine::takeLargest() {
   const std::size_t most = mostOfRound();
   if (round_.size() < most) round_.resize(most);
-  const double needed = missing();
+  const double needed = missingWidth(interval(), request_);
   double taken = 0.0;
   std::size_t count = 0;
   do {
@@ -136,30 +137,16 @@ Bounds CarvingEngine::interval() const {
 std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
   if (obstacles_.failed()) return ProbabilityStatus::resolution_limit;
   const Bounds now = interval();
-  if (request_.threshold) {
-    if (now.upper < *request_.threshold || now.lower > *request_.threshold) {
-      return ProbabilityStatus::decided;
-    }
-  }
-  const double tolerance = request_.toleranceAt(now.upper);
-  if (now.width() <= tolerance) return ProbabilityStatus::converged;
+  if (const auto status = detail::satisfied(now, request_)) return status;
   // What is settled as unknown stays so.
   const double unknown = settled_.upper - settled_.lower;
-  if (!request_.threshold && unknown > tolerance) return ProbabilityStatus::resolution_limit;
-  // What is left is rounding and the accuracy of masses.
   const double open = open_.upper - open_.lower;
+  const bool is_settled = asksForDecision(request_) ? !mayBeDecided(now, open, request_)
+                                                    : unknown > request_.toleranceAt(now.upper);
+  if (is_settled) return ProbabilityStatus::resolution_limit;
+  // What is left is rounding and the accuracy of masses.
   if (queue_.empty() || open < 0.1 * now.width()) return ProbabilityStatus::resolution_limit;
   return std::nullopt;
-}
-
-// By how much the gaps have to become smaller, at least, for satisfied().
-double CarvingEngine::missing() const {
-  const Bounds now = interval();
-  double missing = now.width() - request_.toleranceAt(now.upper);
-  if (request_.threshold) {
-    missing = std::min({missing, now.upper - *request_.threshold, *request_.threshold - now.lower});
-  }
-  return missing;
 }
 
 std::optional<ProbabilityStatus> CarvingEngine::limited() const {

@@ -62,7 +62,6 @@ class CarvingEngine {
   void divideTaken(std::size_t count);
   void recount();
   std::optional<ProbabilityStatus> satisfied() const;
-  double missing() const;
   std::optional<ProbabilityStatus> limited() const;
   std::size_t memory() const { return obstacles_.memory() + cell_memory_ + list_memory_; }
 

@@ -96,7 +96,8 @@ ProbabilityResult PartsScene::sum(const ProbabilityRequest& request) const {
 
 ProbabilityResult PartsScene::bothSides(const ProbabilityRequest& request) const {
   PartsBoundsRequest bounds_request;
-  bounds_request.negligible = 1e-3 * request.absolute_tolerance;
+  bounds_request.negligible =
+      1e-3 * std::min(request.absolute_tolerance, request.threshold.value_or(1.0));
   const PartsBoundsResult parts = bounds(bounds_request);
   ProbabilityResult result = boundedBy(parts.any.upper, request);
   result.statistics.raw_sum = parts.sum;

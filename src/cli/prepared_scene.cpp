@@ -9,6 +9,7 @@
 
 #include "base/decision.h"
 #include "base/stopwatch.h"
+#include "base/until_no.h"
 #include "cli/number_text.h"
 
 namespace fcl_prob::cli {
@@ -149,9 +150,7 @@ ProbabilityResult PreparedScene::betweenTwo(const ProbabilityRequest& request) c
     query_->collisionProbability(a_.pose, b_.pose, displacement_, request, result);
     return result;
   }
-  // What one of the two decides is not decided.
-  ProbabilityRequest of_one = request;
-  of_one.threshold.reset();
+  ProbabilityRequest of_one = detail::ofOneCall(request);
   of_one.gradient = false;
   query_->collisionProbability(a_.pose, b_.pose, displacement_, of_one, result);
   if (!result.lower || !result.upper || result.estimate) {
@@ -164,11 +163,11 @@ ProbabilityResult PreparedScene::betweenTwo(const ProbabilityRequest& request) c
   result.upper = std::max(*result.lower, *possible.upper);
   result.statistics.cells += possible.statistics.cells;
   result.decision = detail::decisionOf({*result.lower, *result.upper}, request);
-  const double width = *result.upper - *result.lower;
-  if (result.decision == Decision::below || result.decision == Decision::above) {
-    result.status = ProbabilityStatus::decided;
-  } else if (!stoppedByLimit(result.status) && width > request.toleranceAt(*result.upper)) {
-    // Each of the two is as narrow as asked for: what is between them was not seen.
+  const auto of_both = detail::satisfied({*result.lower, *result.upper}, request);
+  if (of_both == ProbabilityStatus::decided) {
+    result.status = *of_both;
+  } else if (!of_both && !stoppedByLimit(result.status)) {
+    // Each of the two is as narrow as asked for, or decided: what is between them was not seen.
     result.status = ProbabilityStatus::band_limit;
   }
   result.plan.push_back(

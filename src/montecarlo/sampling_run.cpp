@@ -68,8 +68,8 @@ ProbabilityProgress SamplingRun::progress(const Stopwatch& watch) const {
 }
 
 std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interval) const {
-  const Decision decision = decisionOf(interval, request_);
-  if (isDecided(decision)) {
+  if (request_.threshold) {
+    if (!isDecided(decisionOf(interval, request_))) return std::nullopt;
     return ProbabilityStatus::decided;
   }
   const double tolerance =

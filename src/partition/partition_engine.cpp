@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/decision.h"
 #include "base/rounded_sum.h"
 #include "cells/cell_split.h"
 #include "cells/claim_observer.h"
@@ -32,9 +33,10 @@ constexpr double kQuickSamplesPerCell = 50;
 // larger more samples are drawn, so that a little more than half is quickest.
 constexpr double kDeviationShare = 0.6;
 
-// With bands around the shapes, cells after which the interval is looked at, again whenever there
-// are twice as many: what has left this share of its width is all that bands leave.
-constexpr std::size_t kFirstLookAtBand = 4000;
+// Cells after which the interval is looked at, again whenever there are twice as many: what has
+// left this share of its width is all that bands around the shapes leave, or, where not all axes
+// move, a section that lies along a surface to within rounding. Else it leaves 0.7 or so.
+constexpr std::size_t kFirstLook = 4000;
 constexpr double kStalled = 0.97;
 
 // Sweeps can be made shorter, which helps more than cells once they are about half of the width:
@@ -68,7 +70,7 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
       round_(1),
       band_(scene.pair.band),
-      next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLookAtBand),
+      next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLook),
       limits_(request, statistics) {
   Division root;
   workers_.first().divider.examineRoot(root);
@@ -130,7 +132,7 @@ std::size_t PartitionEngine::mostOfRound() const {
 std::size_t PartitionEngine::takeLargest(bool estimate) {
   const std::size_t most = mostOfRound();
   if (round_.size() < most) round_.resize(most);
-  const double needed = missing();
+  const double needed = missingWidth(interval(), request_);
   const double target = targetError(interval().middle());
   const double least = CellDivider::kSoon * queue_.front().gap();
   double taken = 0.0;
@@ -207,18 +209,14 @@ MomentBounds PartitionEngine::moment() const {
 
 std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const {
   const Bounds now = interval();
-  if (request_.threshold) {
-    if (now.upper < *request_.threshold || now.lower > *request_.threshold) {
-      return ProbabilityStatus::decided;
-    }
-  }
+  const auto status = detail::satisfied(now, request_);
+  if (status == ProbabilityStatus::decided) return status;
   if (queue_.empty() && !(left_by_band_ > 0.0)) {
     return indivisible_ ? ProbabilityStatus::resolution_limit : ProbabilityStatus::exact;
   }
-  const double tolerance = request_.toleranceAt(now.upper);
-  if (now.width() <= tolerance) return ProbabilityStatus::converged;
-  const bool all_is_band = queue_.empty() || now.width() - left_by_band_ <= tolerance || stalled_;
-  if (band_ && all_is_band) return ProbabilityStatus::band_limit;
+  if (status) return status;
+  if (band_ && isOpenByBand(now)) return ProbabilityStatus::band_limit;
+  if (!band_ && stalled_) return ProbabilityStatus::resolution_limit;
   if (estimate &&
       samplesNeeded(targetError(now.middle())) <= samplesAffordable(statistics_.cells)) {
     return ProbabilityStatus::converged;
@@ -226,14 +224,12 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   return std::nullopt;
 }
 
-// By how much the gaps have to become smaller, at least, for satisfied().
-double PartitionEngine::missing() const {
-  const Bounds now = interval();
-  double missing = now.width() - request_.toleranceAt(now.upper);
-  if (request_.threshold) {
-    missing = std::min({missing, now.upper - *request_.threshold, *request_.threshold - now.lower});
-  }
-  return missing;
+// Whether cells have no more to tell than what is asked for, or nearly nothing.
+bool PartitionEngine::isOpenByBand(const Bounds& now) const {
+  if (queue_.empty() || stalled_) return true;
+  const double open = now.width() - left_by_band_;
+  if (asksForDecision(request_)) return !mayBeDecided(now, open, request_);
+  return open <= request_.toleranceAt(now.upper);
 }
 
 double PartitionEngine::targetError(double probability) const {
@@ -282,11 +278,11 @@ std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
   return limits_.interruption(interval(), estimate ? EngineLimits::kShareForDividing : 1.0);
 }
 
-void PartitionEngine::lookAtBand() {
+void PartitionEngine::lookForStall() {
   if (statistics_.cells < next_look_) return;
   next_look_ = 2 * statistics_.cells;
   const Bounds now = interval();
-  const double stalled = band_->isOfSweeps() ? kStalledBySweeps : kStalled;
+  const double stalled = band_ && band_->isOfSweeps() ? kStalledBySweeps : kStalled;
   stalled_ = now.width() > stalled * at_last_look_.width();
   at_last_look_ = now;
 }
@@ -297,7 +293,7 @@ ProbabilityStatus PartitionEngine::run(bool estimate) {
   std::size_t divided = 0;
   std::size_t next_poll = 0;
   while (!status) {
-    if (band_) lookAtBand();
+    if (band_ || scene_.rank < 3) lookForStall();
     if (changes_since_recount_ * 4 > queue_.size()) recount();
     status = satisfied(estimate);
     if (status && changes_since_recount_ > 0) {

@@ -100,11 +100,11 @@ class PartitionEngine {
   void remove(const OpenCell& cell);
   void recount();
   std::optional<ProbabilityStatus> satisfied(bool estimate) const;
-  double missing() const;
+  bool isOpenByBand(const Bounds& now) const;
   double samplesNeeded(double target) const;
   double samplesAffordable(std::size_t cells) const;
   std::optional<ProbabilityStatus> limited(bool estimate) const;
-  void lookAtBand();
+  void lookForStall();
   bool hasCellsLeft() const;
   std::size_t memory() const;
 
@@ -124,7 +124,7 @@ class PartitionEngine {
   bool indivisible_ = false;
   std::shared_ptr<const BandMargin> band_;
   double left_by_band_ = 0.0;  ///< of the width of the interval: what bands or motions leave open
-  bool stalled_ = false;       ///< the bands leave nearly all that is open
+  bool stalled_ = false;       ///< more cells hardly settle more of what is open
   Bounds at_last_look_{0.0, 1.0};
   std::size_t next_look_;
   std::size_t cell_memory_ = 0;

@@ -28,6 +28,10 @@ constexpr double kShareOfFirstLook = 0.60792710185402663;
 constexpr double kCoveredAccuracy = 1e-5;
 constexpr double kRoundedMasses = 1e-9;
 
+// Cells are divided until a decision or a limit: an interval that is as narrow as rounding leaves
+// it has met one, however small P is.
+constexpr double kNoTolerance = 1e-15;
+
 /// All that is random about one sample.
 struct RandomSample {
   double cell;
@@ -60,8 +64,8 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
       error_(error),
       frame_(queryFrame(a, b, displacement, request)),
       most_cells_(request.max_cells) {
-  request_.relative_tolerance = 0.0;
-  request_.absolute_tolerance = 1e-15;
+  request_.relative_tolerance = kNoTolerance;
+  request_.absolute_tolerance = 0.0;
   request_.max_cells = std::min(most_cells_, kFirstCells);
   if (a.hasSolid() || b.hasSolid()) {
     solids_ = std::make_unique<SolidContact>(a, b, frame_.whitening, frame_.pair);
@@ -72,7 +76,7 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
   engine_ = std::make_unique<PartitionEngine>(scene, request_, statistics_);
   tester_ = std::make_unique<PointTester>(
       frame_.pair, engine_->obstacles(), solids_.get(),
-      WholeBodyTester::of(frame_.pair, a, b, displacement, frame_.whitening.matrix()));
+      WholeBodyTester::of(frame_.pair, a, b, frame_.displacement, frame_.whitening.matrix()));
 }
 
 std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<bool()>& enough) {
@@ -103,7 +107,7 @@ std::optional<ProbabilityStatus> ProbablePartition::divide() {
     request_.max_cells = std::min(most_cells_, kMoreCells * request_.max_cells);
     return std::nullopt;
   }
-  return status;
+  return status == ProbabilityStatus::converged ? ProbabilityStatus::resolution_limit : status;
 }
 
 void ProbablePartition::beginLook() {

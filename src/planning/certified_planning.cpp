@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/refuse_band.h"
+#include "base/until_no.h"
 #include "fcl_prob/exceptions.h"
 #include "planning/motion_descent.h"
 #include "planning/moving_joints.h"
@@ -48,6 +49,8 @@ class CertifiedPlanner {
   CertifiedPlanner(const RobotQuery& query, const SelfCollision& self,
                    const CertifiedPlanningRequest& request)
       : query_(query), self_(self), screen_(query), request_(request) {
+    request_.state = detail::ofOneCall(request_.state);
+    request_.planning = detail::ofOneCall(request_.planning);
     if (!request.state.threshold) throw InvalidRequest("a certified plan needs a threshold");
     const auto& most = request.motion_threshold;
     if (most && !(*most > 0.0 && *most <= 1.0)) {
@@ -75,7 +78,7 @@ class CertifiedPlanner {
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       plan = {};
       plan.state_threshold = *state.threshold;
-      plan.path = planMotion(query_.robot(), testOf(state), start, goal, remaining(states));
+      plan.path = planMotion(query_.robot(), testOf(state, states), start, goal, remaining(states));
       states = plan.path.states += states;
       if (plan.path.status != PlanningStatus::solved) return plan;
       if (certifyMotion(plan) || descend(plan, state)) {
@@ -94,12 +97,15 @@ class CertifiedPlanner {
   }
 
  private:
-  StateTest testOf(const ProbabilityRequest& state) const {
-    return [this, &state](const Eigen::VectorXd& values) {
+  /// A decision that is close keeps to the limits of the plan.
+  /// \param states  tested so far
+  StateTest testOf(const ProbabilityRequest& state, std::size_t states) const {
+    return [this, &state, states](const Eigen::VectorXd& values) mutable {
+      ++states;
       if (self_.collides(values)) return false;
       if (screen_.isBelow(values, *state.threshold)) return true;
       if (screen_.isHardlyBelow(values, *state.threshold)) return false;
-      return query_.state(values, state).decision == Decision::below;
+      return query_.state(values, withinLimits(state, states, false)).decision == Decision::below;
     };
   }
 
@@ -114,14 +120,17 @@ class CertifiedPlanner {
   }
 
   /// Of a query, which gives what it has where the plan's time ends or its caller cancels it.
-  ProbabilityRequest withinLimits(ProbabilityRequest request, std::size_t states) const {
+  /// \param path_is_found  else states are tested
+  ProbabilityRequest withinLimits(ProbabilityRequest request, std::size_t states,
+                                  bool path_is_found = true) const {
     if (request_.planning.time_limit) {
       request.time_limit = std::min(request.time_limit.value_or(secondsLeft()), secondsLeft());
     }
     if (request_.planning.on_progress) {
-      request.on_progress = [this, states, inner = request.on_progress](const auto& progress) {
+      request.on_progress = [this, states, path_is_found,
+                             inner = request.on_progress](const auto& progress) {
         return (!inner || inner(progress)) &&
-               request_.planning.on_progress({states, secondsPassed(), true});
+               request_.planning.on_progress({states, secondsPassed(), path_is_found});
       };
     }
     return request;
@@ -154,7 +163,7 @@ class CertifiedPlanner {
     descent.go_on = [this, &plan] { return mayGoOn(plan.path.states); };
     const auto moved = detail::descended(query_, plan.path.waypoints, descent);
     if (!moved) return false;
-    const StateTest allowed = testOf(state);
+    const StateTest allowed = testOf(state, plan.path.states);
     for (const Eigen::VectorXd& values : interpolated(*moved, request_.planning.largest_step)) {
       if (plan.path.states >= request_.planning.max_states || !mayGoOn(plan.path.states)) {
         return false;
@@ -193,7 +202,7 @@ class CertifiedPlanner {
   const RobotQuery& query_;
   const SelfCollision& self_;
   detail::StateScreen screen_;
-  const CertifiedPlanningRequest& request_;
+  CertifiedPlanningRequest request_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -202,7 +211,8 @@ class CertifiedPlanner {
 LargestProbability largestProbability(const RobotQuery& query,
                                       const std::vector<Eigen::VectorXd>& states,
                                       const ProbabilityRequest& request) {
-  return largestScreened(query, detail::StateScreen(query), states, [&] { return request; });
+  const ProbabilityRequest of_call = detail::ofOneCall(request);
+  return largestScreened(query, detail::StateScreen(query), states, [&] { return of_call; });
 }
 
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,

@@ -117,10 +117,11 @@ bool Interruption::lookAround(const std::function<py::tuple()>& arguments) {
   if (raised_) return false;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!on_progress_) return true;
+    if (!on_progress_ || said_no_) return !said_no_;
     const py::object goes_on = (*on_progress_)(*arguments());
     // None, of a callable that returns nothing, is no refusal.
-    return !goes_on.is(py::bool_(false));
+    said_no_ = goes_on.is(py::bool_(false));
+    return !said_no_;
   } catch (py::error_already_set& error) {
     raised_.emplace(std::move(error));
     return false;
@@ -131,7 +132,7 @@ bool Interruption::goOn(const ProbabilityProgress& progress) {
   const Clock::time_point now = Clock::now();
   if (!asked_) next_ = on_progress_ ? now : now + kBetweenLooks;
   asked_ = true;
-  if (now < next_) return true;
+  if (now < next_) return !said_no_;
   bool goes_on = true;
   {
     const py::gil_scoped_acquire acquired;

@@ -39,6 +39,7 @@ class Interruption {
   std::optional<py::error_already_set> raised_;
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
   bool asked_ = false;
+  bool said_no_ = false;  ///< then it is not asked again
 };
 
 /// Runs `query` on the request without the GIL. `query` must touch nothing of Python.

@@ -8,6 +8,7 @@
 #include "base/decision.h"
 #include "geometry/geometry_kind.h"
 #include "narrowphase/solid_pair.h"
+#include "query/exact_mass.h"
 #include "query/request_limits.h"
 
 namespace fcl_prob::detail {
@@ -43,10 +44,9 @@ std::optional<ProbabilityResult> convexMeshesMass(const PlacedPair& pair,
   result.lower = mass.lower;
   result.upper = std::min(mass.upper, 1.0);
   result.decision = decisionOf({*result.lower, *result.upper}, request);
-  const bool is_narrow = mass.width() <= request.toleranceAt(mass.upper);
-  result.status = isDecided(result.decision) ? ProbabilityStatus::decided
-                  : is_narrow                ? ProbabilityStatus::converged
-                                             : ProbabilityStatus::resolution_limit;
+  const bool is_exact = asksForDecision(request) && mass.width() <= kRoundingWidth * mass.upper;
+  const auto otherwise = is_exact ? ProbabilityStatus::exact : ProbabilityStatus::resolution_limit;
+  result.status = satisfied(mass, request).value_or(otherwise);
   return result;
 }
 

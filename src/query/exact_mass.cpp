@@ -24,9 +24,6 @@ constexpr int kFineResolution = 4 * ConvexBody::kDefaultResolution;
 /// More is left only where a body is enclosed between polytopes.
 constexpr double kQuadratureWidth = 1e-4;
 
-/// What rounding leaves of the mass of a polytope.
-constexpr double kRoundingWidth = 1e-9;
-
 /// What is below cannot be told from nothing.
 constexpr double kNothing = 1e-300;
 
@@ -140,14 +137,10 @@ class ExactMass {
   }
 
   ProbabilityStatus status() const {
-    if ((flat_ && !limits_.reason()) || mass_.width() <= kRoundingWidth * mass_.upper)
+    const bool is_known = mass_.width() < 1.0;
+    if ((flat_ && is_known && !limits_.reason()) || mass_.width() <= kRoundingWidth * mass_.upper)
       return ProbabilityStatus::exact;
-    const Decision decision = decisionOf(mass_, request_);
-    if (isDecided(decision)) {
-      return ProbabilityStatus::decided;
-    }
-    const double tolerance = request_.toleranceAt(mass_.upper);
-    if (mass_.width() <= tolerance) return ProbabilityStatus::converged;
+    if (const auto status = satisfied(mass_, request_)) return *status;
     return limits_.reason().value_or(ProbabilityStatus::resolution_limit);
   }
 

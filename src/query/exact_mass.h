@@ -10,6 +10,9 @@
 
 namespace fcl_prob::detail {
 
+/// What rounding leaves of the mass of a polytope, of itself: nothing makes it narrower.
+inline constexpr double kRoundingWidth = 1e-9;
+
 /// The mass of the C-obstacle. Flat sides leave a rounding margin only; curved ones what their
 /// quadrature or polygons leave; where that is too much they are enclosed between polytopes, which
 /// are refined once if the tolerance asks for it. A limit of the request leaves what is certain by

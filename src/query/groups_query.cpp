@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/decision.h"
+#include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/parts_bounds.h"
@@ -62,14 +63,13 @@ void requireMethod(const ProbabilityRequest& request) {
 }
 
 std::optional<ProbabilityResult> intervalOfSum(double most, const ProbabilityRequest& request) {
-  const bool decided = request.threshold && most < *request.threshold;
-  const double tolerance = request.toleranceAt(most);
-  if (!decided && most > tolerance) return std::nullopt;
+  const auto status = satisfied({0.0, most}, request);
+  if (!status) return std::nullopt;
   ProbabilityResult result;
   result.method = ProbabilityMethod::interval;
   result.lower = 0.0;
   result.upper = most;
-  result.status = decided ? ProbabilityStatus::decided : ProbabilityStatus::converged;
+  result.status = *status;
   result.decision = decisionOf({0.0, most}, request);
   result.plan.push_back("far apart: stopped at the sum of the bounds of all pairs");
   return result;
@@ -102,7 +102,7 @@ ProbabilityResult GroupsQuery::answer(const Poses& poses_a, const Poses& poses_b
                                       const ProbabilityRequest& request) const {
   validate(poses_a, poses_b, request);
   if (single_) return single_->answer(poses_a[0], poses_b[0], displacement, request);
-  ProbabilityResult result = answerOfGaussian(poses_a, poses_b, displacement, request);
+  ProbabilityResult result = answerOfGaussian(poses_a, poses_b, displacement, ofOneCall(request));
   noteTolerance(request, result);
   return result;
 }
@@ -113,7 +113,7 @@ ProbabilityResult GroupsQuery::answer(const Poses& poses_a, const Poses& poses_b
   validate(poses_a, poses_b, request);
   if (single_) return single_->answer(poses_a[0], poses_b[0], displacement, request);
   return mixtureProbability(
-      displacement, request,
+      displacement, ofOneCall(request),
       [&](const GaussianDisplacement& component, const ProbabilityRequest& of_component) {
         return answerOfGaussian(poses_a, poses_b, component, of_component);
       });
@@ -124,7 +124,8 @@ ProbabilityResult GroupsQuery::answer(const Poses& poses_a, const Poses& poses_b
                                       const ProbabilityRequest& request) const {
   validate(poses_a, poses_b, request);
   if (single_) return single_->answer(poses_a[0], poses_b[0], displacement, request);
-  const TruncatedQuery truncated(displacement, request);
+  const ProbabilityRequest of_call = ofOneCall(request);
+  const TruncatedQuery truncated(displacement, of_call);
   ProbabilityResult result;
   if (truncated.isWhole()) {
     result =
@@ -191,7 +192,8 @@ MotionGradient GroupsQuery::gradient(const Poses& poses_a, const Poses& poses_b,
   PlacedGroup placed_b(b_, poses_b, request.contact);
   placed_a.boundBy(placed_b.object(), displacement);
   placed_b.boundBy(placed_a.object(), displacement);
-  LimitedLines limited(request);
+  const MotionGradientRequest of_call = ofOneCall(request);
+  LimitedLines limited(of_call);
   MemberVelocities of_parts;
   for (const std::size_t i : a_.bounded()) of_parts.push_back(velocities[i]);
   for (const std::size_t i : a_.unbounded()) of_parts.push_back(velocities[i]);
@@ -224,7 +226,7 @@ double GroupsQuery::sumOfRootBounds(const Poses& poses_a, const Poses& poses_b,
   if (!wanted || !a_.haveRootBodies() || !b_.haveRootBodies()) return 1.0;
   RequestLimits limits(request, kShareOfRootBounds);
   // A larger sum ends no query.
-  const double useful = std::max(request.absolute_tolerance, request.threshold.value_or(0.0));
+  const double useful = request.threshold.value_or(request.absolute_tolerance);
   std::vector<Bounds> pairs;
   double sum = 0.0;
   for (std::size_t i = 0; i < poses_a.size(); ++i) {

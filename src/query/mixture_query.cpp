@@ -29,6 +29,13 @@ constexpr double kShareOfCoarse = 0.5;
 /// How often components are asked again whose standard errors do not add up to what was asked for.
 constexpr int kMostRounds = 4;
 
+/// By how much the tolerance of a round of a decision is less than that of the one before: every
+/// round begins anew, so that the last should take most of the time.
+constexpr double kLeastFiner = 1.0 / 4, kMostFiner = 1.0 / 64;
+
+/// Of the sum: what rounding leaves of it, whatever the tolerance.
+constexpr double kRounded = 1e-14;
+
 class MixtureQuery {
  public:
   MixtureQuery(const GaussianMixture& mixture, const ProbabilityRequest& request,
@@ -58,8 +65,9 @@ class MixtureQuery {
     }
     if (looksTwice()) askCoarsely();
     for (int round = 0; round == 0 || (round < kMostRounds && isEstimateTooCoarse()); ++round) {
-      askFinely(round);
+      askFinely(toleranceOfOne() / (1 << round));
     }
+    if (asksForDecision(request_) && looksTwice()) decide();
     return sum();
   }
 
@@ -89,10 +97,31 @@ class MixtureQuery {
     loop_.askEach([&](std::size_t) { return coarse; }, kShareOfCoarse);
   }
 
-  void askFinely(int round) {
+  /// Rounds with less and less tolerance, until the sum decides or none of it becomes narrower.
+  void decide() {
+    double tolerance = toleranceOfOne();
+    while (!finished()) {
+      const Bounds now = interval();
+      const double to_threshold = std::fabs(now.middle() - *request_.threshold);
+      tolerance *= std::clamp(to_threshold / tolerance, kMostFiner, kLeastFiner);
+      if (!(tolerance > kRounded * now.upper)) return;
+      askFinely(tolerance);
+      if (!(interval().width() < now.width()) && allAreDone()) return;
+    }
+  }
+
+  /// Whether no component can become narrower, whatever the tolerance.
+  bool allAreDone() const {
+    return all([](const auto& one) {
+      return one.status == ProbabilityStatus::exact || !isAnswered(one.status);
+    });
+  }
+
+  /// \param tolerance  of each, where it has one
+  void askFinely(double tolerance) {
     ProbabilityRequest fine = ofOne();
     if (looksTwice()) {
-      fine.absolute_tolerance = toleranceOfOne() / (1 << round);
+      fine.absolute_tolerance = tolerance;
       fine.relative_tolerance = fine.absolute_tolerance > 0.0 ? 0.0 : request_.relative_tolerance;
     }
     const PartsLoop::Wanted finely = [&](std::size_t i) {
@@ -122,6 +151,10 @@ class MixtureQuery {
     request.threshold.reset();
     const double error = (1.0 - request_.confidence) / static_cast<double>(components_.size());
     if (isSampled()) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
+    if (isSampled() && request_.threshold) {
+      request.relative_tolerance = 0.0;
+      request.absolute_tolerance = std::numeric_limits<double>::min();
+    }
     return request;
   }
 
@@ -134,11 +167,9 @@ class MixtureQuery {
            *result->upper - *result->lower <= fine.absolute_tolerance;
   }
 
-  bool decided() const {
-    if (!request_.threshold || isSampled()) return false;
-    const Bounds now = interval();
-    return now.upper < *request_.threshold || now.lower > *request_.threshold;
-  }
+  bool finished() { return loop_.isOut() || decided(); }
+
+  bool decided() const { return !isSampled() && isDecided(decisionOf(interval(), request_)); }
 
   template <typename BoundsOf>
   Bounds weightedSum(const BoundsOf& boundsOf) const {
@@ -246,13 +277,15 @@ class MixtureQuery {
     }
     // Bounds below the least normal double add up to more than their parts.
     const bool has_both = total.lower && total.upper;
-    const bool claims_tolerance = isEstimate() || (looksTwice() && has_both);
+    const bool claims_tolerance =
+        isEstimate() || asksForDecision(request_) || (looksTwice() && has_both);
     if (claims_tolerance && !fine && *common != ProbabilityStatus::exact)
       return ProbabilityStatus::resolution_limit;
     return *common;
   }
 
   bool isGoodEnough(const ProbabilityResult& total) const {
+    if (asksForDecision(request_)) return false;
     const auto within = [this](double error, double probability, double absolute) {
       return error <= std::max(absolute, request_.relative_tolerance * probability);
     };

@@ -2,7 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/pair_query.h"
 
+#include <algorithm>
+
 #include "base/decision.h"
+#include "base/until_no.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "gaussian/agreed_bounds.h"
@@ -30,11 +33,18 @@ bool samples(const QueryPlan& plan) {
 /// Cells that are all settled may be so by planes that are widened by more than the tolerance.
 bool leavesTooMuch(const ProbabilityResult& result, const ProbabilityRequest& request) {
   if (result.status == ProbabilityStatus::exact) {
-    return *result.upper - *result.lower > request.toleranceAt(*result.upper);
+    return !satisfied({*result.lower, *result.upper}, request);
   }
   return result.status == ProbabilityStatus::cell_limit ||
          result.status == ProbabilityStatus::resolution_limit;
 }
+
+/// Cells of two convex shapes, and those of a decision near its threshold, may be divided for
+/// minutes. Where the pair may have an exact mass, that is asked for after so many of them; where
+/// it has none they are divided again. Of convex shapes it takes about as long as these; of meshes
+/// it has first to be found out whether they are convex.
+constexpr std::size_t kCellsBeforeExact = 5'000;
+constexpr std::size_t kCellsBeforeHull = 20'000;
 
 /// Both are bounds of the same probability. An estimate becomes the middle of what is left.
 void takeCertified(const ProbabilityResult& other, ProbabilityResult& result) {
@@ -58,7 +68,7 @@ void takeCertified(const ProbabilityResult& other, ProbabilityResult& result) {
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const GaussianDisplacement& displacement,
                                     const ProbabilityRequest& request) const {
-  ProbabilityResult result = answerOfGaussian(pose_a, pose_b, displacement, request);
+  ProbabilityResult result = answerOfGaussian(pose_a, pose_b, displacement, ofOneCall(request));
   noteTolerance(request, result);
   return result;
 }
@@ -74,7 +84,7 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
     return result;
   }
   return mixtureProbability(
-      displacement, request,
+      displacement, ofOneCall(request),
       [&](const GaussianDisplacement& component, const ProbabilityRequest& of_component) {
         return answer(pose_a, pose_b, component, of_component);
       });
@@ -134,7 +144,9 @@ ProbabilityResult PairQuery::exact(const QueryPlan& plan, const PlacedPair& pair
   ProbabilityResult result = exactMass(pair, displacement, request);
   const bool unresolved = result.status == ProbabilityStatus::resolution_limit ||
                           (isAnswered(result.status) && request.gradient && !result.gradient);
-  if (!unresolved || !plan.partition_if_unresolved) return result;
+  // Of deviations far below the size an exact mass may tell nothing, and cells all.
+  const bool is_unknown = *result.upper - *result.lower >= 1.0;
+  if (!unresolved || !(plan.partition_if_unresolved || is_unknown)) return result;
   ProbabilityResult other = partition(plan, pair, displacement,
                                       request.time_limit ? withTimeLeft(request, budget) : request);
   other.plan.insert(other.plan.begin(),
@@ -189,16 +201,34 @@ ProbabilityResult PairQuery::partitionOrExact(const QueryPlan& plan, const Place
                                               const ProbabilityRequest& request) const {
   if (auto exact = convexMeshes(plan, pair, displacement, request)) return *exact;
   const CallBudget budget(request);
-  ProbabilityResult result = partition(plan, pair, displacement, request);
+  const auto rest = [&] { return request.time_limit ? withTimeLeft(request, budget) : request; };
+  ProbabilityRequest first = request;
+  if (plan.exact_if_unresolved) {
+    first.max_cells = std::min(first.max_cells, kCellsBeforeExact);
+  } else if (plan.convex_meshes_if_unresolved && asksForDecision(request)) {
+    first.max_cells = std::min(first.max_cells, kCellsBeforeHull);
+  }
+  ProbabilityResult result = partition(plan, pair, displacement, first);
   if (!leavesTooMuch(result, request)) return result;
-  const ProbabilityRequest rest = request.time_limit ? withTimeLeft(request, budget) : request;
+  if (closeByExactMass(plan, pair, displacement, rest(), result)) return result;
+  const bool has_cells_left =
+      result.status == ProbabilityStatus::cell_limit && first.max_cells < request.max_cells;
+  return has_cells_left ? partition(plan, pair, displacement, rest()) : result;
+}
+
+/// Whether there is an exact mass, which then is the result.
+bool PairQuery::closeByExactMass(const QueryPlan& plan, const PlacedPair& pair,
+                                 const GaussianDisplacement& displacement,
+                                 const ProbabilityRequest& request,
+                                 ProbabilityResult& result) const {
   std::optional<ProbabilityResult> exact;
-  if (plan.exact_if_unresolved) exact = exactMass(pair, displacement, rest);
-  if (plan.convex_meshes_if_unresolved) exact = convexMeshesMass(pair, displacement, rest);
-  if (!exact || !isAnswered(exact->status) || (request.gradient && !exact->gradient)) return result;
+  if (plan.exact_if_unresolved) exact = exactMass(pair, displacement, request);
+  if (plan.convex_meshes_if_unresolved) exact = convexMeshesMass(pair, displacement, request);
+  if (!exact || !isAnswered(exact->status)) return false;
+  if (request.gradient && !exact->gradient) return false;
   takeCertified(*exact, result);
   result.plan.push_back("the cells left too much open: the exact mass of the C-obstacle instead");
-  return result;
+  return true;
 }
 
 }  // namespace fcl_prob::detail

@@ -52,6 +52,9 @@ class PairQuery {
   ProbabilityResult partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
                                      const GaussianDisplacement& displacement,
                                      const ProbabilityRequest& request) const;
+  bool closeByExactMass(const QueryPlan& plan, const PlacedPair& pair,
+                        const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+                        ProbabilityResult& result) const;
 
   std::shared_ptr<const PreparedGeometry> a_;
   std::shared_ptr<const PreparedGeometry> b_;

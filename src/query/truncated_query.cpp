@@ -3,6 +3,7 @@
 // Pairs whose displacement stays within an ellipsoid.
 #include <memory>
 
+#include "base/until_no.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
@@ -42,7 +43,8 @@ PairSide reachedSide(const PreparedGeometry& unbounded, const fcl::Transform3d& 
 
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const TruncatedGaussian& displacement,
-                                    const ProbabilityRequest& request) const {
+                                    const ProbabilityRequest& of_user) const {
+  const ProbabilityRequest request = ofOneCall(of_user);
   const TruncatedQuery truncated(displacement, request);
   validatePose(pose_a, "object A");
   validatePose(pose_b, "object B");

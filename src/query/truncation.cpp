@@ -97,13 +97,12 @@ void TruncatedQuery::makeConditional(const Bounds& of_joint, ProbabilityResult& 
   result.lower = bounds.lower;
   result.upper = bounds.upper;
   result.decision = decisionOf(bounds, request_);
-  const double tolerance = request_.toleranceAt(bounds.upper);
+  const bool is_exact = result.status == ProbabilityStatus::exact &&
+                        bounds.width() <= request_.toleranceAt(bounds.upper);
   if (isDecided(result.decision)) {
     result.status = ProbabilityStatus::decided;
-  } else if (bounds.width() > tolerance && isAnswered(result.status)) {
-    result.status = ProbabilityStatus::resolution_limit;
-  } else if (result.status == ProbabilityStatus::decided) {
-    result.status = ProbabilityStatus::converged;
+  } else if (isAnswered(result.status) && !is_exact) {
+    result.status = satisfied(bounds, request_).value_or(ProbabilityStatus::resolution_limit);
   }
 }
 

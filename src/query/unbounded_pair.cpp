@@ -208,12 +208,16 @@ ProbabilityResult unboundedPairProbability(const PlacedPair& pair,
     result.estimate = mass.middle();
     result.standard_error = 0.5 * mass.width();
   }
-  const double tolerance = request.toleranceAt(mass.upper);
-  // Where nothing moves across a plane that is touched, rounding decides.
-  result.status = mass.width() <= tolerance ? ProbabilityStatus::exact
-                  : request.hasBand()       ? ProbabilityStatus::band_limit
-                                            : ProbabilityStatus::resolution_limit;
   result.decision = decisionOf(mass, request);
+  const bool is_narrow = mass.width() <= request.toleranceAt(mass.upper);
+  const bool is_undecided = asksForDecision(request) && !isDecided(result.decision);
+  if (is_narrow && !(is_undecided && request.hasBand())) {
+    result.status = ProbabilityStatus::exact;
+  } else {
+    // Where nothing moves across a plane that is touched, rounding decides.
+    result.status =
+        request.hasBand() ? ProbabilityStatus::band_limit : ProbabilityStatus::resolution_limit;
+  }
   if (request.gradient && request.hasBand()) {
     result.plan.push_back("no gradient beside a half-space or plane with bands");
   } else if (request.gradient) {

@@ -72,18 +72,15 @@ std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,
                                                      const ProbabilityRequest& request) {
   RequestLimits limits(request, kShareOfRootBound);
   const double upper = rootBound(pair, displacement, limits);
-  const double tolerance = request.toleranceAt(upper);
-  const bool decided = request.threshold && upper < *request.threshold;
+  const auto status = satisfied({0.0, upper}, request);
   const bool cancelled = limits.reason() == ProbabilityStatus::cancelled;
-  if (!decided && upper > tolerance && !cancelled) return std::nullopt;
+  if (!status && !cancelled) return std::nullopt;
   ProbabilityResult result = boundedBy(upper, request);
   result.method = ProbabilityMethod::interval;
   result.lower = 0.0;
-  result.status = decided              ? ProbabilityStatus::decided
-                  : upper <= tolerance ? ProbabilityStatus::converged
-                                       : ProbabilityStatus::cancelled;
+  result.status = status.value_or(ProbabilityStatus::cancelled);
   result.statistics.pairs_tested = 1;
-  result.plan.push_back(decided || upper <= tolerance
+  result.plan.push_back(status
                             ? "far apart: stopped at the bound of the root volumes, trees left out"
                             : "cancelled at the bound of the root volumes");
   return result;

@@ -146,13 +146,15 @@ class EventAnswers {
   }
 
   ProbabilityStatus statusOfParts() {
-    if (isWithinTolerance() && isAskedOfAll()) return commonStatus();
+    if (!asksForDecision(request_) && isWithinTolerance() && isAskedOfAll()) return commonStatus();
     if (loop_.isOut()) return *loop_.out();
     for (const ProbabilityResult& part : result_.parts) {
       if (!isAnswered(part.status)) return part.status;
     }
     const ProbabilityStatus common = commonStatus();
-    if (common == ProbabilityStatus::exact || !independent_ || request_.threshold) return common;
+    if (common == ProbabilityStatus::exact) return common;
+    if (asksForDecision(request_)) return ProbabilityStatus::resolution_limit;
+    if (!independent_) return common;
     return ProbabilityStatus::resolution_limit;
   }
 

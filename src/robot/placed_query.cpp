@@ -25,6 +25,9 @@ ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
   ProbabilityResult result;
   result.lower = 0.0;
   result.upper = far;
+  result.decision = decisionOf({0.0, far}, request);
+  const auto otherwise = far > 0.0 ? ProbabilityStatus::resolution_limit : ProbabilityStatus::exact;
+  result.status = satisfied({0.0, far}, request).value_or(otherwise);
   if (request.method == ProbabilityMethod::estimate) {
     result.estimate = 0.5 * far;
     result.standard_error = 0.5 * far;
@@ -58,6 +61,11 @@ ProbabilityRequest tellingOfAll(ProbabilityRequest request, double far) {
     return told(progress);
   };
   return request;
+}
+
+/// Whether a limit of the request was reached, and not one of what can be told.
+bool isLimited(ProbabilityStatus status) {
+  return !isAnswered(status) && status != ProbabilityStatus::resolution_limit;
 }
 
 /// Far apart as far as half-spaces tell.
@@ -101,9 +109,7 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   result.decision = decisionOf({*result.lower, std::min(1.0, sumAbove(upper, far))}, request);
   result.plan.push_back(std::to_string(bodies.size() - likelier.size()) +
                         " bodies left out of the decision: unlikely to touch it by half-spaces");
-  const bool is_limited =
-      !isAnswered(result.status) && result.status != ProbabilityStatus::resolution_limit;
-  if (isDecided(result.decision) || is_limited) return result;
+  if (isDecided(result.decision) || isLimited(result.status)) return result;
   spent = std::move(result.statistics);
   budget.spend(spent);
   budget.share(1, request);
@@ -143,12 +149,14 @@ double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& stat
   return std::min(1.0, sumAbove(bounds.sum(), far));
 }
 
-ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
-                                    std::vector<PlacedBody> bodies,
-                                    const ProbabilityRequest& request, FarBodies& left_out) {
+namespace {
+
+/// \param most_far  what bodies that are left out as far may add up to
+ProbabilityResult ofNearBodies(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                               std::vector<PlacedBody> bodies, double most_far,
+                               const ProbabilityRequest& request, FarBodies& left_out) {
   const std::size_t all = bodies.size();
-  const double far = leaveOutFar(scene.balls, scene.around, state,
-                                 kShareOfFar * request.absolute_tolerance, bodies);
+  const double far = leaveOutFar(scene.balls, scene.around, state, most_far, bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   // What is left out widens the interval, too.
@@ -165,6 +173,34 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
   if (far > 0.0 && result.upper) {
     result.upper = std::min(1.0, sumAbove(*result.upper, far));
   }
+  return result;
+}
+
+}  // namespace
+
+double mostFarOf(const ProbabilityRequest& request) {
+  const double least = asksForDecision(request)
+                           ? std::min(request.absolute_tolerance, *request.threshold)
+                           : request.absolute_tolerance;
+  return kShareOfFar * least;
+}
+
+ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                                    std::vector<PlacedBody> bodies,
+                                    const ProbabilityRequest& request, FarBodies& left_out) {
+  CallBudget budget(request);
+  ProbabilityResult result =
+      ofNearBodies(scene, state, bodies, mostFarOf(request), request, left_out);
+  if (!asksForDecision(request) || !(left_out.upper > 0.0)) return result;
+  result.decision = decisionOf({result.lower.value_or(0.0), *result.upper}, request);
+  if (isDecided(result.decision) || isLimited(result.status)) return result;
+  // What was left out may be what is in the way.
+  ProbabilityRequest of_all = request;
+  const ProbabilityStatistics spent = result.statistics;
+  budget.spend(spent);
+  budget.share(1, of_all);
+  result = ofNearBodies(scene, state, std::move(bodies), 0.0, of_all, left_out);
+  result.statistics.cells += spent.cells;
   return result;
 }
 

@@ -14,6 +14,10 @@ namespace fcl_prob::detail {
 /// Of the absolute tolerance: what all bodies that are left out may add up to.
 inline constexpr double kShareOfFar = 0.05;
 
+/// What those may add up to that are left out of the first answer to a request: of a threshold, if
+/// there is one, no more than of the tolerance.
+double mostFarOf(const ProbabilityRequest& request);
+
 /// What was left out of one query.
 struct FarBodies {
   std::size_t count = 0;

@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "base/refuse_band.h"
 #include "base/seeds_apart.h"
+#include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
@@ -428,8 +429,9 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 }
 
 RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
-                               const ProbabilityRequest& request, BetweenWaypoints between) const {
-  implementation_->validate(waypoints, request);
+                               const ProbabilityRequest& of_user, BetweenWaypoints between) const {
+  implementation_->validate(waypoints, of_user);
+  const ProbabilityRequest request = detail::ofOneCall(of_user);
   if (between == BetweenWaypoints::swept) requireContinuous(errors, request);
   if (errors == ErrorsOverTime::any_dependence && request.method == ProbabilityMethod::estimate) {
     throw InvalidRequest(
@@ -455,22 +457,24 @@ ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& wa
   if (request.method != ProbabilityMethod::automatic) {
     throw InvalidRequest("a probable decision has its own method, not " + toString(request.method));
   }
-  return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error, request);
+  return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error,
+                                          detail::ofOneCall(request));
 }
 
 JointGradient RobotQuery::gradient(const std::vector<Eigen::VectorXd>& waypoints,
                                    const MotionGradientRequest& request) const {
   implementation_->validate(waypoints, ProbabilityRequest());
   detail::validateGradient(request);
-  return implementation_->gradient(waypoints, request);
+  return implementation_->gradient(waypoints, detail::ofOneCall(request));
 }
 
 std::vector<RobotResult> RobotQuery::byBody(const std::vector<Eigen::VectorXd>& waypoints,
                                             const ProbabilityRequest& request) const {
   implementation_->validate(waypoints, request);
+  const ProbabilityRequest of_call = detail::ofOneCall(request);
   std::vector<RobotResult> results;
   for (std::size_t i = 0; i < robot().bodies().size(); ++i) {
-    results.push_back(implementation_->ofUnion(waypoints, static_cast<int>(i), request));
+    results.push_back(implementation_->ofUnion(waypoints, static_cast<int>(i), of_call));
   }
   return results;
 }

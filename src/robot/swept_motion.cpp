@@ -77,7 +77,7 @@ class SweptMotion {
       if (const auto status = isEnough()) return finished(*status);
       if (stops(answer.status)) return finished(answer.status);
       if (const auto status = budget_.exhausted()) return finished(*status);
-      if (!(answer_.reach > 0.0)) return finished(answer.status);
+      if (!(answer_.reach > 0.0)) return finished(ofAllSteps(answer.status));
       if (!has_room) return finished(ProbabilityStatus::memory_limit);
       if (answer_.reach > distance) break;
       distance = answer_.reach * shrunk();
@@ -194,17 +194,18 @@ class SweptMotion {
     asked_ = true;
   }
 
-  std::optional<ProbabilityStatus> isEnough() const {
-    if (isDecided(decisionOf(known_, request_))) return ProbabilityStatus::decided;
-    if (request_.threshold) return std::nullopt;
-    if (known_.width() <= request_.toleranceAt(known_.upper)) return ProbabilityStatus::converged;
-    return std::nullopt;
-  }
+  std::optional<ProbabilityStatus> isEnough() const { return satisfied(known_, request_); }
 
   /// A limit that shorter steps do not move.
   static bool stops(ProbabilityStatus status) {
     return !isAnswered(status) && status != ProbabilityStatus::band_limit &&
            status != ProbabilityStatus::resolution_limit;
+  }
+
+  /// What is decided without the steps that are far need not be so with them.
+  ProbabilityStatus ofAllSteps(ProbabilityStatus of_near) const {
+    const bool is_undecided = asksForDecision(request_) && of_near == ProbabilityStatus::decided;
+    return is_undecided ? ProbabilityStatus::resolution_limit : of_near;
   }
 
   /// What steps add to the interval falls between in proportion to their length and to its square.

@@ -288,3 +288,26 @@ TEST_CASE("what a plan certifies keeps to its limits, too") {
     CHECK(timed.path.status == PlanningStatus::time_limit);
   }
 }
+
+TEST_CASE("who cancels a plan is not asked again, in whatever part of it") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(1);
+  request.planning.shorten = false;
+  request.planning.max_states = 300;
+  int calls = 0, last = 1'000'000'000, after = 0;
+  request.planning.on_progress = [&](const PlanningProgress&) {
+    after += calls >= last;
+    return ++calls < last;
+  };
+  scene.plan(request);
+  const int all = calls;
+  REQUIRE(all > 10);
+  for (const int of_ten : {0, 3, 6, 9}) {
+    last = std::max(1, all * of_ten / 10);
+    calls = after = 0;
+    scene.plan(request);
+    CAPTURE(all, last);
+    CHECK(calls == last);
+    CHECK(after == 0);
+  }
+}

@@ -37,6 +37,24 @@ def test_progress_is_told_and_cancels():
     assert (told.lower, told.upper) == (plain.lower, plain.upper)
 
 
+def test_who_said_no_is_not_asked_again():
+    poses = np.full((6, 3), 0.12)
+    group = fcl_prob.GroupQuery([torus()], [torus()])
+    calls = [
+        lambda **told: fcl_prob.collision_probability(torus(), torus(), ERROR, [0.25, 0.1, 0], **told, **LONG),
+        lambda **told: fcl_prob.collision_probability(
+            torus(), torus(), ERROR, [0.25, 0.1, 0], method="estimate", relative_tolerance=1e-6, **told
+        ),
+        lambda **told: fcl_prob.collision_probabilities(torus(), torus(), ERROR, poses, **told, **LONG),
+        lambda **told: group.motion_gradient(ERROR, [[0.25, 0.1, 0]], lines=10**7, **told),
+    ]
+    for call in calls:
+        for last in (1, 3):
+            seen = []
+            call(on_progress=lambda *now: seen.append(now) or len(seen) < last)
+            assert len(seen) == last
+
+
 class Refusal(Exception):
     pass
 

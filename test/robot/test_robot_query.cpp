@@ -3,6 +3,8 @@
 // States and motions of a robot against fcl::collide on displaced obstacles.
 #include "fcl_prob/robot_query.h"
 
+#include <functional>
+
 #include "arm_motions.h"
 #include "catch.h"
 #include "fcl_prob/combined_bounds.h"
@@ -261,4 +263,98 @@ TEST_CASE("the shipped motion is read and answered; bad robot scenes are refused
   refused("\"joints\"", "\"largest_step\": 0, \"joints\"");
   refused("\"joints\"", "\"between\": \"some\", \"joints\"");
   refused("[1, 1, 1]", "[1, -1, 1]");
+}
+
+TEST_CASE("no query of a robot asks again whoever said no") {
+  const RobotQuery query(shippedArm(), ballAndBox());
+  const auto waypoints = sweep(query.robot(), 5);
+  using Ask = std::function<void(const ProbabilityRequest&)>;
+  std::vector<Ask> calls;
+  calls.push_back([&](const auto& request) { query.state(waypoints[1], request); });
+  calls.push_back([&](const auto& request) { query.byBody(waypoints, request); });
+  calls.push_back([&](const auto& request) {
+    query.motion(waypoints, ErrorsOverTime::persistent, request, BetweenWaypoints::swept);
+  });
+  for (const auto errors :
+       {ErrorsOverTime::persistent, ErrorsOverTime::independent, ErrorsOverTime::any_dependence}) {
+    calls.push_back([&, errors](const auto& request) { query.motion(waypoints, errors, request); });
+  }
+  calls.push_back([&](const auto& request) {
+    ProbabilityRequest without = request;
+    without.threshold.reset();
+    query.decideProbably(waypoints, 0.2, 1e-4, without);
+  });
+  calls.push_back([&](const auto& request) {
+    MotionGradientRequest lines;
+    lines.on_progress = request.on_progress;
+    query.gradient(waypoints, lines);
+  });
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    for (const bool decides : {false, true}) {
+      for (const int last : {1, 2, 4}) {
+        int asked = 0, after = 0;
+        ProbabilityRequest request = withTolerance(1e-5);
+        request.max_cells = 20'000;
+        if (decides) request.threshold = 0.2;
+        request.on_progress = [&](const ProbabilityProgress&) {
+          after += asked >= last;
+          return ++asked < last;
+        };
+        calls[i](request);
+        CAPTURE(i, decides, last, asked);
+        CHECK(after == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("a threshold of a robot is decided inside of any tolerance, or a limit says why not") {
+  const RobotQuery query(shippedArm(), ballAndBox());
+  std::vector<Eigen::VectorXd> waypoints;
+  for (const double turn : {0.8, -0.9}) {
+    waypoints.push_back(query.robot().values({{"turn", turn}, {"shoulder", 0.15}, {"elbow", 0.3}}));
+  }
+  for (const auto errors : {ErrorsOverTime::persistent, ErrorsOverTime::independent}) {
+    const RobotResult known = query.motion(waypoints, errors, withTolerance(1e-3));
+    REQUIRE(known.any.upper < 0.98);
+    for (const double factor : {0.99, 0.997, 1.003, 1.01}) {
+      ProbabilityRequest request = withTolerance(1.0);
+      request.absolute_tolerance = 1.0;
+      request.threshold = factor * (factor < 1.0 ? known.any.lower : known.any.upper);
+      const RobotResult result = query.motion(waypoints, errors, request);
+      CAPTURE(factor, known.any.lower, known.any.upper, result.any.lower, result.any.upper);
+      CHECK(result.status == ProbabilityStatus::decided);
+      CHECK(result.decision == (factor < 1.0 ? Decision::above : Decision::below));
+    }
+    ProbabilityRequest request = withTolerance(1.0);
+    request.threshold = known.any.middle();
+    request.max_cells = 3'000;
+    const RobotResult limited = query.motion(waypoints, errors, request);
+    CAPTURE(toString(limited.status));
+    CHECK((limited.status != ProbabilityStatus::converged));
+    CHECK((limited.status == ProbabilityStatus::decided) ==
+          (limited.decision != Decision::undecided));
+  }
+}
+
+TEST_CASE("bodies that are left out as far away do not keep a threshold from being decided") {
+  const Robot arm = shippedArm();
+  std::vector<Obstacle> one = {ballAndBox()[0]};
+  one[0].pose = at(0.55, 0.25, 0.75);
+  const RobotQuery query(arm, one);
+  const Eigen::VectorXd values = sweep(arm, 3)[0];
+  ProbabilityRequest fine = withTolerance(1e-6);
+  fine.absolute_tolerance = 0.0;
+  const RobotResult known = query.state(values, fine);
+  REQUIRE(known.any.lower > 0.0);
+  REQUIRE(known.any.width() < 1e-3 * known.any.upper);
+  for (const double factor : {0.9, 1.1}) {
+    ProbabilityRequest request;
+    request.absolute_tolerance = 1.0;
+    request.threshold = factor * known.any.middle();
+    const RobotResult result = query.state(values, request);
+    CAPTURE(factor, known.any.lower, known.any.upper, result.any.lower, result.any.upper);
+    CHECK(result.status == ProbabilityStatus::decided);
+    CHECK(result.decision == (factor < 1.0 ? Decision::above : Decision::below));
+  }
 }
