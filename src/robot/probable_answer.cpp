@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "base/engine_limits.h"
+#include "base/seeds_apart.h"
 #include "fcl_prob/combined_bounds.h"
 #include "query/call_budget.h"
 #include "robot/obstacle_sampling.h"
-#include "base/seeds_apart.h"
 
 namespace fcl_prob::detail {
 namespace {
