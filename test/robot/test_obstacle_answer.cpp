@@ -22,8 +22,11 @@ struct Events {
   double least = 0.0;
   std::size_t asked = 0;
 
-  AskEvent ask() {
-    return [this](std::size_t i, const ProbabilityRequest& request, ProbabilityResult& result) {
+  std::vector<Bounds> unknown() const { return std::vector<Bounds>(truth.size(), {0.0, 1.0}); }
+
+  PartsLoop::Ask ask() {
+    return [this](std::size_t i, const ProbabilityRequest& request) {
+      ProbabilityResult result;
       ++asked;
       const double p = truth[i];
       double half = request.threshold ? 0.9 * std::fabs(p - *request.threshold)
@@ -38,6 +41,7 @@ struct Events {
                                  : satisfied({*result.lower, *result.upper}, request)
                                        .value_or(ProbabilityStatus::resolution_limit);
       result.statistics.cells = 1;
+      return result;
     };
   }
 };
@@ -67,7 +71,7 @@ TEST_CASE("a threshold over several events is decided however close to it P is")
         const double p = anyTruth(events);
         ProbabilityRequest request;
         request.threshold = p * (1.0 - side * near);
-        const RobotResult result = anyOfAsked(events.truth.size(), request, events.ask());
+        const RobotResult result = anyOfAsked(events.unknown(), request, events.ask());
         CAPTURE(count, near, side, p, toString(result.status));
         CHECK(result.status == ProbabilityStatus::decided);
         CHECK(result.decision == (side > 0.0 ? Decision::above : Decision::below));
@@ -84,7 +88,7 @@ TEST_CASE("a threshold that no event's resolution reaches ends undecided, and no
       events.least = least;
       ProbabilityRequest request;
       request.threshold = anyTruth(events);
-      const RobotResult result = anyOfAsked(events.truth.size(), request, events.ask());
+      const RobotResult result = anyOfAsked(events.unknown(), request, events.ask());
       CAPTURE(count, least, toString(result.status));
       CHECK(result.decision == Decision::undecided);
       CHECK_FALSE(isAnswered(result.status));
@@ -95,7 +99,7 @@ TEST_CASE("a threshold that no event's resolution reaches ends undecided, and no
 
 TEST_CASE("errors of any dependence: what the bounds leave open is no reason to go on") {
   std::mt19937_64 random(3);
-  const CombineEvents any = [](const std::vector<Bounds>& events) { return anyOf(events); };
+  const PartsLoop::Combine any = [](const std::vector<Bounds>& events) { return anyOf(events); };
   for (const double share : {-0.2, 0.3, 0.6, 0.99, 1.01, 1.5}) {
     Events events = randomEvents(random, 5);
     double most = 0.0, sum = 0.0;
@@ -105,7 +109,7 @@ TEST_CASE("errors of any dependence: what the bounds leave open is no reason to 
     }
     ProbabilityRequest request;
     request.threshold = most + share * (std::min(sum, 1.0) - most);
-    const RobotResult result = anyOfDependent(events.truth.size(), request, events.ask(), any);
+    const RobotResult result = anyOfDependent(events.unknown(), request, events.ask(), any);
     CAPTURE(share, most, sum, toString(result.status));
     const Decision expected = share < 0.0   ? Decision::above
                               : share > 1.0 ? Decision::below
