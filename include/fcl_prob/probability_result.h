@@ -33,6 +33,16 @@ enum class ProbabilityStatus {
   band_limit         ///< the interval is about as narrow as the bands around the shapes allow
 };
 
+/// One of the ways that were tried to answer a query (docs/ARCHITECTURE.md, "The ladder"). Where an
+/// answer is made of several, those of one name are one.
+struct RungRecord {
+  std::string name;
+  double seconds = 0.0;
+  Bounds known;              ///< of P, certified, after it; of several answers around all of theirs
+  std::size_t times = 1;     ///< climbed
+  std::size_t answered = 0;  ///< of them, after which nothing more was to be done
+};
+
 /// What the query did. Counters that a method does not use stay 0.
 struct ProbabilityStatistics {
   std::size_t cells = 0;         ///< cells of the partition examined
@@ -46,6 +56,7 @@ struct ProbabilityStatistics {
   std::optional<double> effective_samples;  ///< rare_event: (Σ w)² / Σ w² over the weighted hits
   std::optional<double> raw_sum;            ///< general_pcd: the sum before clipping at 1
   std::vector<std::pair<std::string, double>> seconds;  ///< time by stage
+  std::vector<RungRecord> rungs;                        ///< of the ladder, in their order
 };
 
 struct ProbabilityResult {

@@ -1,12 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "fcl_prob/probability_result.h"
+#include "base/statistics.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob {
+namespace detail {
+namespace {
+
+void addRung(const RungRecord& one, std::vector<RungRecord>& all) {
+  const auto same = std::find_if(
+      all.begin(), all.end(), [&one](const RungRecord& of_all) { return of_all.name == one.name; });
+  if (same == all.end()) {
+    all.push_back(one);
+    return;
+  }
+  same->seconds += one.seconds;
+  same->known.lower = std::min(same->known.lower, one.known.lower);
+  same->known.upper = std::max(same->known.upper, one.known.upper);
+  same->times += one.times;
+  same->answered += one.answered;
+}
+
+void addTime(const std::pair<std::string, double>& one,
+             std::vector<std::pair<std::string, double>>& all) {
+  const auto same = std::find_if(all.begin(), all.end(),
+                                 [&one](const auto& of_all) { return of_all.first == one.first; });
+  if (same == all.end()) {
+    all.push_back(one);
+  } else {
+    same->second += one.second;
+  }
+}
+
+}  // namespace
+
+void addStatistics(const ProbabilityStatistics& one, ProbabilityStatistics& all) {
+  all.cells += one.cells;
+  all.pairs_tested += one.pairs_tested;
+  all.leaf_pairs += one.leaf_pairs;
+  all.peak_front = std::max(all.peak_front, one.peak_front);
+  all.peak_memory = std::max(all.peak_memory, one.peak_memory);
+  all.samples += one.samples;
+  all.hits += one.hits;
+  for (const RungRecord& rung : one.rungs) addRung(rung, all.rungs);
+  for (const auto& time : one.seconds) addTime(time, all.seconds);
+}
+
+}  // namespace detail
 
 double ProbabilityResult::probability() const {
   if (estimate) return *estimate;

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "carving/carving_engine.h"
-#include "pieces/whole_body.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -79,30 +78,28 @@ std::string convexNote(const PartitionObject& body, const FatMembers& obstacles,
 
 }  // namespace
 
-bool mayBeCarved(const PartitionObject& a, const PartitionObject& b,
-                 const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
+bool mayBeCarved(const QueryScene& scene, const ProbabilityRequest& request) {
   if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
   if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
-  return wholeBodyOf(a, b, displacement, Convexity::nearly).has_value();
+  return !request.hasBand() && scene.nearlyConvexBody();
 }
 
-bool carve(const PartitionObject& a, const PartitionObject& b,
-           const GaussianDisplacement& displacement, const Whitening& whitening,
-           const WhitenedPair& pair, const SolidContact* solids, const ProbabilityRequest& request,
+bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& budget,
            ProbabilityResult& result) {
-  const auto whole = wholeBodyOf(a, b, displacement, Convexity::nearly);
-  if (!whole) return false;
-  const auto& [body, mesh, fan_is_a] = *whole;
+  if (!scene.nearlyConvexBody()) return false;
+  const WholeBody& whole = *scene.nearlyConvexBody();
+  const auto& [body, mesh, fan_is_a] = whole;
   if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
-  FatMembers obstacles(pair, body, mesh, fan_is_a, whitening.matrix(), patchUse(mesh, request));
+  FatMembers obstacles(scene.pair(), body, mesh, fan_is_a, scene.whitening().matrix(),
+                       patchUse(mesh, request));
   if (!obstacles.usable()) return false;
   if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
     obstacles.keepHullsClosed();
   }
   for (int member = 0; member < obstacles.count(); ++member) {
-    if (mayHoldPart(*whole, obstacles.partOf(member), obstacles.of(member))) return false;
+    if (mayHoldPart(whole, obstacles.partOf(member), obstacles.of(member))) return false;
   }
-  CarvingEngine engine(obstacles, solids, request, result.statistics);
+  CarvingEngine engine(obstacles, scene.solids(), request, budget, result.statistics);
   result.method = ProbabilityMethod::interval;
   result.status = engine.run();
   if (obstacles.failed()) return false;
@@ -117,7 +114,7 @@ bool carve(const PartitionObject& a, const PartitionObject& b,
   if (const auto note = patchNote(obstacles, mesh, !fan_is_a, request)) {
     result.plan.push_back(*note);
   }
-  if (solids) result.plan.push_back("containment decided once for every free cell");
+  if (scene.solids()) result.plan.push_back("containment decided once for every free cell");
   return true;
 }
 

@@ -15,11 +15,6 @@ namespace {
 // which threads are not worth waking.
 constexpr std::size_t kCarvedOneByOne = 200;
 
-// Cells of a round: so many, or one in so many of the open ones.
-constexpr std::size_t kMostCarvedAtOnce = 64;
-constexpr std::size_t kLeastCarvedAtOnce = 8;
-constexpr std::size_t kOpenCarvedOfRound = 8;
-
 std::size_t memoryOf(const CarvedCell& cell) {
   return sizeof(CarvedCell) + sizeof(CarvedLayer) + cell.body.memory();
 }
@@ -27,16 +22,16 @@ std::size_t memoryOf(const CarvedCell& cell) {
 }  // namespace
 
 CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
-                             const ProbabilityRequest& request, ProbabilityStatistics& statistics)
+                             const ProbabilityRequest& request, Budget& budget,
+                             ProbabilityStatistics& statistics)
     : obstacles_(obstacles),
       solids_(solids),
       request_(request),
       statistics_(statistics),
-      workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(*this)),
-      round_(1),
-      limits_(request, statistics) {
+      queue_(request, budget, statistics, claim_observer ? 1 : request.threads, makeWorker()) {
   auto root = std::make_unique<CarvedCell>();
-  root->box = Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
+  root->box =
+      detail::Cell{Eigen::Vector3d::Constant(-kReach), Eigen::Vector3d::Constant(kReach), 3};
   root->mass = {0.0, 1.0};
   std::vector<FatNode> roots;
   for (int member = 0; member < obstacles.count(); ++member) {
@@ -46,91 +41,53 @@ CarvingEngine::CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
   push(std::move(root));
 }
 
+void CarvingEngine::Totals::add(const Queued& queued) {
+  open.lower += queued.cell->inner;
+  open.upper += queued.cell->mass.upper;
+  memory += memoryOf(*queued.cell);
+}
+
+void CarvingEngine::Totals::remove(const Queued& queued) {
+  open.lower -= queued.cell->inner;
+  open.upper -= queued.cell->mass.upper;
+  memory -= memoryOf(*queued.cell);
+}
+
 void CarvingEngine::push(std::unique_ptr<CarvedCell> cell) {
-  open_.lower += cell->inner;
-  open_.upper += cell->mass.upper;
-  cell_memory_ += memoryOf(*cell);
   const double gap = cell->gap();
-  queue_.push_back({gap, std::move(cell)});
-  std::push_heap(queue_.begin(), queue_.end());
+  queue_.push({gap, std::move(cell)});
 }
 
-// How many cells were looked at.
-std::size_t CarvingEngine::divideLargest() {
-  const std::size_t count = takeLargest();
-  divideTaken(count);
-  workers_.visit(
-      [this](Worker& worker) { addWork(std::exchange(worker.statistics, {}), statistics_); });
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::unique_ptr<CarvedCell>& cell : round_[i].carving.cells) push(std::move(cell));
-    round_[i].carving.cells.clear();
-  }
-  return count;
-}
+bool CarvingEngine::isOneByOne() const { return statistics_.cells < kCarvedOneByOne; }
 
-std::size_t CarvingEngine::mostOfRound() const {
-  if (statistics_.cells < kCarvedOneByOne) return 1;
-  const std::size_t most =
-      std::clamp(queue_.size() / kOpenCarvedOfRound, kLeastCarvedAtOnce, kMostCarvedAtOnce);
-  return std::min(request_.max_cells - statistics_.cells, most);
-}
-
-// No more than have to be divided in any case: if fewer were settled altogether, that would not be
-// enough.
-std::size_t CarvingEngine::takeLargest() {
-  const std::size_t most = mostOfRound();
-  if (round_.size() < most) round_.resize(most);
-  const double needed = missingWidth(interval(), request_);
-  double taken = 0.0;
-  std::size_t count = 0;
-  do {
-    std::pop_heap(queue_.begin(), queue_.end());
-    const CarvedCell& cell = *queue_.back().cell;
-    open_.lower -= cell.inner;
-    open_.upper -= cell.mass.upper;
-    cell_memory_ -= memoryOf(cell);
-    taken += cell.gap();
-    round_[count++].cell = std::move(queue_.back().cell);
-    queue_.pop_back();
-  } while (count < most && !queue_.empty() && taken < needed);
-  return count;
-}
+CarvingEngine::Enough CarvingEngine::enough() const { return {missingWidth(interval(), request_)}; }
 
 // A single cell adds to the totals itself.
-void CarvingEngine::divideTaken(std::size_t count) {
+void CarvingEngine::beginRound(std::vector<Queue::InRound>& round, std::size_t count) {
   const bool is_single = count == 1;
-  const CarvedSoFar so_far{is_single ? 0.0 : settled_.lower, statistics_.cells + count};
-  const auto divide = [&](Worker& worker, std::size_t i) {
-    auto& [cell, carving] = round_[i];
-    carving.settled = is_single ? settled_ : Bounds{0.0, 0.0};
-    carving.slivers = is_single ? slivers_ : 0.0;
-    worker.carver.divide(std::move(*cell), so_far, carving);
-    cell.reset();
-  };
-  workers_.run(
-      count, [this] { return std::make_unique<Worker>(*this); }, divide);
-  if (is_single) settled_ = {0.0, 0.0};
-  if (is_single) slivers_ = 0.0;
+  so_far_ = {is_single ? 0.0 : settled_.lower, statistics_.cells + count};
   for (std::size_t i = 0; i < count; ++i) {
-    const Carving& of_one = round_[i].carving;
-    settled_.lower += of_one.settled.lower;
-    settled_.upper += of_one.settled.upper;
-    slivers_ += of_one.slivers;
+    round[i].parts.settled = is_single ? std::exchange(settled_, {0.0, 0.0}) : Bounds{0.0, 0.0};
+    round[i].parts.slivers = is_single ? std::exchange(slivers_, 0.0) : 0.0;
   }
 }
 
-void CarvingEngine::recount() {
-  open_ = {0.0, 0.0};
-  for (const Queued& queued : queue_) {
-    open_.lower += queued.cell->inner;
-    open_.upper += queued.cell->mass.upper;
-  }
-  changes_since_recount_ = 0;
+void CarvingEngine::divide(Worker& worker, Queued& queued, Carving& carving) const {
+  worker.carver.divide(std::move(*queued.cell), so_far_, carving);
+  queued.cell.reset();
+}
+
+void CarvingEngine::add(Carving& carving) {
+  settled_.lower += carving.settled.lower;
+  settled_.upper += carving.settled.upper;
+  slivers_ += carving.slivers;
+  for (std::unique_ptr<CarvedCell>& cell : carving.cells) push(std::move(cell));
+  carving.cells.clear();
 }
 
 Bounds CarvingEngine::interval() const {
-  return roundedSum(settled_.lower + open_.lower - slivers_,
-                    settled_.upper + open_.upper + slivers_,
+  const Bounds& open = queue_.totals().open;
+  return roundedSum(settled_.lower + open.lower - slivers_, settled_.upper + open.upper + slivers_,
                     16.0 * static_cast<double>(statistics_.cells) + 64.0);
 }
 
@@ -140,7 +97,7 @@ std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
   if (const auto status = detail::satisfied(now, request_)) return status;
   // What is settled as unknown stays so.
   const double unknown = settled_.upper - settled_.lower;
-  const double open = open_.upper - open_.lower;
+  const double open = queue_.totals().open.width();
   const bool is_settled = asksForDecision(request_) ? !mayBeDecided(now, open, request_)
                                                     : unknown > request_.toleranceAt(now.upper);
   if (is_settled) return ProbabilityStatus::resolution_limit;
@@ -149,39 +106,10 @@ std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
   return std::nullopt;
 }
 
-std::optional<ProbabilityStatus> CarvingEngine::limited() const {
-  return limits_.interruption(interval());
-}
-
 ProbabilityStatus CarvingEngine::run() {
-  std::optional<ProbabilityStatus> status;
-  ++changes_since_recount_;
-  std::size_t divided = 0;
-  std::size_t next_poll = 0;
-  while (!status) {
-    if (changes_since_recount_ * 4 > queue_.size()) recount();
-    status = satisfied();
-    if (status && changes_since_recount_ > 0) {
-      recount();
-      status = satisfied();
-    }
-    if (!status && statistics_.cells >= request_.max_cells) status = ProbabilityStatus::cell_limit;
-    if (!status && memory() >= request_.max_memory) status = ProbabilityStatus::memory_limit;
-    if (!status && divided >= next_poll) {
-      status = limited();
-      next_poll = divided + EngineLimits::kCellsBetweenPolls;
-    }
-    if (!status) {
-      const std::size_t count = divideLargest();
-      divided += count;
-      changes_since_recount_ += count;
-    }
-    statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
-  }
-  recount();
-  statistics_.cells_open = queue_.size();
+  const ProbabilityStatus status = queue_.run(*this, request_.max_cells);
   statistics_.leaf_pairs = obstacles_.built();
-  return *status;
+  return status;
 }
 
 }  // namespace fcl_prob::detail

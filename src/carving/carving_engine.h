@@ -9,20 +9,19 @@
 #include <optional>
 #include <vector>
 
-#include "base/engine_limits.h"
-#include "base/round_workers.h"
+#include "base/cell_queue.h"
 #include "carving/cell_carver.h"
 
 namespace fcl_prob::detail {
 
-/// The queue of cells, largest gaps first, and the totals. As in PartitionEngine the first cells
-/// are looked at one by one, and then the largest ones at once, in rounds that do not depend on the
-/// number of threads.
+/// The convex polytopes of a partition, as CellQueue divides them, and the totals of what is
+/// settled.
 class CarvingEngine {
  public:
   /// Keeps references to all arguments.
   CarvingEngine(FatMembers& obstacles, const SolidContact* solids,
-                const ProbabilityRequest& request, ProbabilityStatistics& statistics);
+                const ProbabilityRequest& request, Budget& budget,
+                ProbabilityStatistics& statistics);
 
   /// Divides cells until the request is satisfied or a limit is reached; says which.
   ProbabilityStatus run();
@@ -31,6 +30,10 @@ class CarvingEngine {
   Bounds interval() const;
 
  private:
+  friend class CellQueue<CarvingEngine>;
+
+  static constexpr RoundSizes kRounds{8, 64, 8, 1, 1, 16};
+
   /// Looks at one cell at a time, and counts what it does besides.
   struct Worker {
     explicit Worker(CarvingEngine& engine)
@@ -41,44 +44,56 @@ class CarvingEngine {
     CellCarver carver;
   };
 
-  /// One of the cells of a round.
-  struct Divided {
-    std::unique_ptr<CarvedCell> cell;
-    Carving carving;
-  };
-
   /// The heap moves these, not the cells.
   struct Queued {
-    double gap;
+    double of_gap = 0.0;
     std::unique_ptr<CarvedCell> cell;
 
-    bool operator<(const Queued& other) const { return gap < other.gap; }
+    double gap() const { return of_gap; }
   };
 
+  using Cell = Queued;
+  using Parts = Carving;
+
+  /// Over the open cells.
+  struct Totals {
+    Bounds open{0.0, 0.0};
+    std::size_t memory = 0;
+
+    void add(const Queued& queued);
+    void remove(const Queued& queued);
+  };
+
+  using Queue = CellQueue<CarvingEngine>;
+
+  /// Whether those that were taken have to be divided in any case: if fewer were settled
+  /// altogether, that would not be enough.
+  struct Enough {
+    double needed;
+    bool operator()(double taken, std::size_t /*count*/, double /*next*/) const {
+      return taken >= needed;
+    }
+  };
+
+  std::unique_ptr<Worker> makeWorker() { return std::make_unique<Worker>(*this); }
+  bool isOneByOne() const;
+  Enough enough() const;
+  void beginRound(std::vector<Queue::InRound>& round, std::size_t count);
+  void divide(Worker& worker, Queued& queued, Carving& carving) const;
+  void add(Carving& carving);
   void push(std::unique_ptr<CarvedCell> cell);
-  std::size_t divideLargest();
-  std::size_t mostOfRound() const;
-  std::size_t takeLargest();
-  void divideTaken(std::size_t count);
-  void recount();
   std::optional<ProbabilityStatus> satisfied() const;
-  std::optional<ProbabilityStatus> limited() const;
-  std::size_t memory() const { return obstacles_.memory() + cell_memory_ + list_memory_; }
+  std::size_t memory() const { return obstacles_.memory() + queue_.totals().memory + list_memory_; }
 
   FatMembers& obstacles_;
   const SolidContact* solids_;
   const ProbabilityRequest& request_;
   ProbabilityStatistics& statistics_;
   std::atomic<std::size_t> list_memory_{0};  // before the cells that refer to it
-  RoundWorkers<Worker> workers_;
-  std::vector<Divided> round_;
-  std::vector<Queued> queue_;  ///< a heap
   Bounds settled_;
   double slivers_ = 0.0;  ///< what may lie between cells or belong to two
-  Bounds open_;
-  std::size_t cell_memory_ = 0;
-  std::size_t changes_since_recount_ = 0;
-  EngineLimits limits_;
+  CarvedSoFar so_far_{};  ///< before the round
+  Queue queue_;
 };
 
 }  // namespace fcl_prob::detail

@@ -37,21 +37,23 @@ double nearness(const LineSpan& span) { return std::max({span.lo, -span.hi, 0.0}
 
 }  // namespace
 
-std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const WhitenedPair& pair,
-                                                   const PartitionObject& a,
-                                                   const PartitionObject& b,
-                                                   const GaussianDisplacement& displacement,
+std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const QueryScene& scene) {
+  const auto& whole = scene.nearlyConvexBody();
+  if (!whole) return nullptr;
+  return of(*whole, scene.pair(), scene.whitening().matrix(), scene.solids());
+}
+
+std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const WholeBody& whole, const WhitenedPair& pair,
                                                    const Eigen::Matrix3d& matrix,
                                                    const SolidContact* solids) {
-  const auto whole = wholeBodyOf(a, b, displacement, Convexity::nearly);
-  if (!whole || pair.band) return nullptr;
+  if (pair.band) return nullptr;
   auto lines = std::make_unique<WholeBodyLines>();
   lines->solids_ = solids;
-  for (std::size_t i = 0; i < whole->body.parts.size(); ++i) {
-    lines->addMember(*whole, i, pair, matrix * whole->body.parts[i].pose.linear());
+  for (std::size_t i = 0; i < whole.body.parts.size(); ++i) {
+    lines->addMember(whole, i, pair, matrix * whole.body.parts[i].pose.linear());
     const Member& member = lines->members_.back();
     const bool usable = member.fan.usable() && member.body().usable();
-    if (!usable || mayHoldPart(*whole, i, member.fan)) return nullptr;
+    if (!usable || mayHoldPart(whole, i, member.fan)) return nullptr;
   }
   return lines;
 }

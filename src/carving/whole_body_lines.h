@@ -13,8 +13,7 @@
 #include "carving/inner_mass.h"
 #include "carving/node_spans.h"
 #include "carving/shell_lines.h"
-#include "pieces/containment.h"
-#include "pieces/whole_body.h"
+#include "pieces/scene.h"
 
 namespace fcl_prob::detail {
 
@@ -39,12 +38,13 @@ class WholeBodyLines {
   static constexpr int kBody = -1;
 
  public:
-  /// Null where no object can be taken whole. Keeps references to the pair and the solids.
+  /// Null where no object can be taken whole. Keeps a reference.
+  static std::unique_ptr<WholeBodyLines> of(const QueryScene& scene);
+
+  /// Null where the members cannot be taken whole. Keeps references to the pair and the solids.
   /// \param matrix  that of the whitening by which the pair was moved
   /// \param solids  null: surfaces
-  static std::unique_ptr<WholeBodyLines> of(const WhitenedPair& pair, const PartitionObject& a,
-                                            const PartitionObject& b,
-                                            const GaussianDisplacement& displacement,
+  static std::unique_ptr<WholeBodyLines> of(const WholeBody& whole, const WhitenedPair& pair,
                                             const Eigen::Matrix3d& matrix,
                                             const SolidContact* solids);
 

@@ -19,19 +19,21 @@ bool isClear(const NodeBox& box, const Eigen::Vector3d& pad, const Eigen::Vector
 
 }  // namespace
 
-std::unique_ptr<WholeBodyTester> WholeBodyTester::of(const WhitenedPair& pair,
-                                                     const PartitionObject& a,
-                                                     const PartitionObject& b,
-                                                     const GaussianDisplacement& displacement,
+std::unique_ptr<WholeBodyTester> WholeBodyTester::of(const QueryScene& scene) {
+  if (!scene.convexBody()) return nullptr;
+  return of(*scene.convexBody(), scene.pair(), scene.whitening().matrix());
+}
+
+std::unique_ptr<WholeBodyTester> WholeBodyTester::of(const WholeBody& whole,
+                                                     const WhitenedPair& pair,
                                                      const Eigen::Matrix3d& matrix) {
-  const auto whole = wholeBodyOf(a, b, displacement, Convexity::exact);
-  if (!whole || pair.band) return nullptr;
+  if (pair.band) return nullptr;
   auto tester = std::make_unique<WholeBodyTester>();
-  for (std::size_t i = 0; i < whole->body.parts.size(); ++i) {
-    const PieceTree::Part& part = whole->body.tree->parts[i];
-    WhitenedFan fan(pair, part, *part.fan, whole->body_is_a,
-                    matrix * whole->body.parts[i].pose.linear());
-    if (!fan.usable() || mayHoldPart(*whole, i, fan)) return nullptr;
+  for (std::size_t i = 0; i < whole.body.parts.size(); ++i) {
+    const PieceTree::Part& part = whole.body.tree->parts[i];
+    WhitenedFan fan(pair, part, *part.fan, whole.body_is_a,
+                    matrix * whole.body.parts[i].pose.linear());
+    if (!fan.usable() || mayHoldPart(whole, i, fan)) return nullptr;
     tester->members_.emplace_back(std::move(fan));
   }
   return tester;

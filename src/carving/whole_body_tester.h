@@ -8,17 +8,19 @@
 #include <vector>
 
 #include "carving/fan_contact.h"
-#include "pieces/whole_body.h"
+#include "pieces/scene.h"
 
 namespace fcl_prob::detail {
 
 class WholeBodyTester {
  public:
-  /// Null where no object can be taken whole. Keeps a reference to the pair.
+  /// Null where no object can be taken whole. Keeps a reference.
+  static std::unique_ptr<WholeBodyTester> of(const QueryScene& scene);
+
+  /// Null where the members cannot be taken whole. Keeps a reference to the pair.
+  /// \param whole   all of whose members are convex
   /// \param matrix  that of the whitening by which the pair was moved
-  static std::unique_ptr<WholeBodyTester> of(const WhitenedPair& pair, const PartitionObject& a,
-                                             const PartitionObject& b,
-                                             const GaussianDisplacement& displacement,
+  static std::unique_ptr<WholeBodyTester> of(const WholeBody& whole, const WhitenedPair& pair,
                                              const Eigen::Matrix3d& matrix);
 
   /// Whether any member touches the mesh (or, as a solid, holds a part of it) at y, a point of a

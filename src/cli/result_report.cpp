@@ -15,7 +15,18 @@ using Json = nlohmann::ordered_json;
 
 Json jsonOf(const ProbabilityStatistics& statistics) {
   Json seconds = Json::object();
-  for (const auto& [stage, time] : statistics.seconds) seconds[stage] = time;
+  for (const auto& [stage, time] : statistics.seconds) {
+    seconds[stage] = seconds.value(stage, 0.0) + time;
+  }
+  Json rungs = Json::array();
+  for (const RungRecord& rung : statistics.rungs) {
+    rungs.push_back({{"name", rung.name},
+                     {"seconds", rung.seconds},
+                     {"lower", rung.known.lower},
+                     {"upper", rung.known.upper},
+                     {"times", rung.times},
+                     {"answered", rung.answered}});
+  }
   return {{"cells", statistics.cells},
           {"cells_open", statistics.cells_open},
           {"pairs_tested", statistics.pairs_tested},
@@ -25,7 +36,8 @@ Json jsonOf(const ProbabilityStatistics& statistics) {
           {"samples", statistics.samples},
           {"hits", statistics.hits},
           {"raw_sum", orNull(statistics.raw_sum)},
-          {"seconds", seconds}};
+          {"seconds", seconds},
+          {"rungs", rungs}};
 }
 
 /// Label, padding, value: one line of the text report.

@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
+#include "base/agreed_bounds.h"
 #include "base/constants.h"
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/agreed_bounds.h"
 #include "gaussian/boundary_mass.h"
 #include "gaussian/polytope_effort.h"
 #include "gaussian/solid_mass.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/stopwatch.h"
 #include "fcl_prob/monte_carlo.h"
 
 namespace fcl_prob::detail {
@@ -12,8 +11,8 @@ namespace fcl_prob::detail {
 CountingRun::CountingRun(const ProbabilityRequest& request)
     : SamplingRun(request, request.samples, request.absolute_tolerance), collided_(kSlots) {}
 
-ProbabilityResult CountingRun::result(const Stopwatch& watch) {
-  ProbabilityResult result = run(watch);
+ProbabilityResult CountingRun::result(Budget& budget) {
+  ProbabilityResult result = run(budget);
   result.method = ProbabilityMethod::monte_carlo;
   const auto n = static_cast<double>(counted());
   const auto hits = static_cast<double>(hits_);
@@ -21,7 +20,7 @@ ProbabilityResult CountingRun::result(const Stopwatch& watch) {
   result.estimate = hits / n;
   result.standard_error = std::sqrt(smoothed * (1.0 - smoothed) / n);
   result.statistics.hits = hits_;
-  result.statistics.seconds.emplace_back("sampling", watch.seconds());
+  result.statistics.seconds.emplace_back("sampling", budget.seconds());
   return result;
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "base/stopwatch.h"
+#include "base/budget.h"
 #include "montecarlo/sampling_run.h"
 
 namespace fcl_prob::detail {
@@ -16,8 +16,8 @@ class CountingRun : public SamplingRun {
 
   /// Draws the samples; sets what SamplingRun::run() sets and the estimate, its standard error
   /// (with half a hit added, so that it is not 0 without hits), the hits and the time.
-  /// \param watch  started when the call was
-  ProbabilityResult result(const Stopwatch& watch);
+  /// \param budget  made when the call was
+  ProbabilityResult result(Budget& budget);
 
  protected:
   /// Whether sample `index` collides; called on any thread.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/monte_carlo.h"
-#include "base/stopwatch.h"
 
 #include <algorithm>
 #include <utility>
@@ -71,8 +70,8 @@ class MonteCarloRun : public detail::CountingRun {
         request_(request),
         gradient_(displacements_.speeds(), kFarthest) {}
 
-  ProbabilityResult resultWithGradient(const detail::Stopwatch& watch) {
-    ProbabilityResult answer = result(watch);
+  ProbabilityResult resultWithGradient(detail::Budget& budget) {
+    ProbabilityResult answer = result(budget);
     if (request_.gradient) gradient_.report(displacements_.haveFullRank(), counted(), answer);
     return answer;
   }
@@ -110,10 +109,10 @@ ProbabilityResult sampled(const fcl::CollisionGeometryd& a, const fcl::Transform
                           const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b,
                           const Displacement& displacement, const ProbabilityRequest& request) {
   validateRequest(request);
-  const detail::Stopwatch watch;
+  detail::Budget budget(request);
   const detail::DisplacedCollider collider(a, pose_a, b, pose_b, request.contact);
   ProbabilityResult result = MonteCarloRun(collider, SampledDisplacements(displacement), request)
-                                 .resultWithGradient(watch);
+                                 .resultWithGradient(budget);
   result.plan.insert(result.plan.begin(), collider.plan().begin(), collider.plan().end());
   result.plan.push_back("Monte Carlo: displaced fcl::collide; the interval has confidence " +
                         std::to_string(request.confidence) + ", nothing is certified");

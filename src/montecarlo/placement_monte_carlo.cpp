@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/random_words.h"
-#include "base/stopwatch.h"
 #include "base/symmetric_axes.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/validation.h"
@@ -36,9 +35,9 @@ ProbabilityResult placementMonteCarlo(const GeometryList& a, const GeometryList&
                                       const PlacementSampler& sampler,
                                       const ProbabilityRequest& request) {
   validateRequest(request);
-  const Stopwatch watch;
+  Budget budget(request);
   PlacementRun run(a, b, sampler, request);
-  ProbabilityResult result = run.result(watch);
+  ProbabilityResult result = run.result(budget);
   result.plan = run.plan();
   result.plan.push_back("Monte Carlo: fcl::collide at random poses; the interval has confidence " +
                         std::to_string(request.confidence) + ", nothing is certified");

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.h"
 #include "base/decision.h"
-#include "base/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "montecarlo/displaced_collider.h"
@@ -60,12 +60,12 @@ std::vector<MixtureComponent> firstGuess(const WhitenedObstacle& obstacle) {
 class DensityAdaptation {
  public:
   DensityAdaptation(const WhitenedCollider& collider, const WhitenedObstacle& obstacle,
-                    const ProbabilityRequest& request, const Stopwatch& watch,
+                    const ProbabilityRequest& request, Budget& budget,
                     std::optional<ProbabilityStatus> interruption)
       : collider_(collider),
         obstacle_(obstacle),
         request_(request),
-        watch_(watch),
+        budget_(budget),
         loop_(request.threads),
         samples_of_pilot_(
             std::min(kMostPilotSamples,
@@ -106,7 +106,7 @@ class DensityAdaptation {
         },
         [&](std::size_t done) {
           used_ = used_before + done;
-          interruption_ = interruptionOf(request_, {{0.0, 1.0}, fraction(), watch_.seconds()});
+          interruption_ = budget_.look({0.0, 1.0}, fraction());
           return !interruption_;
         });
     for (std::size_t i = 0; i < drawn; ++i) {
@@ -133,7 +133,7 @@ class DensityAdaptation {
   const WhitenedCollider& collider_;
   const WhitenedObstacle& obstacle_;
   const ProbabilityRequest& request_;
-  const Stopwatch& watch_;
+  Budget& budget_;
   SampleLoop loop_;
   std::size_t samples_of_pilot_;
   std::size_t used_ = 0;
@@ -158,8 +158,8 @@ class RareEventRun : public SamplingRun {
         gradient_(whitening_.matrix().colwise().norm().transpose(),
                   unit_ * ((obstacle.nearest ? obstacle.nearest->norm() : 0.0) + kBehindNearest)) {}
 
-  ProbabilityResult result(const Stopwatch& watch) {
-    ProbabilityResult result = run(watch);
+  ProbabilityResult result(Budget& budget) {
+    ProbabilityResult result = run(budget);
     const auto n = static_cast<double>(counted());
     const double mean = hits_.sum / n;
     // With half a hit added, so that it is not 0 where all samples agree: of the largest weight
@@ -219,15 +219,15 @@ ProbabilityResult certainlyFree(const ProbabilityRequest& request) {
 
 ProbabilityResult sampleRareEvent(const DisplacedCollider& displaced,
                                   const WhitenedObstacle& obstacle,
-                                  const ProbabilityRequest& request, const Stopwatch& watch,
+                                  const ProbabilityRequest& request, Budget& budget,
                                   std::optional<ProbabilityStatus> interruption) {
   const WhitenedCollider collider(displaced, obstacle.whitening);
-  DensityAdaptation adaptation(collider, obstacle, request, watch, interruption);
+  DensityAdaptation adaptation(collider, obstacle, request, budget, interruption);
   const ImportanceDensity density = adaptation.adapt();
   RareEventRun run(collider, density, obstacle, request,
                    request.samples - adaptation.samplesUsed());
   if (adaptation.interruption()) run.interrupt(*adaptation.interruption());
-  ProbabilityResult result = run.result(watch);
+  ProbabilityResult result = run.result(budget);
   result.statistics.samples += adaptation.samplesUsed();
   const bool shell = obstacle.cover.shell_radius > 0.0;
   result.plan.push_back(
@@ -248,26 +248,26 @@ ProbabilityResult rareEventProbability(const fcl::CollisionGeometryd& a,
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request) {
   validateRequest(request);
-  const Stopwatch watch;
+  Budget budget(request);
   const DisplacedCollider displaced(a, pose_a, b, pose_b, request.contact);
   if (displacement.rank() == 0) {
     throw InvalidRequest("rare-event sampling needs a displacement that is random");
   }
   std::optional<ProbabilityStatus> interruption;
   const auto interrupted = [&] {
-    if (!interruption) interruption = interruptionOf(request, {{0.0, 1.0}, 0.0, watch.seconds()});
+    if (!interruption) interruption = budget.look();
     return interruption.has_value();
   };
   const WhitenedObstacle obstacle =
       whitenedObstacle(a, pose_a, b, pose_b, displacement, request.contact,
                        displaced.collides(displacement.mean()), interrupted);
-  const double obstacle_seconds = watch.seconds();
+  const double obstacle_seconds = budget.seconds();
   ProbabilityResult result =
       obstacle.cover.empty() ? certainlyFree(request)
-                             : sampleRareEvent(displaced, obstacle, request, watch, interruption);
+                             : sampleRareEvent(displaced, obstacle, request, budget, interruption);
   result.method = ProbabilityMethod::rare_event;
   result.statistics.seconds.emplace_back("nearest contact and cover", obstacle_seconds);
-  result.statistics.seconds.emplace_back("sampling", watch.seconds() - obstacle_seconds);
+  result.statistics.seconds.emplace_back("sampling", budget.seconds() - obstacle_seconds);
   result.plan.insert(result.plan.begin(), displaced.plan().begin(), displaced.plan().end());
   return result;
 }

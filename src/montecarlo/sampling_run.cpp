@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 #include "montecarlo/sampling_run.h"
-#include "base/decision.h"
-#include "base/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace fcl_prob::detail {
-
-std::optional<ProbabilityStatus> interruptionOf(const ProbabilityRequest& request,
-                                                ProbabilityProgress progress) {
-  if (request.time_limit) {
-    if (progress.seconds >= *request.time_limit) return ProbabilityStatus::time_limit;
-    progress.fraction = std::max(progress.fraction, progress.seconds / *request.time_limit);
-  }
-  if (request.on_progress && !request.on_progress(progress)) return ProbabilityStatus::cancelled;
-  return std::nullopt;
-}
 
 SamplingRun::SamplingRun(const ProbabilityRequest& request, std::size_t samples,
                          double absolute_tolerance)
@@ -27,7 +15,7 @@ SamplingRun::SamplingRun(const ProbabilityRequest& request, std::size_t samples,
       looks_(samples, request.confidence),
       loop_(request.threads) {}
 
-ProbabilityResult SamplingRun::run(const Stopwatch& watch) {
+ProbabilityResult SamplingRun::run(Budget& budget) {
   ProbabilityResult result;
   result.status = ProbabilityStatus::sampled;
   double confidence = looks_.finalConfidence();
@@ -35,7 +23,7 @@ ProbabilityResult SamplingRun::run(const Stopwatch& watch) {
     const std::size_t look = looks_.next(counted_);
     loop_.run(
         counted_, look, [this](std::size_t index) { evaluate(index, index % kSlots); },
-        [&](std::size_t done) { return countUpTo(done, watch); });
+        [&](std::size_t done) { return countUpTo(done, budget); });
     if (interruption_) {
       result.status = *interruption_;
       break;
@@ -53,18 +41,13 @@ ProbabilityResult SamplingRun::run(const Stopwatch& watch) {
   return result;
 }
 
-bool SamplingRun::countUpTo(std::size_t done, const Stopwatch& watch) {
+bool SamplingRun::countUpTo(std::size_t done, Budget& budget) {
   for (; counted_ < done; ++counted_) count(counted_, counted_ % kSlots);
-  if (!interruption_ && done < samples_) interruption_ = interruptionOf(request_, progress(watch));
+  if (!interruption_ && done < samples_) {
+    const double fraction = static_cast<double>(counted_) / static_cast<double>(samples_);
+    interruption_ = budget.look(interval(looks_.finalConfidence()), fraction);
+  }
   return !interruption_;
-}
-
-ProbabilityProgress SamplingRun::progress(const Stopwatch& watch) const {
-  ProbabilityProgress progress;
-  progress.interval = interval(looks_.finalConfidence());
-  progress.seconds = watch.seconds();
-  progress.fraction = static_cast<double>(counted_) / static_cast<double>(samples_);
-  return progress;
 }
 
 std::optional<ProbabilityStatus> SamplingRun::reasonToStop(const Bounds& interval) const {

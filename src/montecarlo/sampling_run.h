@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/budget.h"
 #include "base/decision.h"
-#include "base/stopwatch.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/whitening.h"
@@ -17,10 +17,6 @@
 #include "montecarlo/sample_loop.h"
 
 namespace fcl_prob::detail {
-
-/// Looks at the clock and asks on_progress: `time_limit`, `cancelled` or nothing.
-std::optional<ProbabilityStatus> interruptionOf(const ProbabilityRequest& request,
-                                                ProbabilityProgress progress);
 
 /// Draws samples 0, 1, 2, ... on the threads asked for and counts them in that order, so that sums
 /// do not depend on how the samples were divided among threads.
@@ -33,7 +29,7 @@ class SamplingRun {
   virtual ~SamplingRun() = default;
 
   /// Sets confidence_interval, decision and status, and statistics.samples.
-  ProbabilityResult run(const Stopwatch& watch);
+  ProbabilityResult run(Budget& budget);
 
   /// What came before has met a limit already: run() then draws as few samples as make an answer.
   void interrupt(ProbabilityStatus reason) { interruption_ = reason; }
@@ -53,8 +49,7 @@ class SamplingRun {
   std::size_t counted() const { return counted_; }
 
  private:
-  bool countUpTo(std::size_t done, const Stopwatch& watch);
-  ProbabilityProgress progress(const Stopwatch& watch) const;
+  bool countUpTo(std::size_t done, Budget& budget);
   std::optional<ProbabilityStatus> reasonToStop(const Bounds& interval) const;
 
   const ProbabilityRequest& request_;

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/agreed_bounds.h"
 #include "cobstacle/pair_obstacle.h"
 #include "cobstacle/resolved_part.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/agreed_bounds.h"
 #include "narrowphase/ball_pair.h"
 #include "narrowphase/curved_pair.h"
 #include "narrowphase/ellipsoid_polytope.h"

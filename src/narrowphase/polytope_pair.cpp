@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/agreed_bounds.h"
 #include "base/constants.h"
-#include "gaussian/agreed_bounds.h"
 #include "gaussian/polytope_effort.h"
 #include "narrowphase/long_whitening.h"
 #include "narrowphase/shell_reach.h"

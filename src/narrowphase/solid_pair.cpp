@@ -4,8 +4,8 @@
 
 #include <Eigen/LU>
 
+#include "base/agreed_bounds.h"
 #include "cobstacle/room_within.h"
-#include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/polytope_pair.h"
 

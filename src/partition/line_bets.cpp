@@ -54,25 +54,22 @@ std::unique_ptr<LineBets> LineBets::of(const PartitionObject& a, const Partition
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request, double error) {
   if (!wholeBodyOf(a, b, displacement, Convexity::nearly)) return nullptr;
-  std::unique_ptr<LineBets> made(
-      new LineBets(queryFrame(a, b, displacement, request), request, error));
+  std::unique_ptr<LineBets> made(new LineBets(
+      std::make_unique<const QueryScene>(a, b, displacement, request), request, error));
   LineBets& bets = *made;
-  if (a.hasSolid() || b.hasSolid()) {
-    bets.solids_ = std::make_unique<SolidContact>(a, b, bets.frame_.whitening, bets.frame_.pair);
-  }
-  bets.lines_ = WholeBodyLines::of(bets.frame_.pair, a, b, bets.frame_.displacement,
-                                   bets.frame_.whitening.matrix(), bets.solids_.get());
+  bets.lines_ = WholeBodyLines::of(*bets.scene_);
   if (!bets.lines_) return nullptr;
   bets.below_.source = std::make_shared<Source>(*bets.lines_, Taken::hulls);
   bets.look(bets.below_, false);
   return made;
 }
 
-LineBets::LineBets(QueryFrame frame, const ProbabilityRequest& request, double error)
+LineBets::LineBets(std::unique_ptr<const QueryScene> scene, const ProbabilityRequest& request,
+                   double error)
     : error_(error),
       seed_(request.seed),
       most_columns_(std::min(kMostBetColumns, request.max_cells)),
-      frame_(std::move(frame)) {}
+      scene_(std::move(scene)) {}
 
 // The lower end is of other lines where members are only nearly convex.
 LineBets::End& LineBets::endFor(bool above) {

@@ -11,7 +11,7 @@
 
 #include "carving/column_bounds.h"
 #include "gaussian/bet_sequence.h"
-#include "partition/query_frame.h"
+#include "pieces/scene.h"
 
 namespace fcl_prob::detail {
 
@@ -77,7 +77,8 @@ class LineBets {
     double all() const { return so_far.empty() ? 0.0 : so_far.back(); }
   };
 
-  LineBets(QueryFrame frame, const ProbabilityRequest& request, double error);
+  LineBets(std::unique_ptr<const QueryScene> scene, const ProbabilityRequest& request,
+           double error);
   End& endFor(bool above);
   void look(End& end, bool above);
   Odds oddsOf(Source& source, bool above) const;
@@ -89,8 +90,7 @@ class LineBets {
   double error_;
   std::uint64_t seed_;
   std::size_t most_columns_;
-  QueryFrame frame_;
-  std::unique_ptr<SolidContact> solids_;
+  std::unique_ptr<const QueryScene> scene_;
   std::unique_ptr<WholeBodyLines> lines_;
   End below_;
   End above_;

@@ -217,10 +217,9 @@ struct Looks {
 
 class LineEstimation {
  public:
-  LineEstimation(WholeBodyLines& lines, const ProbabilityRequest& request,
-                 const LineInterruption& interruption)
+  LineEstimation(WholeBodyLines& lines, const ProbabilityRequest& request, Budget& budget)
       : request_(request),
-        interruption_(interruption),
+        budget_(budget),
         columns_(lines),
         sampler_(lines, request),
         most_columns_(std::min(kMostColumns, request.max_cells)) {
@@ -263,7 +262,7 @@ class LineEstimation {
     std::vector<PairsOfColumn> drawn;
     for (const int column : columns_.inOrder()) {
       const LineColumns::Node& node = columns_[column];
-      if (!look.interrupted) look.interrupted = interruption_({0.0, upper});
+      if (!look.interrupted) look.interrupted = budget_.look({0.0, upper}, 0.0);
       if (look.interrupted) {
         look.mass += 0.5 * node.mass();
         look.doubt += 0.5 * node.mass();
@@ -378,7 +377,7 @@ class LineEstimation {
   }
 
   const ProbabilityRequest& request_;
-  const LineInterruption& interruption_;
+  Budget& budget_;
   LineColumns columns_;
   ColumnSampler sampler_;
   std::size_t most_columns_;
@@ -387,8 +386,8 @@ class LineEstimation {
 }  // namespace
 
 std::optional<LineEstimate> lineEstimate(WholeBodyLines& lines, const ProbabilityRequest& request,
-                                         const LineInterruption& interruption) {
-  return LineEstimation(lines, request, interruption).run();
+                                         Budget& budget) {
+  return LineEstimation(lines, request, budget).run();
 }
 
 }  // namespace fcl_prob::detail

@@ -4,9 +4,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 
+#include "base/budget.h"
 #include "carving/whole_body_lines.h"
 #include "fcl_prob/bounds.h"
 #include "fcl_prob/probability_request.h"
@@ -23,14 +23,11 @@ struct LineEstimate {
   ProbabilityStatus status = ProbabilityStatus::converged;
 };
 
-/// Asked between lines with the interval so far: a status ends the estimate.
-using LineInterruption = std::function<std::optional<ProbabilityStatus>(const Bounds&)>;
-
 /// P, as the mean over lines along the first axis of what they have of collisions: one of three
 /// dimensions is exact, and over the other two the mean is of a function that is mostly smooth. The
 /// space is divided into columns where a bound says that it matters; of each a few lines are drawn,
 /// whose differences give the standard error. Nothing where more columns would be needed than pay.
 std::optional<LineEstimate> lineEstimate(WholeBodyLines& lines, const ProbabilityRequest& request,
-                                         const LineInterruption& interruption);
+                                         Budget& budget);
 
 }  // namespace fcl_prob::detail

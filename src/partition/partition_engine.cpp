@@ -17,8 +17,6 @@ namespace fcl_prob::detail {
 
 namespace {
 
-bool smallerGap(const OpenCell& x, const OpenCell& y) { return x.gap() < y.gap(); }
-
 // Samples drawn for every cell examined. Measured on the benchmark scenes: with 25 an estimate
 // takes half the time that it takes with the least number; from 15 to 40 it hardly matters.
 constexpr double kSamplesPerCell = 25;
@@ -49,33 +47,38 @@ constexpr double kStalledBySweeps = 0.75;
 constexpr std::size_t kCellsOneByOne = 300;
 constexpr std::size_t kPairsOneByOne = 50'000;
 
-// Cells that are divided in a round: so many, or one in so many of the open ones.
-constexpr std::size_t kMostOfRound = 32;
-constexpr std::size_t kLeastOfRound = 4;
-constexpr std::size_t kOpenOfRound = 8;
-
-// Cells that are examined for one that is divided, about; and so many there have to be left for
-// each of a round, so that the limit on them cuts few short.
+// Cells that are examined for one that is divided, about.
 constexpr std::size_t kCellsOfDivided = 6;
-constexpr std::size_t kCellsLeftOfDivided = 16;
 
 }  // namespace
 
 PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityRequest& request,
-                                 ProbabilityStatistics& statistics)
+                                 Budget& budget, ProbabilityStatistics& statistics)
     : scene_(scene),
       request_(request),
       statistics_(statistics),
       obstacles_(scene.pair),
-      workers_(claim_observer ? 1 : request.threads, std::make_unique<Worker>(scene, obstacles_)),
-      round_(1),
       band_(scene.pair.band),
       next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLook),
-      limits_(request, statistics) {
+      queue_(request, budget, statistics, claim_observer ? 1 : request.threads, makeWorker()) {
   Division root;
-  workers_.first().divider.examineRoot(root);
-  collectStatistics();
+  queue_.worker().divider.examineRoot(root);
+  queue_.collectStatistics();
   add(root);
+}
+
+void PartitionEngine::Totals::add(const OpenCell& cell) {
+  open.lower += cell.lower;
+  open.upper += cell.upper;
+  deviation += cell.samplingDeviation();
+  memory += cell.memory();
+}
+
+void PartitionEngine::Totals::remove(const OpenCell& cell) {
+  open.lower -= cell.lower;
+  open.upper -= cell.upper;
+  deviation -= cell.samplingDeviation();
+  memory -= cell.memory();
 }
 
 void PartitionEngine::add(Division& division) {
@@ -92,101 +95,48 @@ void PartitionEngine::add(Examination&& examination) {
     settled_ += asItIs(cell);
     return;
   }
-  open_.lower += cell.lower;
-  open_.upper += cell.upper;
-  open_deviation_ += cell.samplingDeviation();
-  cell_memory_ += cell.memory();
-  queue_.push_back(std::move(cell));
-  std::push_heap(queue_.begin(), queue_.end(), smallerGap);
+  queue_.push(std::move(cell));
 }
 
-void PartitionEngine::remove(const OpenCell& cell) {
-  open_.lower -= cell.lower;
-  open_.upper -= cell.upper;
-  open_deviation_ -= cell.samplingDeviation();
-  cell_memory_ -= cell.memory();
+bool PartitionEngine::isOneByOne() const {
+  return statistics_.cells < kCellsOneByOne && statistics_.pairs_tested < kPairsOneByOne;
 }
 
-// How many cells were divided.
-std::size_t PartitionEngine::divideLargest(bool estimate) {
-  const std::size_t count = takeLargest(estimate);
-  divideTaken(count);
-  collectStatistics();
-  const CrossingWitness::Hint before = hint_;
-  for (std::size_t i = 0; i < count; ++i) {
-    add(round_[i].division);
-    if (round_[i].hint != before) hint_ = round_[i].hint;
-  }
-  return count;
+PartitionEngine::Enough PartitionEngine::enough() const {
+  const Bounds now = interval();
+  return {*this, missingWidth(now, request_), targetError(now.middle()),
+          CellDivider::kSoon * queue_.largest().gap()};
 }
 
-std::size_t PartitionEngine::mostOfRound() const {
-  if (statistics_.cells < kCellsOneByOne && statistics_.pairs_tested < kPairsOneByOne) return 1;
-  const std::size_t cells_left = request_.max_cells - statistics_.cells;
-  const std::size_t most = std::clamp(queue_.size() / kOpenOfRound, kLeastOfRound, kMostOfRound);
-  return std::clamp<std::size_t>(cells_left / kCellsLeftOfDivided, 1, most);
-}
-
-// No more than have to be divided in any case: if fewer were settled altogether, that would not be
-// enough. Parts of the largest may have larger gaps than those that are much smaller.
-std::size_t PartitionEngine::takeLargest(bool estimate) {
-  const std::size_t most = mostOfRound();
-  if (round_.size() < most) round_.resize(most);
-  const double needed = missingWidth(interval(), request_);
-  const double target = targetError(interval().middle());
-  const double least = CellDivider::kSoon * queue_.front().gap();
-  double taken = 0.0;
-  std::size_t count = 0;
-  bool may_be_enough = false;
-  do {
-    std::pop_heap(queue_.begin(), queue_.end(), smallerGap);
-    OpenCell& cell = round_[count++].cell;
-    cell = std::move(queue_.back());
-    queue_.pop_back();
-    remove(cell);
-    taken += cell.gap();
-    const std::size_t cells = statistics_.cells + count * kCellsOfDivided;
-    may_be_enough =
-        taken >= needed || (estimate && samplesNeeded(target) <= samplesAffordable(cells));
-  } while (count < most && !may_be_enough && !queue_.empty() && queue_.front().gap() >= least);
-  return count;
+bool PartitionEngine::Enough::operator()(double taken, std::size_t count, double next) const {
+  if (taken >= needed || next < least) return true;
+  const std::size_t cells = engine.statistics_.cells + count * kCellsOfDivided;
+  return engine.estimate_ && engine.samplesNeeded(target) <= engine.samplesAffordable(cells);
 }
 
 // Each with its share of the cells that are left.
-void PartitionEngine::divideTaken(std::size_t count) {
-  const std::size_t most_cells = (request_.max_cells - statistics_.cells) / count;
-  if (count > 1 && workers_.areSeveral()) obstacles_.share();
-  workers_.run(
-      count, [this] { return std::make_unique<Worker>(scene_, obstacles_); },
-      [&](Worker& worker, std::size_t i) {
-        Divided& of = round_[i];
-        of.division.clear();
-        worker.divider.setHint(hint_);
-        worker.divider.divide(of.cell, most_cells, of.division);
-        of.hint = worker.divider.hint();
-      });
+void PartitionEngine::beginRound(std::vector<Queue::InRound>& /*round*/, std::size_t count) {
+  most_cells_ = queue_.cellsLeft() / count;
+  if (count > 1 && queue_.areSeveralWorkers()) obstacles_.share();
+  hint_of_round_ = hint_;
 }
 
-void PartitionEngine::collectStatistics() {
-  workers_.visit(
-      [this](Worker& worker) { addWork(std::exchange(worker.statistics, {}), statistics_); });
+void PartitionEngine::divide(Worker& worker, OpenCell& cell, Parts& parts) const {
+  parts.division.clear();
+  worker.divider.setHint(hint_of_round_);
+  worker.divider.divide(cell, most_cells_, parts.division);
+  parts.hint = worker.divider.hint();
 }
 
-// Sums of many additions and removals drift: every so often they are taken anew.
-void PartitionEngine::recount() {
-  open_ = {0.0, 0.0};
-  open_deviation_ = 0.0;
-  for (const OpenCell& cell : queue_) {
-    open_.lower += cell.lower;
-    open_.upper += cell.upper;
-    open_deviation_ += cell.samplingDeviation();
-  }
-  changes_since_recount_ = 0;
+void PartitionEngine::add(Parts& parts) {
+  add(parts.division);
+  if (parts.hint != hint_of_round_) hint_ = parts.hint;
 }
 
 // The sums of up to `cells` rounded terms each, with up to as many removals since the last recount.
 Bounds PartitionEngine::interval() const {
-  return roundedSum(settled_.mass.lower + open_.lower, settled_.mass.upper + open_.upper,
+  return roundedSum(settled_.mass.lower + queue_.totals().open.lower,
+                    settled_.mass.upper + queue_.totals().open.upper,
                     4.0 * static_cast<double>(statistics_.cells) + 16.0);
 }
 
@@ -194,7 +144,7 @@ MomentBounds PartitionEngine::moment() const {
   MomentBounds bounds{settled_.moment, settled_.moment};
   // What is no double here may be one after the division by a deviation.
   double error = settled_.moment_error + kUnderflow;
-  for (const OpenCell& open : queue_) {
+  for (const OpenCell& open : queue_.cells()) {
     const SettledMass part = coveredPart(open);
     error += part.moment_error;
     for (int k = 0; k < open.cell.rank; ++k) {
@@ -207,7 +157,8 @@ MomentBounds PartitionEngine::moment() const {
   return bounds;
 }
 
-std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const {
+std::optional<ProbabilityStatus> PartitionEngine::satisfied() {
+  if (band_ || scene_.rank < 3) lookForStall();
   const Bounds now = interval();
   const auto status = detail::satisfied(now, request_);
   if (status == ProbabilityStatus::decided) return status;
@@ -217,7 +168,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied(bool estimate) const
   if (status) return status;
   if (band_ && isOpenByBand(now)) return ProbabilityStatus::band_limit;
   if (!band_ && stalled_) return ProbabilityStatus::resolution_limit;
-  if (estimate &&
+  if (estimate_ &&
       samplesNeeded(targetError(now.middle())) <= samplesAffordable(statistics_.cells)) {
     return ProbabilityStatus::converged;
   }
@@ -241,15 +192,16 @@ EngineEstimate PartitionEngine::estimate(const SampledMass& sampled) const {
   const double error = std::hypot(sampled.standardError(), 0.5 * settled_.mass.width());
   if (!(error < 0.5 * bounds.width())) return {bounds.middle(), 0.5 * bounds.width()};
   double mass = settled_.mass.middle() + sampled.mass;
-  for (const OpenCell& cell : queue_) mass += cell.lower;
+  for (const OpenCell& cell : queue_.cells()) mass += cell.lower;
   return {std::clamp(mass, bounds.lower, bounds.upper), error};
 }
 
 // With n_i samples in cell i in proportion to the deviations s_i, the variance is (Σ s_i)² / Σ n_i
 // (Neyman 1934).
 double PartitionEngine::samplesNeeded(double target) const {
-  if (!(open_deviation_ > 0.0)) return 0.0;  // the target may be 0, too: P below the least double
-  const double ratio = kDeviationShare * deviation_share_ * open_deviation_ / target;
+  if (!(queue_.totals().deviation > 0.0))
+    return 0.0;  // the target may be 0, too: P below the least double
+  const double ratio = kDeviationShare * deviation_share_ * queue_.totals().deviation / target;
   return ratio * ratio;
 }
 
@@ -263,19 +215,8 @@ double PartitionEngine::samplesToDraw(ProbabilityStatus status) const {
                   samplesAffordable(statistics_.cells));
 }
 
-std::size_t PartitionEngine::memory() const { return obstacles_.memory() + cell_memory_; }
-
 std::optional<ProbabilityStatus> PartitionEngine::interruption() const {
-  return limits_.interruption(interval());
-}
-
-// Dividing a cell examines two.
-bool PartitionEngine::hasCellsLeft() const {
-  return statistics_.cells < request_.max_cells && request_.max_cells - statistics_.cells >= 2;
-}
-
-std::optional<ProbabilityStatus> PartitionEngine::limited(bool estimate) const {
-  return limits_.interruption(interval(), estimate ? EngineLimits::kShareForDividing : 1.0);
+  return queue_.budget().look(interval(), queue_.fraction());
 }
 
 void PartitionEngine::lookForStall() {
@@ -287,36 +228,12 @@ void PartitionEngine::lookForStall() {
   at_last_look_ = now;
 }
 
-ProbabilityStatus PartitionEngine::run(bool estimate) {
-  std::optional<ProbabilityStatus> status;
-  ++changes_since_recount_;
-  std::size_t divided = 0;
-  std::size_t next_poll = 0;
-  while (!status) {
-    if (band_ || scene_.rank < 3) lookForStall();
-    if (changes_since_recount_ * 4 > queue_.size()) recount();
-    status = satisfied(estimate);
-    if (status && changes_since_recount_ > 0) {
-      recount();
-      status = satisfied(estimate);
-    }
-    if (!status && !hasCellsLeft()) status = ProbabilityStatus::cell_limit;
-    if (!status && memory() >= request_.max_memory) status = ProbabilityStatus::memory_limit;
-    if (!status && divided >= next_poll) {
-      status = limited(estimate);
-      next_poll = divided + EngineLimits::kCellsBetweenPolls;
-    }
-    if (!status) {
-      const std::size_t count = divideLargest(estimate);
-      divided += count;
-      changes_since_recount_ += count;
-    }
-    statistics_.peak_memory = std::max(statistics_.peak_memory, memory());
-  }
-  recount();
-  statistics_.cells_open = queue_.size();
+ProbabilityStatus PartitionEngine::run(bool estimate, std::size_t most_cells) {
+  estimate_ = estimate;
+  const ProbabilityStatus status =
+      queue_.run(*this, most_cells, estimate ? Budget::kShareForDividing : 1.0);
   statistics_.leaf_pairs = obstacles_.pairCount();
-  return *status;
+  return status;
 }
 
 }  // namespace fcl_prob::detail

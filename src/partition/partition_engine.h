@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/engine_limits.h"
-#include "base/round_workers.h"
+#include "base/cell_queue.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
 #include "partition/cell_divider.h"
@@ -26,19 +25,17 @@ struct EngineEstimate {
   double standard_error;
 };
 
-/// The cells with the largest gaps are divided at once, in rounds, by the threads of the request:
-/// what a round divides, and in which order what comes of it is added, does not depend on them. The
-/// first cells, of which there are few large ones, are divided one by one.
+/// The boxes of a partition, as CellQueue divides them, and the totals of what is settled.
 class PartitionEngine {
  public:
   /// Keeps references to all that the arguments refer to.
-  PartitionEngine(const PartitionScene& scene, const ProbabilityRequest& request,
+  PartitionEngine(const PartitionScene& scene, const ProbabilityRequest& request, Budget& budget,
                   ProbabilityStatistics& statistics);
 
   /// Divides cells until the request is satisfied or a limit is reached; says which. With
   /// `estimate` the cells need only be small enough for sampling them to give the standard error
-  /// asked for. May be called again after expectDeviation().
-  ProbabilityStatus run(bool estimate);
+  /// asked for. May be called again, after expectDeviation() or with more cells.
+  ProbabilityStatus run(bool estimate, std::size_t most_cells);
 
   /// Certified; valid at every moment.
   Bounds interval() const;
@@ -66,14 +63,22 @@ class PartitionEngine {
   void expectDeviation(double factor) { deviation_share_ *= factor; }
 
   const SettledMass& settled() const { return settled_; }
-  const std::vector<OpenCell>& openCells() const { return queue_; }
+  const std::vector<OpenCell>& openCells() const { return queue_.cells(); }
   ObstacleTable& obstacles() { return obstacles_; }
 
   SettledMass coveredPart(const OpenCell& cell) const {
-    return workers_.first().divider.coveredPart(cell);
+    return queue_.worker().divider.coveredPart(cell);
   }
 
  private:
+  friend class CellQueue<PartitionEngine>;
+
+  /// What thousands of boxes take about the time of waking a thread for: 32 at once, of which each
+  /// examines about six cells and must not be cut short by the limit.
+  static constexpr RoundSizes kRounds{4, 32, 8, 16, 2, 16};
+
+  using Cell = OpenCell;
+
   /// Divides one cell at a time, and counts what it does besides.
   struct Worker {
     Worker(const PartitionScene& scene, ObstacleTable& obstacles)
@@ -83,42 +88,60 @@ class PartitionEngine {
     CellDivider divider;
   };
 
-  /// One of the cells of a round.
-  struct Divided {
-    OpenCell cell;
+  struct Parts {
     Division division;
     CrossingWitness::Hint hint;
   };
 
-  std::size_t divideLargest(bool estimate);
-  std::size_t mostOfRound() const;
-  std::size_t takeLargest(bool estimate);
-  void divideTaken(std::size_t count);
-  void collectStatistics();
+  /// Over the open cells.
+  struct Totals {
+    Bounds open{0.0, 0.0};
+    double deviation = 0.0;  ///< bounds on the deviations of one sample
+    std::size_t memory = 0;
+
+    void add(const OpenCell& cell);
+    void remove(const OpenCell& cell);
+  };
+
+  using Queue = CellQueue<PartitionEngine>;
+
+  std::unique_ptr<Worker> makeWorker() { return std::make_unique<Worker>(scene_, obstacles_); }
+  bool isOneByOne() const;
+
+  /// Whether those that were taken have to be divided in any case: if fewer were settled
+  /// altogether, that would not be enough. Parts of the largest may have larger gaps than those
+  /// that are much smaller.
+  struct Enough {
+    const PartitionEngine& engine;
+    double needed;
+    double target;
+    double least;
+
+    bool operator()(double taken, std::size_t count, double next) const;
+  };
+
+  Enough enough() const;
+  void beginRound(std::vector<Queue::InRound>& round, std::size_t count);
+  void divide(Worker& worker, OpenCell& cell, Parts& parts) const;
+  void add(Parts& parts);
   void add(Division& division);
   void add(Examination&& examination);
-  void remove(const OpenCell& cell);
-  void recount();
-  std::optional<ProbabilityStatus> satisfied(bool estimate) const;
+  std::optional<ProbabilityStatus> satisfied();
   bool isOpenByBand(const Bounds& now) const;
   double samplesNeeded(double target) const;
   double samplesAffordable(std::size_t cells) const;
-  std::optional<ProbabilityStatus> limited(bool estimate) const;
   void lookForStall();
-  bool hasCellsLeft() const;
-  std::size_t memory() const;
+  std::size_t memory() const { return obstacles_.memory() + queue_.totals().memory; }
 
   const PartitionScene scene_;
   const ProbabilityRequest& request_;
   ProbabilityStatistics& statistics_;
   ObstacleTable obstacles_;
-  RoundWorkers<Worker> workers_;
-  std::vector<Divided> round_;
-  CrossingWitness::Hint hint_{-1, -1};  ///< of the last round
-  std::vector<OpenCell> queue_;         ///< a heap by gap
+  CrossingWitness::Hint hint_{-1, -1};           ///< of the last round
+  CrossingWitness::Hint hint_of_round_{-1, -1};  ///< of the one before
+  std::size_t most_cells_ = 0;                   ///< that dividing one of the round may examine
   SettledMass settled_;
-  Bounds open_;                  ///< sums over queue_
-  double open_deviation_ = 0.0;  ///< sum over queue_ of bounds on the deviation of one sample
+  bool estimate_ = false;
   double deviation_share_ = 1.0;
   bool quick_samples_ = false;
   bool indivisible_ = false;
@@ -127,9 +150,7 @@ class PartitionEngine {
   bool stalled_ = false;       ///< more cells hardly settle more of what is open
   Bounds at_last_look_{0.0, 1.0};
   std::size_t next_look_;
-  std::size_t cell_memory_ = 0;
-  std::size_t changes_since_recount_ = 0;
-  EngineLimits limits_;
+  Queue queue_;
 };
 
 }  // namespace fcl_prob::detail

@@ -62,21 +62,20 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
                                      const ProbabilityRequest& request, double error)
     : request_(request),
       error_(error),
-      frame_(queryFrame(a, b, displacement, request)),
-      most_cells_(request.max_cells) {
+      scene_(a, b, displacement, request),
+      most_cells_(std::min(request.max_cells, kFirstCells)) {
   request_.relative_tolerance = kNoTolerance;
   request_.absolute_tolerance = 0.0;
-  request_.max_cells = std::min(most_cells_, kFirstCells);
-  if (a.hasSolid() || b.hasSolid()) {
-    solids_ = std::make_unique<SolidContact>(a, b, frame_.whitening, frame_.pair);
-  }
-  const PartitionScene scene{
-      frame_.pair, frame_.whitening.rank(),    solids_.get(), nullptr, request_.gradient,
-      true,        request_.relative_tolerance};
-  engine_ = std::make_unique<PartitionEngine>(scene, request_, statistics_);
-  tester_ = std::make_unique<PointTester>(
-      frame_.pair, engine_->obstacles(), solids_.get(),
-      WholeBodyTester::of(frame_.pair, a, b, frame_.displacement, frame_.whitening.matrix()));
+  const PartitionScene boxes{scene_.pair(),
+                             scene_.rank(),
+                             scene_.solids(),
+                             nullptr,
+                             request_.gradient,
+                             true,
+                             request_.relative_tolerance};
+  engine_ = std::make_unique<PartitionEngine>(boxes, request_, budget_, statistics_);
+  tester_ = std::make_unique<PointTester>(scene_.pair(), engine_->obstacles(), scene_.solids(),
+                                          WholeBodyTester::of(scene_));
 }
 
 std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<bool()>& enough) {
@@ -99,12 +98,12 @@ std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<
 
 // A limit on the cells of this look only is none.
 std::optional<ProbabilityStatus> ProbablePartition::divide() {
-  const ProbabilityStatus status = engine_->run(false);
+  const ProbabilityStatus status = engine_->run(false, most_cells_);
   certified_ = engine_->interval();
   narrowTo(certified_);
   if (status == ProbabilityStatus::decided) return std::nullopt;
-  if (status == ProbabilityStatus::cell_limit && request_.max_cells < most_cells_) {
-    request_.max_cells = std::min(most_cells_, kMoreCells * request_.max_cells);
+  if (status == ProbabilityStatus::cell_limit && most_cells_ < request_.max_cells) {
+    most_cells_ = std::min(request_.max_cells, kMoreCells * most_cells_);
     return std::nullopt;
   }
   return status == ProbabilityStatus::converged ? ProbabilityStatus::resolution_limit : status;

@@ -10,7 +10,7 @@
 #include "gaussian/hit_sequence.h"
 #include "partition/cell_draw.h"
 #include "partition/partition_engine.h"
-#include "partition/query_frame.h"
+#include "pieces/scene.h"
 
 namespace fcl_prob::detail {
 
@@ -62,8 +62,8 @@ class ProbablePartition {
   ProbabilityRequest request_;
   double error_;
   ProbabilityStatistics statistics_;
-  QueryFrame frame_;
-  std::unique_ptr<SolidContact> solids_;
+  QueryScene scene_;
+  Budget budget_{request_};
   std::unique_ptr<PartitionEngine> engine_;
   std::unique_ptr<PointTester> tester_;
   std::size_t most_cells_;

@@ -47,7 +47,7 @@ class Estimator {
 
   ProbabilityResult run() {
     std::size_t next = isCounting() ? kFirstSamples : PairSource::kLeastPairs;
-    std::optional<ProbabilityStatus> status = watch_.reason();
+    std::optional<ProbabilityStatus> status = watch_.exhausted();
     while (!status) {
       aim();
       source_->drawTo(next, tolerance());
@@ -56,7 +56,7 @@ class Estimator {
       if (status == ProbabilityStatus::resolution_limit && isCounting() && !request_.threshold) {
         source_ = &pairs_;
         next = PairSource::kLeastPairs;
-        status = watch_.reason();
+        status = watch_.exhausted();
       }
     }
     if (isCounting() && request_.gradient) drawGradient();
@@ -85,9 +85,9 @@ class Estimator {
     const double by = source_->offset();
     interval_ = {std::clamp(by + bounds.lower - kErrorOfSums, 0.0, 1.0),
                  std::clamp(by + bounds.upper + kErrorOfSums, 0.0, 1.0)};
-    watch_.setProgress(interval_);
+    watch_.tell(interval_);
     if (const auto status = satisfied(samples)) return status;
-    return watch_.reason();
+    return watch_.exhausted();
   }
 
   /// A threshold is satisfied by a decision and by nothing else, a tolerance by the standard error.
@@ -141,7 +141,7 @@ class Estimator {
   // As many pairs as their own spread asks for.
   void drawGradient() {
     std::size_t next = PairSource::kLeastPairs;
-    while (!watch_.reason()) {
+    while (!watch_.exhausted()) {
       pairs_.drawTo(next, tolerance());
       const double ratio = pairs_.samples().spreadError() / tolerance();
       if (!(ratio > 1.0)) break;
@@ -180,7 +180,7 @@ class Estimator {
   }
 
   const ProbabilityRequest& request_;
-  RunWatch watch_;
+  Budget watch_;
   PairSource pairs_;
   std::unique_ptr<CountingSource> counting_;
   EstimateSource* source_ = nullptr;

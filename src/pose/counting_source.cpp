@@ -58,7 +58,7 @@ double varianceNear(const BoundaryModel& model) {
 
 CountingSource::CountingSource(const ConfigurationMixture& mixture, const GeometryList& a,
                                const GeometryList& b, const ProbabilityRequest& request,
-                               RunWatch& watch)
+                               Budget& watch)
     : mixture_(mixture), request_(request), watch_(watch), collider_(a, b, request.contact) {
   double variance = 0.0;
   bool has_models = false;
@@ -71,7 +71,7 @@ CountingSource::CountingSource(const ConfigurationMixture& mixture, const Geomet
   }
   weight_ = has_models ? DrawnAlong::largestWeight() : 1.0;
   samples_.emplace(Bounds{has_models ? -weight_ : 0.0, weight_}, weight_, 0.0, std::sqrt(variance));
-  watch_.addCells(questions_ / kSamplesACell);
+  watch_.spendCells(questions_ / kSamplesACell);
 }
 
 bool CountingSource::isFor(const ConfigurationMixture& mixture, const GeometryList& a,
@@ -195,7 +195,7 @@ void CountingSource::drawTo(std::size_t count, double /*tolerance*/) {
       }
     }
     samples_->add({0.0, 0.0}, zeros);
-    watch_.addCells((drawn_ - first) / kSamplesACell);
+    watch_.spendCells((drawn_ - first) / kSamplesACell);
   }
 }
 

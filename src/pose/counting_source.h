@@ -9,11 +9,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.h"
 #include "montecarlo/placement_collider.h"
 #include "pose/boundary_model.h"
 #include "pose/configuration_mixture.h"
 #include "pose/estimate_source.h"
-#include "pose/run_watch.h"
 
 namespace fcl_prob::detail {
 
@@ -25,7 +25,7 @@ class CountingSource : public EstimateSource {
  public:
   /// Keeps references to all arguments.
   CountingSource(const ConfigurationMixture& mixture, const GeometryList& a, const GeometryList& b,
-                 const ProbabilityRequest& request, RunWatch& watch);
+                 const ProbabilityRequest& request, Budget& watch);
 
   /// Whether fcl::collide answers for such a query, and to an accuracy that does not matter.
   static bool isFor(const ConfigurationMixture& mixture, const GeometryList& a,
@@ -61,7 +61,7 @@ class CountingSource : public EstimateSource {
 
   const ConfigurationMixture& mixture_;
   const ProbabilityRequest& request_;
-  RunWatch& watch_;
+  Budget& watch_;
   PlacementCollider collider_;
   std::vector<Counting> countings_;
   std::optional<MeanSequence> samples_;

@@ -54,7 +54,7 @@ Eigen::Vector3d largestGradient(const GaussianDisplacement& displacement) {
 }  // namespace
 
 PairSource::PairSource(const ConfigurationMixture& mixture, const ConditionalAnswer& answer,
-                       const ProbabilityRequest& request, RunWatch& watch)
+                       const ProbabilityRequest& request, Budget& watch)
     : mixture_(mixture),
       answer_(answer),
       request_(request),
@@ -132,7 +132,7 @@ void PairSource::add(const Answer& at_z, const Answer& at_opposite) {
 
 void PairSource::addStatistics(const ProbabilityStatistics& of_one) {
   // An answer without cells is work all the same: the limit on cells ends every query.
-  watch_.addCells(std::max(of_one.cells, kCellsOfAnswer));
+  watch_.spendCells(std::max(of_one.cells, kCellsOfAnswer));
   statistics_.cells += of_one.cells;
   statistics_.pairs_tested += of_one.pairs_tested;
   statistics_.leaf_pairs += of_one.leaf_pairs;

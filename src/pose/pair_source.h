@@ -8,11 +8,11 @@
 #include <functional>
 #include <optional>
 
+#include "base/budget.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/random_configuration.h"
 #include "pose/configuration_mixture.h"
 #include "pose/estimate_source.h"
-#include "pose/run_watch.h"
 
 namespace fcl_prob::detail {
 
@@ -25,7 +25,7 @@ class PairSource : public EstimateSource {
  public:
   /// Keeps references to all arguments.
   PairSource(const ConfigurationMixture& mixture, const ConditionalAnswer& answer,
-             const ProbabilityRequest& request, RunWatch& watch);
+             const ProbabilityRequest& request, Budget& watch);
 
   /// Pairs of the least answer: their spread then tells something.
   static constexpr std::size_t kLeastPairs = 32;
@@ -57,7 +57,7 @@ class PairSource : public EstimateSource {
   const ConfigurationMixture& mixture_;
   const ConditionalAnswer& answer_;
   const ProbabilityRequest& request_;
-  RunWatch& watch_;
+  Budget& watch_;
   MeanSequence samples_;
   std::size_t pairs_ = 0;
   std::size_t gradients_ = 0;

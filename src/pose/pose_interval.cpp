@@ -2,17 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "pose/pose_interval.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "base/cell_queue.h"
 #include "base/constants.h"
 #include "base/decision.h"
 #include "fcl_prob/exceptions.h"
@@ -25,9 +19,6 @@
 
 namespace fcl_prob::detail {
 namespace {
-
-// Cells that are divided at a time, whatever the number of threads.
-constexpr std::size_t kDividedAtATime = 4;
 
 // Of the tolerance, what the partition in one cell may leave open.
 constexpr double kPartitionShare = 0.35;
@@ -82,7 +73,8 @@ class PoseInterval {
         request_(request),
         frame_(pose_a, error, "object A"),
         solid_a_(a.solid(request.contact)),
-        solid_b_(b.solid(request.contact)) {
+        solid_b_(b.solid(request.contact)),
+        queue_(request, budget_, statistics_, request.threads, makeWorker()) {
     size_ = pose_a.translation().norm() + pose_b.translation().norm() + a.pieces().radius() +
             b.pieces().radius() + a.pieces().parts[0].origin.norm() +
             b.pieces().parts[0].origin.norm();
@@ -91,17 +83,70 @@ class PoseInterval {
   }
 
   ProbabilityResult run() {
-    cells_.push_back(wholeRotationSpace(frame_.rank()));
-    std::optional<ProbabilityStatus> status = satisfied();
-    while (!status) {
-      divide();
-      status = satisfied();
-      if (!status) status = limited();
-    }
-    return resultOf(*status);
+    queue_.push(wholeRotationSpace(frame_.rank()));
+    return resultOf(queue_.run(*this, request_.max_cells));
   }
 
  private:
+  friend class CellQueue<PoseInterval>;
+
+  // A cell takes a partition of its own: four are divided at once, and the clock is looked at
+  // after each round.
+  static constexpr RoundSizes kRounds{4, 4, 1, 1, 1, 1};
+
+  using Cell = RotationCell;
+
+  /// Counts what a thread does.
+  struct Worker {
+    ProbabilityStatistics statistics;
+  };
+
+  using Parts = std::vector<RotationCell>;
+
+  /// Sums over the open cells are in the tree of masses.
+  struct Totals {
+    std::size_t cells = 0;
+
+    void add(const RotationCell& /*cell*/) { ++cells; }
+    void remove(const RotationCell& /*cell*/) { --cells; }
+  };
+
+  using Queue = CellQueue<PoseInterval>;
+
+  static std::unique_ptr<Worker> makeWorker() { return std::make_unique<Worker>(); }
+  static bool isOneByOne() { return false; }
+
+  // A cell without a gap has nothing to tell.
+  static auto enough() {
+    return [](double /*taken*/, std::size_t /*count*/, double next) { return !(next > 0.0); };
+  }
+
+  // The tree of masses is divided before threads look at the parts.
+  void beginRound(std::vector<Queue::InRound>& round, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      round[i].parts = split(round[i].cell, costs_);
+      for (RotationCell& part : round[i].parts) {
+        part.in_tree = tree_.addPart(part.in_tree, part.contribution());
+      }
+    }
+  }
+
+  void divide(Worker& worker, const RotationCell& /*cell*/, Parts& parts) {
+    for (RotationCell& part : parts) {
+      ProbabilityStatistics of_part;
+      examinePart(part, of_part);
+      of_part.cells = std::max<std::size_t>(of_part.cells, 1);
+      addStatistics(of_part, worker.statistics);
+    }
+  }
+
+  void add(Parts& parts) {
+    for (RotationCell& part : parts) {
+      tree_.tighten(part.in_tree, part.contribution());
+      queue_.push(std::move(part));
+    }
+  }
+
   // Coordinates of the rotation along which contacts move most and least: the isotropic ones are as
   // good as any others.
   void lookAtContacts(const ConditionalMotion& nominal) {
@@ -138,87 +183,21 @@ class PoseInterval {
 
   std::optional<ProbabilityStatus> satisfied() const {
     if (interval().width() <= target()) return ProbabilityStatus::converged;
-    const Decision decision = decisionOf(interval(), request_);
-    if (isDecided(decision)) {
-      return ProbabilityStatus::decided;
-    }
-    return std::nullopt;
-  }
-
-  std::optional<ProbabilityStatus> limited() {
-    if (!goOn()) return cancelled_ ? ProbabilityStatus::cancelled : ProbabilityStatus::time_limit;
-    if (statistics_.cells >= request_.max_cells) return ProbabilityStatus::cell_limit;
-    const std::size_t memory =
-        tree_.memory() +
-        cells_.size() *
-            (sizeof(RotationCell) + 3 * sizeof(double) * static_cast<std::size_t>(frame_.rank()));
-    statistics_.peak_memory = std::max(statistics_.peak_memory, memory);
-    if (memory >= request_.max_memory) return ProbabilityStatus::memory_limit;
+    if (isDecided(decisionOf(interval(), request_))) return ProbabilityStatus::decided;
+    if (const auto stopped = budget_.stopped()) return stopped;
     // No gap is left that smaller cells would close.
-    if (!(cells_.front().gap() > 0.0)) return ProbabilityStatus::resolution_limit;
+    if (!(queue_.largest().gap() > 0.0)) return ProbabilityStatus::resolution_limit;
     return std::nullopt;
   }
 
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  }
-
-  // From any thread; the request's on_progress only from the one that made the query.
-  bool goOn() {
-    if (cancelled_ || timed_out_) return false;
-    const double now = seconds();
-    if (request_.time_limit && now >= *request_.time_limit) timed_out_ = true;
-    if (request_.on_progress && std::this_thread::get_id() == caller_) {
-      const double by_cells =
-          static_cast<double>(statistics_.cells) / static_cast<double>(request_.max_cells);
-      const double by_time = request_.time_limit ? now / *request_.time_limit : 0.0;
-      const ProbabilityProgress progress{interval(), std::min(1.0, std::max(by_cells, by_time)),
-                                         now};
-      if (!request_.on_progress(progress)) cancelled_ = true;
-    }
-    return !cancelled_ && !timed_out_;
-  }
-
-  static bool smaller(const RotationCell& a, const RotationCell& b) { return a.gap() < b.gap(); }
-
-  // The cells are a heap by gap.
-  void divide() {
-    std::vector<RotationCell> parts;
-    for (std::size_t i = 0; i < kDividedAtATime && !cells_.empty(); ++i) {
-      if (!(cells_.front().gap() > 0.0)) break;
-      std::pop_heap(cells_.begin(), cells_.end(), smaller);
-      for (RotationCell& part : split(cells_.back(), costs_)) {
-        part.in_tree = tree_.addPart(part.in_tree, part.contribution());
-        parts.push_back(std::move(part));
-      }
-      cells_.pop_back();
-    }
-    std::vector<ProbabilityStatistics> statistics(parts.size());
-    const auto examine = [&](std::size_t i) { examinePart(parts[i], statistics[i]); };
-    if (request_.threads == 1) {
-      for (std::size_t i = 0; i < parts.size(); ++i) examine(i);
-    } else {
-      tbb::task_arena arena(static_cast<int>(request_.threads));
-      arena.execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, parts.size(), 1),
-            [&](const tbb::blocked_range<std::size_t>& range) {
-              for (std::size_t i = range.begin(); i < range.end(); ++i) examine(i);
-            },
-            tbb::simple_partitioner());
-      });
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      add(statistics[i]);
-      tree_.tighten(parts[i].in_tree, parts[i].contribution());
-      cells_.push_back(std::move(parts[i]));
-      std::push_heap(cells_.begin(), cells_.end(), smaller);
-    }
+  std::size_t memory() const {
+    const std::size_t of_vectors = 3 * sizeof(double) * static_cast<std::size_t>(frame_.rank());
+    return tree_.memory() + queue_.size() * (sizeof(RotationCell) + of_vectors);
   }
 
   void examinePart(RotationCell& cell, ProbabilityStatistics& statistics) {
     if (!cell.isFinite() || !(cell.mass.upper > 0.0)) return;
-    if (cancelled_ || timed_out_ || !isWorthALook(cell)) return;
+    if (budget_.stopped() || !isWorthALook(cell)) return;
     // A round body stays round where its displacement does: no shift then joins that.
     const double expected = contacts_ ? std::min(0.5, interval().upper) : 0.0;
     const CellMotion motion = motionOf(frame_, cell, reference_, size_, expected);
@@ -234,7 +213,7 @@ class PoseInterval {
         std::min(isWide(motion) ? kCellsOfLook : kMostInnerCells, request_.max_cells);
     InnerProgress inner;
     request.on_progress = [&](const ProbabilityProgress& progress) {
-      return goOn() && inner.goOn(progress.interval.width());
+      return budget_.goOn() && inner.goOn(progress.interval.width());
     };
     const PartitionObject a{&a_.pieces(), {{motion.turned * pose_a_, solid_a_}}, &motion.motion};
     const PartitionObject b{&b_.pieces(), {{pose_b_, solid_b_}}};
@@ -261,14 +240,6 @@ class PoseInterval {
            std::max(kMostDeviations * deviation, kMostOfSize * radius);
   }
 
-  void add(const ProbabilityStatistics& of_one) {
-    statistics_.cells += std::max<std::size_t>(of_one.cells, 1);
-    statistics_.pairs_tested += of_one.pairs_tested;
-    statistics_.leaf_pairs += of_one.leaf_pairs;
-    statistics_.peak_front = std::max(statistics_.peak_front, of_one.peak_front);
-    statistics_.peak_memory = std::max(statistics_.peak_memory, of_one.peak_memory);
-  }
-
   ProbabilityResult resultOf(ProbabilityStatus status) {
     ProbabilityResult result;
     result.method = ProbabilityMethod::interval;
@@ -276,10 +247,9 @@ class PoseInterval {
     result.lower = interval().lower;
     result.upper = interval().upper;
     result.decision = decisionOf(interval(), request_);
-    statistics_.cells_open = cells_.size();
     result.statistics = statistics_;
-    result.statistics.seconds.emplace_back("rotations", seconds());
-    result.plan.push_back("rotations in " + std::to_string(cells_.size()) + " cells of " +
+    result.statistics.seconds.emplace_back("rotations", budget_.seconds());
+    result.plan.push_back("rotations in " + std::to_string(queue_.size()) + " cells of " +
                           std::to_string(frame_.rank()) +
                           " dimensions, a partition of the displacements for each");
     if (request_.gradient) result.plan.push_back("no gradient: the estimate has one");
@@ -298,13 +268,10 @@ class PoseInterval {
   MotionCosts costs_;
   double size_ = 0.0;
   Eigen::Vector3d reference_;
-  std::vector<RotationCell> cells_;
   MassTree tree_{{0.0, 1.0}};
   ProbabilityStatistics statistics_;
-  std::thread::id caller_ = std::this_thread::get_id();
-  std::atomic<bool> cancelled_{false};
-  std::atomic<bool> timed_out_{false};
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  Budget budget_{request_};
+  Queue queue_;
 };
 
 }  // namespace

@@ -52,6 +52,18 @@ py::dict dictOf(const ProbabilityStatistics& statistics) {
   result["effective_samples"] = orNone(statistics.effective_samples);
   result["raw_sum"] = orNone(statistics.raw_sum);
   result["seconds"] = seconds;
+  py::list rungs;
+  for (const RungRecord& rung : statistics.rungs) {
+    py::dict record;
+    record["name"] = rung.name;
+    record["seconds"] = rung.seconds;
+    record["lower"] = rung.known.lower;
+    record["upper"] = rung.known.upper;
+    record["times"] = rung.times;
+    record["answered"] = rung.answered;
+    rungs.append(record);
+  }
+  result["rungs"] = rungs;
   return result;
 }
 
@@ -91,6 +103,13 @@ ProbabilityStatistics statisticsFrom(const py::dict& dict) {
   for (const auto& [stage, time] : dict["seconds"].cast<py::dict>()) {
     statistics.seconds.emplace_back(stage.cast<std::string>(), time.cast<double>());
   }
+  for (const py::handle& rung : dict["rungs"].cast<py::list>()) {
+    statistics.rungs.push_back({rung["name"].cast<std::string>(),
+                                rung["seconds"].cast<double>(),
+                                {rung["lower"].cast<double>(), rung["upper"].cast<double>()},
+                                rung["times"].cast<std::size_t>(),
+                                rung["answered"].cast<std::size_t>()});
+  }
   return statistics;
 }
 
@@ -98,6 +117,7 @@ ProbabilityStatistics statisticsFrom(const py::dict& dict) {
 bool areEqual(const ProbabilityResult& a, const ProbabilityResult& b) {
   const auto withoutTimes = [](ProbabilityResult result) {
     result.statistics.seconds.clear();
+    for (RungRecord& rung : result.statistics.rungs) rung.seconds = 0.0;
     return dictOf(result);
   };
   return withoutTimes(a).equal(withoutTimes(b));

@@ -6,11 +6,11 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/refuse_band.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
-#include "query/call_budget.h"
 #include "query/object_pairs.h"
 #include "query/pair_query.h"
 
@@ -99,7 +99,7 @@ class Broadphase {
   }
 
   const BroadphaseRequest& request_;
-  detail::CallBudget budget_;
+  detail::Budget budget_;
   ObjectPairs pairs_;
   BroadphaseResult result_;
 };

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "base/constants.h"
 #include "base/decision.h"
 #include "geometry/geometry_kind.h"
 #include "narrowphase/solid_pair.h"
 #include "query/exact_mass.h"
-#include "query/request_limits.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -33,7 +33,7 @@ std::optional<ProbabilityResult> convexMeshesMass(const PlacedPair& pair,
   const ConvexSolid *const of_a = pair.a.convexSolid(), *const of_b = pair.b.convexSolid();
   if (!of_a || !of_b) return std::nullopt;
   const PlacedSolid a{*of_a, pair.pose_a}, b{*of_b, pair.pose_b};
-  RequestLimits limits(request);
+  Budget limits(request);
   Bounds mass = solidPairMass(a, b, displacement, limits.interruption());
   const auto leaveOut = [&](Guest guest) {
     mass = difference(mass, containedMass(guest, a, b, displacement, limits.interruption()));

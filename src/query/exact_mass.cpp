@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/agreed_bounds.h"
+#include "base/budget.h"
 #include "base/decision.h"
-#include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/curved_pair.h"
 #include "narrowphase/ellipsoid_polytope.h"
 #include "narrowphase/polytope_pair.h"
 #include "narrowphase/rounded_pair.h"
-#include "query/request_limits.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -133,21 +133,21 @@ class ExactMass {
 
   void narrow(const Bounds& mass) {
     mass_ = detail::agreed(mass_, mass);
-    limits_.setProgress(mass_, 0.5);
+    limits_.tell(mass_, 0.5);
   }
 
   ProbabilityStatus status() const {
     const bool is_known = mass_.width() < 1.0;
-    if ((flat_ && is_known && !limits_.reason()) || mass_.width() <= kRoundingWidth * mass_.upper)
+    if ((flat_ && is_known && !limits_.stopped()) || mass_.width() <= kRoundingWidth * mass_.upper)
       return ProbabilityStatus::exact;
     if (const auto status = satisfied(mass_, request_)) return *status;
-    return limits_.reason().value_or(ProbabilityStatus::resolution_limit);
+    return limits_.stopped().value_or(ProbabilityStatus::resolution_limit);
   }
 
   const PlacedPair& pair_;
   const GaussianDisplacement& displacement_;
   const ProbabilityRequest& request_;
-  RequestLimits limits_;
+  Budget limits_;
   bool flat_;
   Bounds mass_{0.0, 1.0};
   std::optional<VectorBounds> gradient_;

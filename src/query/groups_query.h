@@ -48,14 +48,6 @@ class GroupsQuery {
                                      const GaussianDisplacement& displacement,
                                      const ProbabilityRequest& request,
                                      const BallTruncation* ball = nullptr) const;
-  ProbabilityResult collided(const Poses& poses_a, const Poses& poses_b,
-                             const Eigen::Vector3d& moved, const ProbabilityRequest& request) const;
-  double sumOfRootBounds(const Poses& poses_a, const Poses& poses_b,
-                         const GaussianDisplacement& displacement,
-                         const ProbabilityRequest& request) const;
-  std::optional<ProbabilityResult> decidedByPairs(const Poses& poses_a, const Poses& poses_b,
-                                                  const GaussianDisplacement& displacement,
-                                                  const ProbabilityRequest& request) const;
   std::string note() const;
 
   MemberGroup a_;

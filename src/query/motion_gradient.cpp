@@ -6,7 +6,6 @@
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "montecarlo/sampling_run.h"
 
 namespace fcl_prob {
 
@@ -61,7 +60,7 @@ LineDraws LimitedLines::draws() {
 
 bool LimitedLines::goOn(std::size_t drawn) {
   const double fraction = static_cast<double>(drawn) / static_cast<double>(request_.lines);
-  interruption_ = interruptionOf(limits_, {{0.0, 1.0}, fraction, watch_.seconds()});
+  interruption_ = budget_.look({0.0, 1.0}, fraction);
   return !interruption_;
 }
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "base/stopwatch.h"
+#include "base/budget.h"
 #include "fcl_prob/motion_gradient.h"
 #include "partition/motion_flux.h"
 
@@ -31,7 +31,7 @@ class LimitedLines {
 
   const MotionGradientRequest& request_;
   ProbabilityRequest limits_;
-  Stopwatch watch_;
+  Budget budget_{limits_};
   std::optional<ProbabilityStatus> interruption_;
 };
 

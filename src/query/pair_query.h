@@ -37,24 +37,6 @@ class PairQuery {
   ProbabilityResult answerOfGaussian(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                      const GaussianDisplacement& displacement,
                                      const ProbabilityRequest& request) const;
-  ProbabilityResult follow(const QueryPlan& plan, const PlacedPair& pair,
-                           const GaussianDisplacement& displacement,
-                           const ProbabilityRequest& request) const;
-  ProbabilityResult exact(const QueryPlan& plan, const PlacedPair& pair,
-                          const GaussianDisplacement& displacement,
-                          const ProbabilityRequest& request) const;
-  ProbabilityResult partition(const QueryPlan& plan, const PlacedPair& pair,
-                              const GaussianDisplacement& displacement,
-                              const ProbabilityRequest& request) const;
-  std::optional<ProbabilityResult> convexMeshes(const QueryPlan& plan, const PlacedPair& pair,
-                                                const GaussianDisplacement& displacement,
-                                                const ProbabilityRequest& request) const;
-  ProbabilityResult partitionOrExact(const QueryPlan& plan, const PlacedPair& pair,
-                                     const GaussianDisplacement& displacement,
-                                     const ProbabilityRequest& request) const;
-  bool closeByExactMass(const QueryPlan& plan, const PlacedPair& pair,
-                        const GaussianDisplacement& displacement, const ProbabilityRequest& request,
-                        ProbabilityResult& result) const;
 
   std::shared_ptr<const PreparedGeometry> a_;
   std::shared_ptr<const PreparedGeometry> b_;

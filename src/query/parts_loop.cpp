@@ -201,15 +201,4 @@ void PartsLoop::reportTo(std::size_t part, ProbabilityRequest& request) {
   };
 }
 
-void addStatistics(const ProbabilityStatistics& one, ProbabilityStatistics& all) {
-  all.cells += one.cells;
-  all.pairs_tested += one.pairs_tested;
-  all.leaf_pairs += one.leaf_pairs;
-  all.peak_front = std::max(all.peak_front, one.peak_front);
-  all.peak_memory = std::max(all.peak_memory, one.peak_memory);
-  all.samples += one.samples;
-  all.hits += one.hits;
-  all.seconds.insert(all.seconds.end(), one.seconds.begin(), one.seconds.end());
-}
-
 }  // namespace fcl_prob::detail

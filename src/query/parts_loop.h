@@ -8,8 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "base/budget.h"
+#include "base/statistics.h"
 #include "fcl_prob/bounds.h"
-#include "query/call_budget.h"
 
 namespace fcl_prob::detail {
 
@@ -76,7 +77,7 @@ class PartsLoop {
   const ProbabilityRequest& whole_;
   const Ask& ask_;
   const Combine& combine_;
-  CallBudget budget_;
+  Budget budget_;
   std::vector<Bounds> bounds_;
   std::vector<double> weights_;
   std::vector<std::optional<ProbabilityResult>> answers_;
@@ -88,8 +89,5 @@ class PartsLoop {
   std::size_t asked_ = 0;
   double fraction_ = 0.0;  ///< told last
 };
-
-/// Adds what one answer took to what all of them did.
-void addStatistics(const ProbabilityStatistics& one, ProbabilityStatistics& all);
 
 }  // namespace fcl_prob::detail

@@ -3,6 +3,7 @@
 // Pairs whose displacement stays within an ellipsoid.
 #include <memory>
 
+#include "base/budget.h"
 #include "base/until_no.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
@@ -10,7 +11,6 @@
 #include "partition/partition.h"
 #include "partition/without_contact.h"
 #include "query/bounded_part.h"
-#include "query/call_budget.h"
 #include "query/octree_cells.h"
 #include "query/pair_query.h"
 #include "query/tolerance_note.h"
@@ -52,7 +52,7 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
     return withoutContact(request, *why);
   }
   requireDistinctCells(*a_, *b_);
-  const CallBudget budget(request);
+  const Budget budget(request);
   const GaussianDisplacement& gaussian = displacement.gaussian();
   ProbabilityResult result;
   if (truncated.isWhole() || (!a_->hasPieces() && !b_->hasPieces())) {
@@ -68,9 +68,9 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
     if (b_->hasPieces()) side_b = boundedSide(*b_, pose_b, request.contact);
     if (!a_->hasPieces()) side_a = reachedSide(*a_, pose_a, side_b.object, gaussian);
     if (!b_->hasPieces()) side_b = reachedSide(*b_, pose_b, side_a.object, gaussian);
-    result =
-        partitionProbability(side_a.object, side_b.object, gaussian,
-                             withTimeLeft(truncated.requestOfJoint(), budget), &truncated.ball());
+    ProbabilityRequest joint = truncated.requestOfJoint();
+    budget.shareTime(1, joint);
+    result = partitionProbability(side_a.object, side_b.object, gaussian, joint, &truncated.ball());
     truncated.ofJoint(result);
   }
   noteTolerance(request, result);

@@ -6,15 +6,15 @@
 #include <array>
 #include <memory>
 
+#include "base/agreed_bounds.h"
+#include "base/budget.h"
 #include "base/constants.h"
 #include "base/decision.h"
 #include "cobstacle/pair_obstacle.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/normal_mass.h"
-#include "gaussian/agreed_bounds.h"
 #include "narrowphase/convex_pair_mass.h"
 #include "narrowphase/polytope_pair.h"
-#include "query/request_limits.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -111,7 +111,7 @@ class UnionOfPairs {
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       masses.push_back(i < count ? massOf(*sorted[i]) : Bounds{0.0, sorted[i]->bound});
     }
-    if (limits_.reason()) return std::nullopt;
+    if (limits_.stopped()) return std::nullopt;
     return resultOf(masses, count, common);
   }
 
@@ -171,7 +171,7 @@ class UnionOfPairs {
 
   const GaussianDisplacement& displacement_;
   const ProbabilityRequest& request_;
-  RequestLimits limits_;
+  Budget limits_;
   std::vector<MemberPair> pairs_;
 };
 

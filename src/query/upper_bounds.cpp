@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "base/decision.h"
 #include "fcl_prob/general_pcd.h"
 #include "narrowphase/convex_pair_mass.h"
-#include "query/request_limits.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -15,8 +15,7 @@ namespace {
 /// Of the time limit, for a first bound that is seldom the answer.
 constexpr double kShareOfRootBound = 0.1;
 
-double rootBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
-                 RequestLimits& limits) {
+double rootBound(const PlacedPair& pair, const GaussianDisplacement& displacement, Budget& limits) {
   return detail::convexPcd(pair.a.rootBody(), pair.pose_a, pair.b.rootBody(), pair.pose_b,
                            displacement, limits.interruption())
       .least;
@@ -35,9 +34,9 @@ ProbabilityResult boundedBy(double upper, const ProbabilityRequest& request) {
 
 ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request) {
-  RequestLimits limits(request);
+  Budget limits(request);
   ProbabilityResult result = boundedBy(rootBound(pair, displacement, limits), request);
-  result.status = limits.reason().value_or(result.status);
+  result.status = limits.stopped().value_or(result.status);
   result.statistics.pairs_tested = 1;
   result.plan.push_back(
       "ConvexPCD: the least of the bounds by half-space, box and divergence theorem");
@@ -46,7 +45,7 @@ ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement
 
 ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
                                   const ProbabilityRequest& request) {
-  RequestLimits limits(request);
+  Budget limits(request);
   GeneralPcdRequest pcd_request;
   pcd_request.interruption = limits.interruption();
   pcd_request.confidence = request.confidence;
@@ -57,7 +56,7 @@ ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplace
   const GeneralPcdResult pcd = generalPcd(pair.a.geometry(), pair.pose_a, pair.b.geometry(),
                                           pair.pose_b, displacement, pcd_request);
   ProbabilityResult result = boundedBy(pcd.upper, request);
-  if (!pcd.complete) result.status = limits.reason().value_or(ProbabilityStatus::cell_limit);
+  if (!pcd.complete) result.status = limits.stopped().value_or(ProbabilityStatus::cell_limit);
   result.statistics.raw_sum = pcd.raw_sum;
   result.statistics.pairs_tested = pcd.pairs_bounded;
   result.statistics.leaf_pairs = pcd.leaf_pairs;
@@ -70,10 +69,10 @@ ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplace
 std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,
                                                      const GaussianDisplacement& displacement,
                                                      const ProbabilityRequest& request) {
-  RequestLimits limits(request, kShareOfRootBound);
+  Budget limits(request, kShareOfRootBound);
   const double upper = rootBound(pair, displacement, limits);
   const auto status = satisfied({0.0, upper}, request);
-  const bool cancelled = limits.reason() == ProbabilityStatus::cancelled;
+  const bool cancelled = limits.stopped() == ProbabilityStatus::cancelled;
   if (!status && !cancelled) return std::nullopt;
   ProbabilityResult result = boundedBy(upper, request);
   result.method = ProbabilityMethod::interval;

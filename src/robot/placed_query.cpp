@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/decision.h"
-#include "query/call_budget.h"
 #include "query/groups_query.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
@@ -92,7 +92,7 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   if (!request.threshold || request.method == ProbabilityMethod::estimate || !gaussian) {
     return std::nullopt;
   }
-  CallBudget budget(request);
+  Budget budget(request);
   const BodyBounds bounds(scene.bodies, bodies, *scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
   if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
@@ -188,7 +188,7 @@ double mostFarOf(const ProbabilityRequest& request) {
 ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
                                     std::vector<PlacedBody> bodies,
                                     const ProbabilityRequest& request, FarBodies& left_out) {
-  CallBudget budget(request);
+  Budget budget(request);
   ProbabilityResult result =
       ofNearBodies(scene, state, bodies, mostFarOf(request), request, left_out);
   if (!asksForDecision(request) || !(left_out.upper > 0.0)) return result;

@@ -7,10 +7,9 @@
 #include <memory>
 #include <utility>
 
-#include "base/engine_limits.h"
+#include "base/budget.h"
 #include "base/seeds_apart.h"
 #include "fcl_prob/combined_bounds.h"
-#include "query/call_budget.h"
 #include "robot/obstacle_sampling.h"
 
 namespace fcl_prob::detail {
@@ -91,11 +90,10 @@ class AnyProbably {
 
   /// Lines, as long as they pay. \return  why that ends all; nothing if there are none to be had
   std::optional<ProbabilityStatus> tryLines() {
-    const ProbabilityStatistics none;
-    const EngineLimits limits(request_, none);
+    Budget limits(request_);
     for (;;) {
       if (decide()) return ProbabilityStatus::decided;
-      if (const auto stopped = limits.interruption(result_.certified)) return stopped;
+      if (const auto stopped = limits.look(result_.certified, 0.0)) return stopped;
       const LineTarget next = nextTarget();
       if (next.obstacle == nullptr) return std::nullopt;
       if (!next.obstacle->hasLines()) {
@@ -226,7 +224,7 @@ class AnyProbably {
   Sampling sampling_;
   std::uint64_t seeds_ = 0;
   double share_ = 0.0;  ///< of an obstacle and a method in the chance
-  CallBudget budget_;
+  Budget budget_;
   std::vector<std::unique_ptr<ObstacleSampling>> obstacles_;
   std::optional<ProbabilityStatus> stopped_;
   ProbableResult result_;
@@ -246,7 +244,7 @@ ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
                            const PreparedGeometries& geometries, const std::vector<Ball>& balls,
                            double threshold, double chance, const Proof& prove,
                            const ProbabilityRequest& request) {
-  CallBudget budget(request);
+  Budget budget(request);
   ProbabilityStatistics spent;
   const auto counted = [&](ProbableResult result) {
     ProbabilityStatistics of_one;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/budget.h"
 #include "base/number_text.h"
 #include "base/refuse_band.h"
 #include "base/seeds_apart.h"
@@ -12,7 +13,6 @@
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
-#include "query/call_budget.h"
 #include "query/motion_gradient.h"
 #include "query/prepared_geometry.h"
 #include "robot/gradient_parts.h"
@@ -353,7 +353,7 @@ struct RobotQuery::Implementation {
   /// What the waypoints say, soon: at any time P is at least that.
   ProbabilityResult atWaypoints(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
                                 const std::vector<PlacedBody>& relative,
-                                const detail::CallBudget& budget,
+                                const detail::Budget& budget,
                                 const ProbabilityRequest& request) const {
     ProbabilityRequest soon = request;
     soon.threshold.reset();
@@ -378,7 +378,7 @@ struct RobotQuery::Implementation {
     RobotResult result = detail::anyOfAsked(
         std::vector<Bounds>(obstacles.size(), Bounds{0.0, 1.0}), request,
         [&](std::size_t i, const ProbabilityRequest& of_one) {
-          detail::CallBudget budget(of_one);
+          detail::Budget budget(of_one);
           ProbabilityStatistics statistics;
           if (!known[i]) {
             const ProbabilityResult soon = atWaypoints(i, waypoints, relative[i], budget, of_one);

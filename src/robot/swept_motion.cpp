@@ -232,7 +232,7 @@ class SweptMotion {
   const Ball& around_obstacle_;
   double most_far_;
   const ProbabilityRequest& request_;
-  CallBudget budget_;
+  Budget budget_;
   Bounds known_;
   std::vector<SweptBody> near_;      ///< a heap by reach
   std::vector<SweptBody> shortest_;  ///< as short as steps get

@@ -33,10 +33,11 @@ using fcl_prob_test::WhitenedMeshes;
 const GaussianDisplacement kUnit(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
 
 std::unique_ptr<WholeBodyTester> testerOf(const WhitenedMeshes& meshes) {
-  return WholeBodyTester::of(meshes.pair,
-                             {meshes.tree_a.get(), {{fcl::Transform3d::Identity(), nullptr}}},
-                             {meshes.tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}},
-                             kUnit, meshes.whitening.matrix());
+  const PartitionObject a{meshes.tree_a.get(), {{fcl::Transform3d::Identity(), nullptr}}};
+  const PartitionObject b{meshes.tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}};
+  const auto whole = wholeBodyOf(a, b, kUnit, Convexity::exact);
+  if (!whole) return nullptr;
+  return WholeBodyTester::of(*whole, meshes.pair, meshes.whitening.matrix());
 }
 
 TriangleMesh randomTriangle(RandomBodies& random, const TriangleMesh& body, int kind) {

@@ -37,9 +37,11 @@ std::unique_ptr<Contacts> contactsOf(const WhitenedMeshes& meshes) {
   const PartitionObject b{meshes.tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}};
   const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
   if constexpr (std::is_same_v<Contacts, WholeBodyLines>) {
-    return WholeBodyLines::of(meshes.pair, a, b, kUnit, matrix, nullptr);
+    const auto whole = wholeBodyOf(a, b, kUnit, Convexity::nearly);
+    return whole ? WholeBodyLines::of(*whole, meshes.pair, matrix, nullptr) : nullptr;
   } else {
-    return WholeBodyTester::of(meshes.pair, a, b, kUnit, matrix);
+    const auto whole = wholeBodyOf(a, b, kUnit, Convexity::exact);
+    return whole ? WholeBodyTester::of(*whole, meshes.pair, matrix) : nullptr;
   }
 }
 
@@ -284,11 +286,11 @@ TEST_CASE("estimates by lines scatter as their standard errors say", "[lines][sl
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.2, 0.15});
   RandomBodies random(2);
   const TriangleMesh bumpy = bumpyMesh(0.7, 12, 16, 5);
-  struct Scene {
+  struct QueryScene {
     TriangleMesh body;
     double distance;
   };
-  const std::vector<Scene> scenes{
+  const std::vector<QueryScene> scenes{
       {hullMesh(random.onSphere(60, 0.5)), 1.2},   {hullMesh(random.onSphere(60, 0.5)), 1.5},
       {hullMesh(random.onSphere(200, 0.1)), 0.95}, {boxMesh({0.02, 0.8, 0.8}), 1.0},
       {boxMesh({0.8, 0.05, 0.05}), 1.2},

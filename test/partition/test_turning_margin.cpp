@@ -5,8 +5,8 @@
 
 #include "catch.h"
 #include "mesh_shapes.h"
-#include "partition/query_frame.h"
 #include "pieces/obstacle_table.h"
+#include "pieces/scene.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;
@@ -56,11 +56,12 @@ TEST_CASE(
         {0.01, 0.03, 0.05}, random.quaternion(), 0.1 * random.normalVector());
     const PartitionObject b{tree_b.get(), {{pose_b, nullptr}}};
     const PartitionObject turning{tree_a.get(), {{pose_a, nullptr}}, &motion.set};
-    const QueryFrame frame = queryFrame(turning, b, displacement, ProbabilityRequest());
-    REQUIRE(frame.pair.turning);
+    const ProbabilityRequest request;
+    const QueryScene frame(turning, b, displacement, request);
+    REQUIRE(frame.pair().turning);
     const PartitionObject turned{tree_a.get(), {{motion.one * pose_a, nullptr}}};
-    const WhitenedPair at_once = whiten(turned, b, frame.whitening);
-    ObstacleTable of_set(frame.pair), of_one(at_once);
+    const WhitenedPair at_once = whiten(turned, b, frame.whitening());
+    ObstacleTable of_set(frame.pair()), of_one(at_once);
     for (int i = 0; i < 200; ++i) {
       const auto leafOf = [&](const PieceTree& tree) {
         int node = 0;
@@ -78,7 +79,7 @@ TEST_CASE(
       // A corner of the C-obstacle of the turned triangle, and points around it.
       const Eigen::Vector3d corner = cornerOf(at_once.b, leaves.b) - cornerOf(at_once.a, leaves.a);
       CHECK(slabKernels().classifyPoint(wide, corner.data()) != CellRelation::outside);
-      const NodeBox box = obstacleBox(frame.pair, leaves);
+      const NodeBox box = obstacleBox(frame.pair(), leaves);
       for (int k = 0; k < 3; ++k) {
         CHECK(corner[k] >= box.lo[k]);
         CHECK(corner[k] <= box.hi[k]);

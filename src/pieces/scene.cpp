@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "partition/query_frame.h"
+#include "pieces/scene.h"
 
 #include <algorithm>
 #include <memory>
@@ -12,7 +12,6 @@
 #include "pieces/band_margin.h"
 #include "pieces/closest_approach.h"
 #include "pieces/turning_margin.h"
-#include "pieces/whole_body.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -87,26 +86,37 @@ Care careFor(const PartitionObject& a, const PartitionObject& b,
 
 }  // namespace
 
-QueryFrame queryFrame(const PartitionObject& a, const PartitionObject& b,
-                      const GaussianDisplacement& displacement, const ProbabilityRequest& request,
-                      bool all_axes) {
-  const double unit = std::max({a.tree->radius(), b.tree->radius(), 1e-150});
-  if (all_axes) requireFitting(displacement, unit);
-  const ResolvedPart resolved =
-      all_axes ? ResolvedPart{displacement} : resolvedPart(displacement, unit);
-  const GaussianDisplacement& moving = resolved.displacement;
-  const Whitening plain(moving, unit);
-  const BandedPair banded(a, b, request, resolved.left_out);
-  WhitenedPair pair;
-  banded.whiten(plain, pair);
-  const Eigen::Vector3d& sigma = moving.standardDeviations();
-  if (moving.rank() < 2 || sigma[0] > kMostStretched * sigma[moving.rank() - 1]) {
-    return {moving, plain, std::move(pair)};
+QueryScene::QueryScene(const PartitionObject& a, const PartitionObject& b,
+                       const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+                       bool all_axes)
+    : a_(a), b_(b), displacement_(displacement) {
+  placeFrame(request, all_axes);
+  if (a.hasSolid() || b.hasSolid()) {
+    solids_ = std::make_unique<const SolidContact>(a, b, whitening_, pair_);
   }
-  const Care care = careFor(a, b, moving, request);
-  const Whitening rotated = plain.rotatedTo(closestApproach(pair, moving.rank(), care));
-  banded.whiten(rotated, pair);
-  return {moving, rotated, std::move(pair)};
+  if (const auto whole = wholeBodyOf(a, b, displacement_, Convexity::exact)) {
+    convex_body_.emplace(*whole);
+  }
+  if (const auto whole = wholeBodyOf(a, b, displacement_, Convexity::nearly)) {
+    nearly_convex_body_.emplace(*whole);
+  }
+}
+
+void QueryScene::placeFrame(const ProbabilityRequest& request, bool all_axes) {
+  const double unit = std::max({a_.tree->radius(), b_.tree->radius(), 1e-150});
+  if (all_axes) requireFitting(displacement_, unit);
+  const ResolvedPart resolved =
+      all_axes ? ResolvedPart{displacement_} : resolvedPart(displacement_, unit);
+  displacement_ = resolved.displacement;
+  whitening_ = Whitening(displacement_, unit);
+  const BandedPair banded(a_, b_, request, resolved.left_out);
+  banded.whiten(whitening_, pair_);
+  const int rank = displacement_.rank();
+  const Eigen::Vector3d& sigma = displacement_.standardDeviations();
+  if (rank < 2 || sigma[0] > kMostStretched * sigma[rank - 1]) return;
+  const Care care = careFor(a_, b_, displacement_, request);
+  whitening_ = whitening_.rotatedTo(closestApproach(pair_, rank, care));
+  banded.whiten(whitening_, pair_);
 }
 
 }  // namespace fcl_prob::detail

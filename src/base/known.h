@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What is certain of P while a query is answered.
+#pragma once
+
+#include <optional>
+
+#include "base/agreed_bounds.h"
+#include "base/decision.h"
+
+namespace fcl_prob::detail {
+
+/// Bounds on P, narrowed by whoever knows more; what they say of a request is said here only.
+class Known {
+ public:
+  /// Keeps a reference.
+  explicit Known(const ProbabilityRequest& request) : request_(request) {}
+
+  const Bounds& interval() const { return interval_; }
+
+  /// By certified bounds on the same P.
+  void narrow(const Bounds& bounds) { interval_ = agreed(interval_, bounds); }
+
+  /// By what a result is certain of, if it is of anything.
+  void narrow(const ProbabilityResult& result) {
+    narrow({result.lower.value_or(0.0), result.upper.value_or(1.0)});
+  }
+
+  Decision decision() const { return decisionOf(interval_, request_); }
+  std::optional<ProbabilityStatus> satisfied() const {
+    return detail::satisfied(interval_, request_);
+  }
+
+  void tell(ProbabilityResult& result) const {
+    result.lower = interval_.lower;
+    result.upper = interval_.upper;
+    result.decision = decision();
+  }
+
+ private:
+  const ProbabilityRequest& request_;
+  Bounds interval_{0.0, 1.0};
+};
+
+}  // namespace fcl_prob::detail

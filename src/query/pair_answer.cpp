@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/pair_answer.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "base/budget.h"
+#include "base/ladder.h"
+#include "fcl_prob/monte_carlo.h"
+#include "partition/partition.h"
+#include "query/convex_meshes.h"
+#include "query/exact_mass.h"
+#include "query/octree_cells.h"
+#include "query/single_collide.h"
+#include "query/unbounded_pair.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// Cells of two convex shapes, and those of a decision near its threshold, may be divided for
+/// minutes. Where the pair may have an exact mass, that is asked for after so many of them; where
+/// it has none they are divided again. Of convex shapes it takes about as long as these; of meshes
+/// it has first to be found out whether they are convex.
+constexpr std::size_t kCellsBeforeExact = 5'000;
+constexpr std::size_t kCellsBeforeHull = 20'000;
+
+/// One pair, one question.
+class PairAnswer {
+ public:
+  PairAnswer(const QueryPlan& plan, const PlacedPair& pair,
+             const GaussianDisplacement& displacement, const ProbabilityRequest& request)
+      : plan_(plan),
+        pair_(pair),
+        displacement_(displacement),
+        request_(request),
+        budget_(request),
+        known_(request) {
+    if (plan.route != Route::partition) return;
+    requireDistinctCells(pair.a, pair.b);
+    pair.a.solid(request.contact);  // open meshes are refused
+    pair.b.solid(request.contact);
+  }
+
+  ProbabilityResult answer() {
+    climb(kLadder, *this, known_, rungs_);
+    result_.statistics.rungs = std::move(rungs_);
+    return std::move(result_);
+  }
+
+ private:
+  // Where nothing is random, or nothing but the displacement along one normal matters.
+  bool isStill() const { return plan_.route == Route::single_collide; }
+  bool collideOnce();
+  bool isUnbounded() const { return plan_.route == Route::unbounded_pair; }
+  bool answerInClosedForm();
+
+  // Methods that are asked for by name.
+  bool isBoundByName() const {
+    return plan_.route == Route::convex_bound || plan_.route == Route::general_pcd;
+  }
+  bool boundFromAbove();
+  bool isSampledByName() const {
+    return plan_.route == Route::monte_carlo || plan_.route == Route::rare_event;
+  }
+  bool sample();
+
+  bool isOfFewTriangles() const { return plan_.convex_meshes_first; }
+  bool answerByConvexMeshes();
+  bool mayBeFar() const { return plan_.try_root_bound; }
+  bool boundByRoots();
+  bool isExactFirst() const { return plan_.route == Route::exact_mass; }
+  bool answerByExactMass();
+  bool always() const { return true; }
+  bool divide();
+  bool mayHaveExactMass() const {
+    return plan_.exact_if_unresolved || plan_.convex_meshes_if_unresolved;
+  }
+  bool closeByExactMass();
+  bool hasCellsLeft() const;
+  bool divideFurther();
+
+  bool take(ProbabilityResult result);
+  ProbabilityResult partition(std::size_t most_cells);
+  std::size_t firstCells() const;
+  void narrowBy(const ProbabilityResult& exact);
+
+  static const std::array<Rung<PairAnswer>, 10> kLadder;
+
+  const QueryPlan& plan_;
+  const PlacedPair& pair_;
+  const GaussianDisplacement& displacement_;
+  const ProbabilityRequest& request_;
+  Budget budget_;
+  Known known_;
+  std::vector<RungRecord> rungs_;
+  ProbabilityResult result_;
+};
+
+const std::array<Rung<PairAnswer>, 10> PairAnswer::kLadder{{
+    {"one fcl::collide", &PairAnswer::isStill, &PairAnswer::collideOnce, true},
+    {"closed form", &PairAnswer::isUnbounded, &PairAnswer::answerInClosedForm, true},
+    {"bound", &PairAnswer::isBoundByName, &PairAnswer::boundFromAbove, true},
+    {"sampling", &PairAnswer::isSampledByName, &PairAnswer::sample, true},
+    {"convex meshes", &PairAnswer::isOfFewTriangles, &PairAnswer::answerByConvexMeshes},
+    {"root volumes", &PairAnswer::mayBeFar, &PairAnswer::boundByRoots},
+    {"exact mass", &PairAnswer::isExactFirst, &PairAnswer::answerByExactMass},
+    {"partition", &PairAnswer::always, &PairAnswer::divide, true},
+    {"exact mass", &PairAnswer::mayHaveExactMass, &PairAnswer::closeByExactMass},
+    {"partition", &PairAnswer::hasCellsLeft, &PairAnswer::divideFurther, true},
+}};
+
+bool PairAnswer::take(ProbabilityResult result) {
+  result_ = std::move(result);
+  known_.narrow(result_);
+  return true;
+}
+
+bool PairAnswer::collideOnce() {
+  return take(singleCollide(pair_.a.geometry(), pair_.pose_a, pair_.b.geometry(), pair_.pose_b,
+                            displacement_.mean(), request_));
+}
+
+bool PairAnswer::answerInClosedForm() {
+  return take(unboundedPairProbability(pair_, displacement_, request_));
+}
+
+bool PairAnswer::boundFromAbove() {
+  return take(plan_.route == Route::convex_bound ? convexBound(pair_, displacement_, request_)
+                                                 : generalPcdBound(pair_, displacement_, request_));
+}
+
+bool PairAnswer::sample() {
+  const auto& [a, pose_a, b, pose_b] = pair_;
+  if (plan_.route == Route::monte_carlo) {
+    return take(
+        monteCarloProbability(a.geometry(), pose_a, b.geometry(), pose_b, displacement_, request_));
+  }
+  return take(
+      rareEventProbability(a.geometry(), pose_a, b.geometry(), pose_b, displacement_, request_));
+}
+
+/// Of two convex meshes neither tree nor cells are needed, unless rounding leaves more of their
+/// mass open than the tolerance.
+bool PairAnswer::answerByConvexMeshes() {
+  auto result = convexMeshesMass(pair_, displacement_, request_);
+  if (!result || !isAnswered(result->status)) return false;
+  result->method = ProbabilityMethod::exact;
+  if (request_.method == ProbabilityMethod::estimate) {
+    const Bounds bounds{*result->lower, *result->upper};
+    result->method = ProbabilityMethod::estimate;
+    result->estimate = bounds.middle();
+    result->standard_error = 0.5 * bounds.width();
+  }
+  result->plan.push_back(
+      "both meshes are convex: exact mass of their C-obstacle; trees and cells left out");
+  return take(std::move(*result));
+}
+
+bool PairAnswer::boundByRoots() {
+  auto result = intervalOfRootBound(pair_, displacement_, request_);
+  return result && take(std::move(*result));
+}
+
+/// Cells are asked where the exact mass leaves more open than the tolerance, or has no gradient; of
+/// deviations far below the size it may tell nothing, and cells all.
+bool PairAnswer::answerByExactMass() {
+  take(exactMass(pair_, displacement_, request_));
+  const bool unresolved = result_.status == ProbabilityStatus::resolution_limit ||
+                          (isAnswered(result_.status) && request_.gradient && !result_.gradient);
+  const bool is_unknown = *result_.upper - *result_.lower >= 1.0;
+  return !unresolved || !(plan_.partition_if_unresolved || is_unknown);
+}
+
+std::size_t PairAnswer::firstCells() const {
+  if (plan_.exact_if_unresolved) return std::min(request_.max_cells, kCellsBeforeExact);
+  if (plan_.convex_meshes_if_unresolved && asksForDecision(request_)) {
+    return std::min(request_.max_cells, kCellsBeforeHull);
+  }
+  return request_.max_cells;
+}
+
+/// Its rungs are those of this query, too.
+ProbabilityResult PairAnswer::partition(std::size_t most_cells) {
+  const PartitionObject a{&pair_.a.pieces(), {{pair_.pose_a, pair_.a.solid(request_.contact)}}};
+  const PartitionObject b{&pair_.b.pieces(), {{pair_.pose_b, pair_.b.solid(request_.contact)}}};
+  ProbabilityRequest request = budget_.withTimeLeft();
+  request.max_cells = most_cells;
+  ProbabilityResult result = partitionProbability(a, b, displacement_, request);
+  auto& rungs = result.statistics.rungs;
+  rungs_.insert(rungs_.end(), rungs.begin(), rungs.end());
+  return result;
+}
+
+/// Cells that are all settled may be so by planes that are widened by more than the tolerance.
+bool PairAnswer::divide() {
+  ProbabilityResult result = partition(firstCells());
+  if (plan_.route == Route::exact_mass) {
+    result.plan.insert(result.plan.begin(),
+                       "rounding leaves too much of the exact mass open: partition");
+    return take(std::move(result));
+  }
+  take(std::move(result));
+  if (result_.status == ProbabilityStatus::exact) {
+    return satisfied({*result_.lower, *result_.upper}, request_).has_value();
+  }
+  return result_.status != ProbabilityStatus::cell_limit &&
+         result_.status != ProbabilityStatus::resolution_limit;
+}
+
+/// Both are bounds of the same probability. An estimate becomes the middle of what is left.
+void PairAnswer::narrowBy(const ProbabilityResult& exact) {
+  known_.narrow(exact);
+  const Bounds& both = known_.interval();
+  result_.lower = both.lower;
+  result_.upper = both.upper;
+  result_.status = exact.status;
+  result_.decision = exact.decision;
+  if (result_.estimate) {
+    result_.estimate = both.middle();
+    result_.standard_error = 0.5 * both.width();
+  }
+  if (!exact.gradient) return;
+  result_.gradient = exact.gradient;
+  result_.gradient_lower = exact.gradient_lower;
+  result_.gradient_upper = exact.gradient_upper;
+}
+
+/// Far out in the tail a curved surface takes more cells than the limit, and where deviations are
+/// far below the size cells are widened by more than they should; of two convex shapes no cell is
+/// needed.
+bool PairAnswer::closeByExactMass() {
+  const ProbabilityRequest rest = budget_.withTimeLeft();
+  std::optional<ProbabilityResult> exact;
+  if (plan_.exact_if_unresolved) exact = exactMass(pair_, displacement_, rest);
+  if (plan_.convex_meshes_if_unresolved) exact = convexMeshesMass(pair_, displacement_, rest);
+  if (!exact || !isAnswered(exact->status)) return false;
+  if (request_.gradient && !exact->gradient) return false;
+  narrowBy(*exact);
+  result_.plan.push_back("the cells left too much open: the exact mass of the C-obstacle instead");
+  return true;
+}
+
+bool PairAnswer::hasCellsLeft() const {
+  return result_.status == ProbabilityStatus::cell_limit && firstCells() < request_.max_cells;
+}
+
+bool PairAnswer::divideFurther() { return take(partition(request_.max_cells)); }
+
+}  // namespace
+
+ProbabilityResult pairAnswer(const QueryPlan& plan, const PlacedPair& pair,
+                             const GaussianDisplacement& displacement,
+                             const ProbabilityRequest& request) {
+  return PairAnswer(plan, pair, displacement, request).answer();
+}
+
+}  // namespace fcl_prob::detail
