@@ -64,6 +64,10 @@ class RandomPoses : public RandomConfiguration {
 };
 
 /// An arm whose joint values are Gaussian, beside obstacles with a Gaussian translation.
+///
+/// Nothing here knows limits of joints: neither the mean nor what is drawn around it is held
+/// against any, and values beyond them count as the kinematics place them. randomJoints() in
+/// robot_joints.h makes one of a Robot and refuses a mean beyond the limits.
 class RandomJoints : public RandomConfiguration {
  public:
   /// The poses of the members of A (metres, world frame) at joint values. Called from several

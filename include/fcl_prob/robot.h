@@ -54,6 +54,9 @@ struct RobotBody {
   fcl::Transform3d in_link = fcl::Transform3d::Identity();  ///< metres
   std::string object = {};  ///< name of the attached object; empty: the link itself
 
+  /// Of a mesh: as TriangleMesh::coordinate_error, metres.
+  double coordinate_error = 0.0;
+
   const std::string& name() const { return object.empty() ? link : object; }
 };
 
@@ -66,6 +69,10 @@ struct AttachedObject {
 
   /// Links that it may touch, besides the one that carries it (SelfCollision).
   std::vector<std::string> touch_links = {};
+
+  /// Of a mesh: as in TriangleMesh. Both are told with answers, and nothing depends on them.
+  double coordinate_error = 0.0;  ///< metres
+  std::vector<std::string> notes = {};
 };
 
 /// One of the joints that carry a body, where all joints have certain values. With v the value of
@@ -123,7 +130,8 @@ class Robot {
   std::vector<std::string> linksWithoutBody() const;
 
   /// What of the URDF may be meant otherwise than it was read, in sentences: limits of joints and
-  /// angles beyond a whole turn, which probably are degrees.
+  /// angles beyond a whole turn, which probably are degrees. Then TriangleMesh::notes of the meshes
+  /// that it names and of what is attached.
   const std::vector<std::string>& notes() const;
 
   /// The geometries of the bodies, as GroupQuery takes them.

@@ -11,8 +11,8 @@
 namespace fcl_prob {
 
 /// RandomJoints of a robot, whose bodies are the members of A in the order of Robot::bodies(). The
-/// mean must be a state within the limits of the joints; values that are drawn around it may be
-/// beyond them.
+/// mean must be a state within the limits of the joints, unless RobotOptions::allow_outside_limits;
+/// values that are drawn around it may be beyond them.
 /// \param mean, covariance  in the order of Robot::joints(), radians and metres
 /// \param poses_b           metres, world frame
 /// \param displacement      of A relative to B besides, metres, world frame

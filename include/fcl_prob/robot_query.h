@@ -33,6 +33,10 @@ struct Obstacle {
   /// Of one that moves, or that is known less and less well: one state a waypoint of the motion,
   /// which count instead of `pose` and `displacement`. Empty: it stays.
   std::vector<ObstacleState> over_time = {};
+
+  /// Of a mesh: as in TriangleMesh. Both are told with answers, and nothing depends on them.
+  double coordinate_error = 0.0;  ///< metres
+  std::vector<std::string> notes = {};
 };
 
 /// What the errors of an obstacle at one waypoint have to do with those at another one.
@@ -82,8 +86,9 @@ struct RobotResult {
   std::optional<double> swept_band;
   std::size_t swept_steps = 0;
 
-  /// What was left out and what may be meant otherwise, in sentences: links without a body, and
-  /// Robot::notes().
+  /// What was left out and what may be meant otherwise, in sentences: Robot::notes(), notes of the
+  /// obstacles' meshes, meshes in single precision where that is not negligible, links without a
+  /// body.
   std::vector<std::string> plan;
 
   /// The single number to use: the estimate if there is one, else the middle of the interval.

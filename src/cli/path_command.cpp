@@ -279,7 +279,7 @@ ProbableReport answerProbably(RobotScene scene, double chance) {
   const RobotQuery query = loadRobotQuery(scene);
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   report.waypoints = waypoints.size();
-  report.plan = detail::robotNotes(query.robot());
+  report.plan = detail::allNotes(query, scene.request.toleranceAt(*scene.request.threshold));
   report.links_without_body = query.robot().linksWithoutBody();
   report.build_ms = building.milliseconds();
   noteInterrupts();

@@ -90,15 +90,17 @@ int runPlan(const PlanArguments& arguments) {
   const CertifiedPlan plan = planCertified(query, self, robot.values(scene.plan->start),
                                            robot.values(scene.plan->goal), request);
   const bool solved = plan.path.status == PlanningStatus::solved;
+  const std::vector<std::string> notes =
+      detail::allNotes(query, scene.request.toleranceAt(*scene.request.threshold));
   std::string report;
-  for (const std::string& line : detail::robotNotes(robot)) report += onOneLine(line) + "\n";
+  for (const std::string& line : notes) report += onOneLine(line) + "\n";
   report += planText(plan, robot);
   if (arguments.json) {
     nlohmann::ordered_json json = planJson(plan, robot);
     json["largest_step"] = request.planning.largest_step;
     json["seed"] = request.planning.seed;
     json["links_without_body"] = robot.linksWithoutBody();
-    json["notes"] = robot.notes();
+    json["notes"] = notes;
     json["build_ms"] = build_ms;
     json["time_ms"] = watch.milliseconds();
     report = json.dump() + "\n";

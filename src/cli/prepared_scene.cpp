@@ -3,14 +3,12 @@
 #include "cli/prepared_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <future>
-#include <limits>
 
 #include "base/decision.h"
 #include "base/stopwatch.h"
 #include "base/until_no.h"
-#include "cli/number_text.h"
+#include "io/import_notes.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -101,26 +99,16 @@ PreparedScene::PreparedScene(LoadedObject a, LoadedObject b,
 
 std::vector<std::string> PreparedScene::importNotes(const ProbabilityRequest& request,
                                                     const ProbabilityResult& result) const {
-  constexpr double kNegligible = 1e-3;  // of the least deviation, or of the tolerance
   std::vector<std::string> notes;
-  const double sigma = displacement_.rank() > 0
-                           ? displacement_.standardDeviations()[displacement_.rank() - 1]
-                           : std::numeric_limits<double>::infinity();
   const double probability = result.upper ? *result.upper : result.estimate.value_or(1.0);
   for (const auto& [name, object] : {std::pair("A", &a_), std::pair("B", &b_)}) {
     const auto* mesh = std::get_if<TriangleMesh>(&object->shape);
     if (mesh == nullptr) continue;
     notes.insert(notes.end(), mesh->notes.begin(), mesh->notes.end());
-    // A face that is moved by one deviation sweeps a mass of at most the density's maximum.
-    const double deviations = mesh->coordinate_error / sigma;
-    const double moved_mass = deviations / std::sqrt(2.0 * M_PI);
-    if (deviations <= kNegligible && moved_mass <= kNegligible * request.toleranceAt(probability)) {
-      continue;
-    }
-    notes.push_back(std::string("the file of ") + name +
-                    " is read in single precision: coordinates may be off by " +
-                    numberText(mesh->coordinate_error, 2) + " m, " + numberText(deviations, 2) +
-                    " of the least standard deviation, which no bound contains");
+    const auto note = detail::precisionNote(
+        std::string("the file of ") + name + " is", mesh->coordinate_error,
+        detail::leastDeviation(displacement_), request.toleranceAt(probability));
+    if (note) notes.push_back(*note);
   }
   return notes;
 }

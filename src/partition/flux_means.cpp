@@ -14,9 +14,9 @@ namespace {
 // How often a line may touch a convex C-obstacle.
 constexpr double kLeastEnds = 2.0;
 
-/// The means of the flux. A line's is bounded by its ends: each has a density that is bounded over
-/// how frequent the line is, and there are as many of a part as a line had at most, or two. Of
-/// parts that are convex, beside what is, a line has no more; of others that is what was seen.
+/// The means of the flux. What a line has is bounded by its ends, whose densities are bounded by
+/// how frequent it is: of each part there are as many as a line had at most, or two. Of parts that
+/// are convex, beside what is, a line has no more; of others that is what was seen.
 class FluxMeans {
  public:
   FluxMeans(const PartLines& drawn, int rank, const std::vector<FluxLine>& lines,
@@ -42,6 +42,12 @@ class FluxMeans {
   }
 
  private:
+  /// A part that a parameter moves, per density where it touches.
+  struct MovedPart {
+    double flux;       ///< at most, by all ends of a line
+    double frequency;  ///< of the line, at least
+  };
+
   double count() const { return static_cast<double>(lines_.size()); }
 
   void countEnds() {
@@ -54,29 +60,41 @@ class FluxMeans {
         steepest_ = std::max(steepest_, end.steepness);
       }
       for (const FluxEnd& end : line.ends) of_line[end.part] = 0.0;
-      ends_ = std::max(ends_, static_cast<double>(line.ends.size()));
     }
   }
 
   void setBounds(double crofton) {
-    Eigen::VectorXd ends = Eigen::VectorXd::Zero(parameters_);
-    Eigen::VectorXd most = ends;
-    most_of_mean_ = ends;
+    most_of_mean_ = Eigen::VectorXd::Zero(parameters_);
+    std::vector<std::vector<MovedPart>> moved(static_cast<std::size_t>(parameters_));
     for (std::size_t part = 0; part < speeds_.size(); ++part) {
-      const double of_part = std::max(kLeastEnds, ends_of_part_[part]);
-      const double of_end = crofton * drawn_.mostOfEnd(part, lines_.size());
-      const double of_mean = crofton * drawn_.meanOfEnd(part) * of_part;
+      const double ends = std::max(kLeastEnds, ends_of_part_[part]);
+      const double frequency = drawn_.leastOfPart(part, lines_.size());
       for (const PartSpeed& speed : speeds_[part]) {
-        const double fastest = speed.along + steepest_ * speed.across;
-        ends[speed.parameter] += of_part;
-        most[speed.parameter] = std::max(most[speed.parameter], of_end * fastest);
-        most_of_mean_[speed.parameter] += of_mean * fastest;
+        const double flux = crofton * ends * (speed.along + steepest_ * speed.across);
+        if (!(flux > 0.0) || std::isinf(frequency)) continue;
+        moved[static_cast<std::size_t>(speed.parameter)].push_back({flux, frequency});
+        most_of_mean_[speed.parameter] += flux * drawn_.meanOfEnd(part);
       }
     }
-    for (Eigen::Index k = 0; k < parameters_; ++k) {
-      const double bound = std::min(ends[k], std::max(kLeastEnds, ends_)) * most[k];
+    for (std::vector<MovedPart>& parts : moved) {
+      const double bound = mostOfLine(parts);
       means_.emplace_back(-bound, bound);
     }
+  }
+
+  /// What a line of given frequency has the most of: parts that have most for what they make it
+  /// more frequent come first, and more of them as long as that helps.
+  double mostOfLine(std::vector<MovedPart>& parts) const {
+    std::sort(parts.begin(), parts.end(), [](const MovedPart& one, const MovedPart& other) {
+      return one.flux * other.frequency > other.flux * one.frequency;
+    });
+    double most = 0.0, flux = 0.0, frequency = drawn_.leastOfAll(lines_.size());
+    for (const MovedPart& part : parts) {
+      flux += part.flux;
+      frequency += part.frequency;
+      most = std::max(most, flux / frequency);
+    }
+    return most;
   }
 
   void addLines() {
@@ -106,7 +124,6 @@ class FluxMeans {
   const std::vector<std::vector<PartSpeed>>& speeds_;
   Eigen::Index parameters_;
   double of_all_;  ///< share of lines of the first kind
-  double ends_ = 0.0;
   std::vector<double> ends_of_part_;
   double steepest_ = 1.0;
   Eigen::VectorXd most_of_mean_;

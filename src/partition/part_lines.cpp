@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/random_words.h"
 
 namespace fcl_prob::detail {
@@ -82,16 +83,16 @@ PartLines::Frequency PartLines::frequency(const RandomLine& line) const {
   return frequency;
 }
 
-double PartLines::mostOfEnd(std::size_t part, std::size_t lines) const {
+double PartLines::leastOfAll(std::size_t lines) const {
+  return is_by_parts_ || !(mass_ > 0.0) ? 0.0 : shareOfAll(lines) / mass_ * all_.massOverDensity();
+}
+
+double PartLines::leastOfPart(std::size_t part, std::size_t lines) const {
   const RoomyBox& box = parts_[part];
-  if (!(box.mass() > 0.0)) return 0.0;
-  const double of_all = static_cast<double>(countOfAll(lines)) / static_cast<double>(lines);
-  const RoomyBox& first = is_by_parts_ ? box : all_;
-  double least = of_all * first.massOverDensity() / mass_;
-  if (!shares_.empty()) {
-    least += (1.0 - of_all) * shares_[part] * box.massOverDensity() / box.mass();
-  }
-  return 1.0 / least;
+  if (!(box.mass() > 0.0)) return kInfinity;
+  double frequency = is_by_parts_ ? shareOfAll(lines) / mass_ : 0.0;
+  if (!shares_.empty()) frequency += (1.0 - shareOfAll(lines)) * shares_[part] / box.mass();
+  return frequency * box.massOverDensity();
 }
 
 }  // namespace fcl_prob::detail

@@ -41,16 +41,24 @@ class PartLines {
   /// No less than P and than the mass on a line over how frequent it is among the first kind.
   double mostOfLine() const { return mass_; }
 
-  /// No less than the density where part `part` touches, along a line, over how frequent the line
-  /// is among so many.
-  double mostOfEnd(std::size_t part, std::size_t lines) const;
+  /// A line on which parts touch is, among so many, no less frequent than the largest density where
+  /// they do, times this, ...
+  double leastOfAll(std::size_t lines) const;
 
-  /// No less than the mean of that.
+  /// ... and, for each of these parts, the largest density where that does, times this. Infinite of
+  /// a part that is out of reach.
+  double leastOfPart(std::size_t part, std::size_t lines) const;
+
+  /// No less than the mean, over even lines, of the density at an end where a part touches.
   double meanOfEnd(std::size_t part) const {
     return parts_[part].mass() / parts_[part].massOverDensity();
   }
 
  private:
+  double shareOfAll(std::size_t lines) const {
+    return static_cast<double>(countOfAll(lines)) / static_cast<double>(lines);
+  }
+
   // Every so many lines one is of the second kind: an eighth of the standard error of P for what
   // that tells of parts that touch seldom.
   static constexpr std::size_t kPeriod = 5;

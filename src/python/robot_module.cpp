@@ -84,7 +84,8 @@ void bindRobot(py::module_& module) {
       .def_property_readonly("links_without_body", &Robot::linksWithoutBody,
                              "Links that have no collision element here: nothing touches them.")
       .def_property_readonly("notes", &Robot::notes,
-                             "What of the URDF may be meant otherwise than it was read.")
+                             "What of the URDF may be meant otherwise than it was read, and what\n"
+                             "was passed over in files of its meshes.")
       .def(
           "values",
           [](const Robot& robot, const py::dict& by_name) {

@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
+#include "io/import_notes.h"
 #include "robot/kinematics.h"
 #include "robot/urdf_shapes.h"
 
@@ -99,8 +100,10 @@ struct Robot::Implementation {
     }
     detail::validateGeometry(object.geometry.get(), what);
     detail::validatePose(object.in_link, what);
-    bodies.push_back({object.link, object.geometry, object.in_link, object.name});
+    bodies.push_back(
+        {object.link, object.geometry, object.in_link, object.name, object.coordinate_error});
     links.push_back(link);
+    detail::addNotes(object.notes, notes);
     attached.push_back(std::move(object));
   }
 

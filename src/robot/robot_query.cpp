@@ -13,6 +13,7 @@
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
+#include "io/import_notes.h"
 #include "query/motion_gradient.h"
 #include "query/prepared_geometry.h"
 #include "robot/gradient_parts.h"
@@ -125,7 +126,7 @@ struct RobotQuery::Implementation {
           obstacle.geometry, "obstacle " + obstacle.name));
       obstacle_balls.push_back(detail::ballAround(*obstacle_geometries.back()));
     }
-    plan = detail::robotNotes(robot);
+    notes = detail::standingNotes(robot, obstacles);
   }
 
   void validate(const std::vector<Eigen::VectorXd>& waypoints,
@@ -411,7 +412,7 @@ struct RobotQuery::Implementation {
   detail::PreparedGeometries obstacle_geometries;
   std::vector<Ball> balls;           ///< of the robot's bodies, in their frames
   std::vector<Ball> obstacle_balls;  ///< in their frames
-  std::vector<std::string> plan;     ///< what is told of the robot with every answer
+  std::vector<std::string> notes;    ///< that are told with every answer
 };
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles)
@@ -442,7 +443,9 @@ RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, Er
                        : errors == ErrorsOverTime::persistent
                            ? implementation_->ofUnion(waypoints, -1, request)
                            : implementation_->ofWaypoints(waypoints, errors, request);
-  result.plan = implementation_->plan;
+  result.plan = implementation_->notes;
+  const double tolerance = request.toleranceAt(result.estimate.value_or(result.any.upper));
+  detail::addNotes(detail::precisionNotes(robot(), obstacles(), tolerance), result.plan);
   return result;
 }
 

@@ -134,10 +134,19 @@ BetweenWaypoints readBetween(StrictObject& root) {
   return BetweenWaypoints::swept;
 }
 
-std::shared_ptr<const fcl::CollisionGeometryd> geometryOf(const SceneObject& object) {
-  if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) return *primitive;
-  const MeshFile& mesh = std::get<MeshFile>(object.shape);
-  return buildModel<fcl::OBBRSSd>(loadMeshIsolated(mesh.path, mesh.options));
+/// Of an attached object or an obstacle. \returns what a query takes of its shape
+template <class Of>
+Of withShape(Of result, const SceneObject& object) {
+  if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) {
+    result.geometry = *primitive;
+    return result;
+  }
+  const MeshFile& file = std::get<MeshFile>(object.shape);
+  const TriangleMesh mesh = loadMeshIsolated(file.path, file.options);
+  result.geometry = buildModel<fcl::OBBRSSd>(mesh);
+  result.coordinate_error = mesh.coordinate_error;
+  result.notes = mesh.notes;
+  return result;
 }
 
 std::vector<Eigen::VectorXd> valuesOf(const RobotScene& scene, const Robot& robot) {
@@ -187,8 +196,9 @@ RobotScene loadRobotScene(const std::string& path) {
 Robot loadRobot(const RobotScene& scene) {
   Robot robot(scene.urdf, scene.robot);
   for (const RobotScene::CarriedObject& attached : scene.attached) {
-    robot = robot.withAttached({attached.name, attached.link, geometryOf(attached.object),
-                                attached.object.pose, attached.touch_links});
+    const AttachedObject object{attached.name, attached.link, nullptr, attached.object.pose,
+                                attached.touch_links};
+    robot = robot.withAttached(withShape(object, attached.object));
   }
   return robot;
 }
@@ -212,8 +222,9 @@ RobotQuery loadRobotQuery(const RobotScene& scene) {
       states = detail::statesAt(states,
                                 detail::stepsBetween(valuesOf(scene, robot), *scene.largest_step));
     }
-    obstacles.push_back({obstacle.name, geometryOf(obstacle.object), obstacle.object.pose,
-                         obstacle.displacement, std::move(states)});
+    const Obstacle placed{obstacle.name, nullptr, obstacle.object.pose, obstacle.displacement,
+                          std::move(states)};
+    obstacles.push_back(withShape(placed, obstacle.object));
   }
   return {robot, std::move(obstacles)};
 }

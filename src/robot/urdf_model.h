@@ -73,7 +73,8 @@ struct UrdfModel {
   std::map<std::string, UrdfLink> links;
   std::map<std::string, UrdfJoint> joints;
 
-  /// What may be meant otherwise than it is read: sentences for people.
+  /// What may be meant otherwise than it is read, and what is told of its meshes: sentences for
+  /// people.
   std::vector<std::string> notes;
 };
 

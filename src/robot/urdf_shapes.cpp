@@ -11,42 +11,48 @@
 
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/mesh_io.h"
+#include "io/import_notes.h"
 #include "robot/mesh_names.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-using GeometryPointer = std::shared_ptr<const fcl::CollisionGeometryd>;
+struct Shape {
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  double coordinate_error = 0.0;
+};
 
 class ShapeReader {
  public:
-  ShapeReader(const std::string& path, const RobotOptions& options)
-      : path_(path), options_(options) {}
+  ShapeReader(const std::string& path, const RobotOptions& options, std::vector<std::string>& notes)
+      : path_(path), options_(options), notes_(notes) {}
 
-  GeometryPointer read(const UrdfCollision& collision) {
+  Shape read(const UrdfCollision& collision) {
     where_ = &collision.where;
-    return std::visit([this](const auto& shape) { return geometryOf(shape); }, collision.shape);
+    return std::visit([this](const auto& shape) { return shapeOf(shape); }, collision.shape);
   }
 
  private:
-  GeometryPointer geometryOf(const UrdfBox& box) { return std::make_shared<fcl::Boxd>(box.size); }
-  GeometryPointer geometryOf(const UrdfSphere& sphere) {
-    return std::make_shared<fcl::Sphered>(sphere.radius);
+  Shape shapeOf(const UrdfBox& box) { return {std::make_shared<fcl::Boxd>(box.size)}; }
+  Shape shapeOf(const UrdfSphere& sphere) {
+    return {std::make_shared<fcl::Sphered>(sphere.radius)};
   }
-  GeometryPointer geometryOf(const UrdfCylinder& cylinder) {
-    return std::make_shared<fcl::Cylinderd>(cylinder.radius, cylinder.length);
+  Shape shapeOf(const UrdfCylinder& cylinder) {
+    return {std::make_shared<fcl::Cylinderd>(cylinder.radius, cylinder.length)};
   }
-  GeometryPointer geometryOf(const UrdfCapsule& capsule) {
-    return std::make_shared<fcl::Capsuled>(capsule.radius, capsule.length);
+  Shape shapeOf(const UrdfCapsule& capsule) {
+    return {std::make_shared<fcl::Capsuled>(capsule.radius, capsule.length)};
   }
 
-  GeometryPointer geometryOf(const UrdfMesh& mesh) {
+  Shape shapeOf(const UrdfMesh& mesh) {
     const std::string file = meshFile(mesh.file, path_, options_.packages, *where_);
     for (const ReadMesh& known : meshes_) {
-      if (known.file == file && known.scale == mesh.scale) return known.geometry;
+      if (known.file == file && known.scale == mesh.scale) return known.shape;
     }
-    meshes_.push_back({file, mesh.scale, buildModel<fcl::OBBRSSd>(scaled(load(file), mesh.scale))});
-    return meshes_.back().geometry;
+    const TriangleMesh read = scaled(load(file), mesh.scale);
+    addNotes(read.notes, notes_);
+    meshes_.push_back({file, mesh.scale, {buildModel<fcl::OBBRSSd>(read), read.coordinate_error}});
+    return meshes_.back().shape;
   }
 
   /// Messages about a mesh begin with the place that names it.
@@ -73,11 +79,12 @@ class ShapeReader {
   struct ReadMesh {
     std::string file;
     Eigen::Vector3d scale;
-    GeometryPointer geometry;
+    Shape shape;
   };
 
   const std::string& path_;
   const RobotOptions& options_;
+  std::vector<std::string>& notes_;
   const std::string* where_ = nullptr;  ///< of what is being read
   std::vector<ReadMesh> meshes_;
 };
@@ -89,17 +96,18 @@ bool isTaken(const std::string& link, const RobotOptions& options) {
 
 }  // namespace
 
-std::vector<RobotBody> bodiesOf(const UrdfModel& model, const std::string& path,
+std::vector<RobotBody> bodiesOf(UrdfModel& model, const std::string& path,
                                 const RobotOptions& options) {
   for (const std::string& name : options.links) {
     if (model.links.count(name) == 0) throw FileError(path + ": has no link " + name);
   }
-  ShapeReader reader(path, options);
+  ShapeReader reader(path, options, model.notes);
   std::vector<RobotBody> bodies;
   for (const auto& [name, link] : model.links) {
     if (!isTaken(name, options)) continue;
     for (const UrdfCollision& collision : link.collisions) {
-      bodies.push_back({name, reader.read(collision), collision.in_link});
+      const Shape shape = reader.read(collision);
+      bodies.push_back({name, shape.geometry, collision.in_link, {}, shape.coordinate_error});
     }
   }
   if (bodies.empty()) throw FileError(path + ": no collision element in the links taken");

@@ -11,9 +11,9 @@
 
 namespace fcl_prob::detail {
 
-/// Those of the links that the options name. \throws FileError and as loadMesh(), beginning with
-/// the place in the URDF
-std::vector<RobotBody> bodiesOf(const UrdfModel& model, const std::string& path,
+/// Those of the links that the options name; notes of their meshes become the model's. \throws
+/// FileError and as loadMesh(), beginning with the place in the URDF
+std::vector<RobotBody> bodiesOf(UrdfModel& model, const std::string& path,
                                 const RobotOptions& options);
 
 }  // namespace fcl_prob::detail

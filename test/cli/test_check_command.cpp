@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
+#include "collada_tetrahedron.h"
 #include "command.h"
 #include "fcl_prob/normal_mass.h"
 #include "models.h"
@@ -255,19 +256,7 @@ TEST_CASE("a gradient is computed only when asked for, and along all axes", "[cl
 TEST_CASE("what single precision rounds is told of the formats that have it, where it matters",
           "[cli]") {
   const Cubes cubes;
-  // A tetrahedron of COLLADA: assimp's.
-  const std::string imported = cubes.folder.write("t.dae", R"(<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
-<library_geometries><geometry id="g"><mesh><source id="p">
-<float_array id="pa" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>
-<accessor source="#pa" count="4" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>
-<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
-</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+  const std::string imported = cubes.folder.write("t.dae", kColladaTetrahedron);
   const auto planOf = [&](const std::string& a, const char* sigma, const char* tolerance) {
     return checkJson({a, cubes.file, "--pose-a", "0.55,0,0", "--sigma", sigma,
                       "--relative-tolerance", tolerance, "--absolute-tolerance", "0"},

@@ -70,6 +70,26 @@ TEST_CASE("path refuses states that joints cannot reach, unless it is told to ta
   }
 }
 
+TEST_CASE("path tells what a mesh of the robot was read without", "[cli]") {
+  const TemporaryFolder folder;
+  folder.write("arm.obj", "6540 2180\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("arm.urdf",
+               "<robot name=\"r\"><link name=\"l\"><collision><geometry><mesh "
+               "filename=\"arm.obj\"/></geometry></collision></link></robot>");
+  folder.write("scene.json", R"({"robot": {"urdf": "arm.urdf"}, "joints": {}, "obstacles": [
+    {"name": "o", "sphere": {"radius": 0.1}, "pose": [0.2, 0.2, 0.3],
+     "displacement": {"sigma": [0.1, 0.1, 0.1]}}], "request": {"threshold": 0.9}})");
+  for (const std::vector<std::string>& of :
+       {std::vector<std::string>{}, {"--json"}, {"--probable", "0.01"}, {"--between"}}) {
+    std::vector<std::string> options{"path", "--scene", folder.path("scene.json")};
+    options.insert(options.end(), of.begin(), of.end());
+    const CommandResult result = runCommand(options, folder);
+    CAPTURE(of, result.out, result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(result.out.find("arm.obj: ") != std::string::npos);
+  }
+}
+
 TEST_CASE("path tells how P changes with the joints", "[cli]") {
   const json answered = answerOf({"--threshold", "0.9999", "--gradient"});
   const json& gradient = answered.at("gradient");

@@ -208,6 +208,34 @@ TEST_CASE("the gradient agrees with the derivative of the box probability") {
   }
 }
 
+TEST_CASE("gradients of few samples are within their errors, from rare contact to sure one") {
+  const Eigen::Vector3d sides(1, 1, 1), sigma(0.5, 0.4, 0.6);
+  const fcl::Boxd box(sides);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations(sigma);
+  for (const double along : {-2.0, 0.0, 0.3, 1.0, 1.8, 2.4, 3.2, 4.0}) {
+    const Eigen::Vector3d offset(along, 0.3, 0.1);
+    Eigen::Vector3d expected;
+    const double h = 1e-4;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(k);
+      expected[k] = (boxProbability(sides, sides, offset - step, sigma) -
+                     boxProbability(sides, sides, offset + step, sigma)) /
+                    (2 * h);
+    }
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      ProbabilityRequest request = requestOf(200);
+      request.seed = seed;
+      request.gradient = true;
+      const auto result =
+          monteCarloProbability(box, kIdentity, box, at(offset), displacement, request);
+      CAPTURE(along, seed, result.statistics.hits, *result.gradient, expected,
+              *result.gradient_standard_error);
+      const Eigen::Array3d off = (*result.gradient - expected).array().abs();
+      CHECK((off < 6 * result.gradient_standard_error->array()).all());
+    }
+  }
+}
+
 TEST_CASE("a run stops at its tolerance, its threshold, its time or when it is told to") {
   const fcl::Boxd a(1, 1, 1), b(1, 1, 1);
   const auto displacement = GaussianDisplacement::fromStandardDeviations({0.5, 0.5, 0.5});

@@ -226,4 +226,21 @@ TEST_CASE("the gradient of a rare event") {
   CHECK(std::abs((*result.gradient)[0] - slope) < 4 * (*result.gradient_standard_error)[0]);
   CHECK((*result.gradient_standard_error)[0] < 0.02 * slope);
   CHECK(std::abs((*result.gradient)[1]) < 4 * (*result.gradient_standard_error)[1]);
+
+  // Few samples know it badly, and say so.
+  for (const double deviations : {1.0, 3.0, 6.0}) {
+    const double expected = 0.39894228040143268 * std::exp(-0.5 * deviations * deviations) / 0.1;
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      request = rareRequest(100);
+      request.seed = seed;
+      request.gradient = true;
+      const auto few = rareEventProbability(box, kIdentity, box, at({1.0 + 0.1 * deviations, 0, 0}),
+                                            displacement, request);
+      CAPTURE(deviations, seed, few.statistics.hits, *few.gradient, expected,
+              *few.gradient_standard_error);
+      const Eigen::Array3d off =
+          (*few.gradient - expected * Eigen::Vector3d::UnitX()).array().abs();
+      CHECK((off < 6 * few.gradient_standard_error->array()).all());
+    }
+  }
 }
