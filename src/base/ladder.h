@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/known.h"
+#include "base/left_out.h"
 #include "base/stopwatch.h"
 #include "fcl_prob/probability_result.h"
 
@@ -28,12 +29,6 @@ struct Rung {
   /// Whether there is no answer without it.
   bool needed = false;
 };
-
-/// Names of rungs that are left out where they are not needed: by `bench ladder`, to measure what
-/// each is worth. Only to be changed while no query is answered.
-std::vector<std::string>& rungsLeftOut();
-
-bool isLeftOut(const char* rung);
 
 /// Climbs the rungs that serve, in their order, until one has answered.
 /// \param records  what each told and took is added to them

@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cells/cell_mass.h"
-#include "cells/simplex_mass.h"
 #include "fcl_prob/bounds.h"
+#include "mass/cell_mass.h"
+#include "mass/simplex_mass.h"
 
 namespace fcl_prob::detail {
 

@@ -3,7 +3,7 @@
 // Where a cell is divided.
 #pragma once
 
-#include "cells/cell_mass.h"
+#include "mass/cell_mass.h"
 
 namespace fcl_prob::detail {
 

@@ -5,9 +5,9 @@
 
 #include <array>
 
-#include "cells/cell_mass.h"
-#include "cells/cut_cube.h"
-#include "cobstacle/slab_kernels.h"
+#include "convex/slab_kernels.h"
+#include "mass/cell_mass.h"
+#include "mass/cut_cube.h"
 
 namespace fcl_prob::detail {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "fcl_prob/monte_carlo.h"
+#include "geometry/displaced_collider.h"
 #include "geometry/geometry_kind.h"
-#include "montecarlo/displaced_collider.h"
 
 namespace fcl_prob::cli {
 namespace {

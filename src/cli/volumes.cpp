@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/volumes.h"
 
-#include "traversal/hull_tree.h"
+#include "paper/hull_tree.h"
 
 namespace fcl_prob::cli {
 double hullVolume(const TriangleMesh& mesh) {

@@ -11,7 +11,7 @@
 #include "fcl_prob/convex_hull_tree.h"
 #include "fcl_prob/triangle_mesh.h"
 #include "geometry/enclosed_volume.h"
-#include "traversal/bv_volumes.h"
+#include "paper/bv_volumes.h"
 
 namespace fcl_prob::cli {
 

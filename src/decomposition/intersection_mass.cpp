@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "cobstacle/cut_polytope.h"
-#include "cobstacle/thinned_points.h"
+#include "convex/cut_polytope.h"
+#include "convex/thinned_points.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/polytope_mass.h"
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cobstacle/face_set.h"
+#include "convex/face_set.h"
 #include "fcl_prob/bounds.h"
 
 namespace fcl_prob::detail {

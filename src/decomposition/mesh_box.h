@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "cobstacle/face_set.h"
+#include "convex/face_set.h"
 #include "fcl_prob/triangle_mesh.h"
 
 namespace fcl_prob::detail {

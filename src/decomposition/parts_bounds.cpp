@@ -9,13 +9,14 @@
 #include <optional>
 
 #include "base/number_text.h"
-#include "cobstacle/pair_obstacle.h"
+#include "bounds/convex_bound.h"
+#include "bounds/pair_bounds.h"
+#include "convex/pair_obstacle.h"
 #include "decomposition/intersection_mass.h"
 #include "decomposition/overlap_samples.h"
+#include "exact/convex_pair_mass.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
-#include "narrowphase/convex_pair_mass.h"
-#include "narrowphase/pair_bounds.h"
 
 namespace fcl_prob {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cobstacle/cut_polytope.h"
+#include "convex/cut_polytope.h"
 #include "decomposition/surface_piece.h"
 #include "geometry/closed_mesh.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "cobstacle/cut_polytope.h"
+#include "convex/cut_polytope.h"
 #include "decomposition/lowered_polytope.h"
 #include "decomposition/mesh_box.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 #include "fcl_prob/exceptions.h"
-#include "gaussian/directed_edges.h"
+#include "geometry/directed_edges.h"
 #include "geometry/ray_crossing.h"
 #include "geometry/surface_caps.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "gaussian/directed_edges.h"
 #include "geometry/box_tree.h"
+#include "geometry/directed_edges.h"
 #include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::detail {

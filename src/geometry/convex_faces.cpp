@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fcl_prob/exceptions.h"
-#include "gaussian/directed_edges.h"
+#include "geometry/directed_edges.h"
 #include "geometry/length_limit.h"
 
 namespace fcl_prob::detail {

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "base/random_words.h"
+#include "bounds/convex_bound.h"
 #include "fcl_prob/monte_carlo.h"
-#include "narrowphase/convex_pair_mass.h"
 #include "query/prepared_geometry.h"
 
 namespace fcl_prob::detail {

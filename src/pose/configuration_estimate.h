@@ -3,9 +3,9 @@
 // P = E[P(contact | configuration)], estimated over random configurations.
 #pragma once
 
-#include "montecarlo/placement_collider.h"
 #include "pose/configuration_mixture.h"
 #include "pose/pair_source.h"
+#include "sampling/placement_collider.h"
 
 namespace fcl_prob::detail {
 

@@ -8,11 +8,11 @@
 #include "base/refuse_band.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/pose_probability.h"
-#include "montecarlo/placement_monte_carlo.h"
-#include "montecarlo/sample_loop.h"
 #include "pose/configuration_estimate.h"
 #include "pose/configuration_mixture.h"
 #include "pose/sampled_configuration.h"
+#include "sampling/placement_monte_carlo.h"
+#include "sampling/sample_loop.h"
 
 namespace fcl_prob {
 namespace {

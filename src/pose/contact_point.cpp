@@ -13,7 +13,7 @@
 #include "fcl_prob/whitening.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
-#include "pieces/whitened_tree.h"
+#include "scene/whitened_tree.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -9,10 +9,10 @@
 #include "base/constants.h"
 #include "base/random_words.h"
 #include "fcl_prob/monte_carlo.h"
-#include "montecarlo/sample_loop.h"
 #include "pose/boundary_search.h"
 #include "pose/drawn_along.h"
 #include "pose/sampled_configuration.h"
+#include "sampling/sample_loop.h"
 
 namespace fcl_prob::detail {
 namespace {

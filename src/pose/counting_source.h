@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/budget.h"
-#include "montecarlo/placement_collider.h"
 #include "pose/boundary_model.h"
 #include "pose/configuration_mixture.h"
 #include "pose/estimate_source.h"
+#include "sampling/placement_collider.h"
 
 namespace fcl_prob::detail {
 

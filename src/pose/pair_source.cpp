@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/random_words.h"
-#include "montecarlo/sample_loop.h"
+#include "sampling/sample_loop.h"
 
 namespace fcl_prob::detail {
 namespace {

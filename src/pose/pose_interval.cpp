@@ -10,11 +10,11 @@
 #include "base/constants.h"
 #include "base/decision.h"
 #include "fcl_prob/exceptions.h"
-#include "partition/partition.h"
 #include "pose/contact_point.h"
 #include "pose/mass_tree.h"
 #include "pose/rotation_cell.h"
 #include "pose/turning_contacts.h"
+#include "query/partition.h"
 #include "query/single_collide.h"
 
 namespace fcl_prob::detail {

@@ -8,10 +8,10 @@
 
 #include "base/constants.h"
 #include "base/quantiles.h"
+#include "cells/ball_truncation.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/normal_density.h"
 #include "gaussian/rotation.h"
-#include "partition/ball_truncation.h"
 #include "pose/cell_moments.h"
 
 namespace fcl_prob::detail {

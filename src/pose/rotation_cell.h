@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fcl_prob/bounds.h"
-#include "pieces/point_motion.h"
 #include "pose/moved_frame.h"
+#include "scene/point_motion.h"
 
 namespace fcl_prob::detail {
 

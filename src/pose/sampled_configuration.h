@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fcl_prob/random_configuration.h"
-#include "montecarlo/placement_collider.h"
+#include "sampling/placement_collider.h"
 
 namespace fcl_prob::detail {
 

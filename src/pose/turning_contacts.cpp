@@ -11,7 +11,7 @@
 #include "base/random_words.h"
 #include "base/symmetric_axes.h"
 #include "gaussian/normal_density.h"
-#include "partition/line_crossings.h"
+#include "lines/line_crossings.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "fcl_prob/gaussian_displacement.h"
-#include "pieces/partition_object.h"
+#include "scene/partition_object.h"
 
 namespace fcl_prob::detail {
 

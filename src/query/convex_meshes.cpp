@@ -7,8 +7,8 @@
 #include "base/budget.h"
 #include "base/constants.h"
 #include "base/decision.h"
+#include "exact/solid_pair.h"
 #include "geometry/geometry_kind.h"
-#include "narrowphase/solid_pair.h"
 #include "query/exact_mass.h"
 
 namespace fcl_prob::detail {

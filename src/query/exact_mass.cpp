@@ -8,11 +8,12 @@
 #include "base/agreed_bounds.h"
 #include "base/budget.h"
 #include "base/decision.h"
-#include "narrowphase/convex_pair_mass.h"
-#include "narrowphase/curved_pair.h"
-#include "narrowphase/ellipsoid_polytope.h"
-#include "narrowphase/polytope_pair.h"
-#include "narrowphase/rounded_pair.h"
+#include "bounds/convex_bound.h"
+#include "exact/convex_pair_mass.h"
+#include "exact/curved_pair.h"
+#include "exact/ellipsoid_polytope.h"
+#include "exact/polytope_pair.h"
+#include "exact/rounded_pair.h"
 
 namespace fcl_prob::detail {
 namespace {

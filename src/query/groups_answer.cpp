@@ -9,10 +9,11 @@
 
 #include "base/budget.h"
 #include "base/ladder.h"
+#include "base/wings.h"
+#include "bounds/convex_bound.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/parts_bounds.h"
-#include "narrowphase/convex_pair_mass.h"
-#include "partition/partition.h"
+#include "query/partition.h"
 #include "query/single_collide.h"
 #include "query/union_of_pairs.h"
 
@@ -58,7 +59,7 @@ class GroupsAnswer {
   // Sums and products of masses of pairs of convex members, which may decide a threshold.
   bool mayBeDecidedByPairs() const;
   bool decideByPairs();
-  bool isForUnionOfPairs() const { return areWhole(); }
+  bool isForUnionOfPairs() const { return kHasExact && areWhole(); }
   bool unitePairs();
 
   bool always() const { return true; }
@@ -124,38 +125,46 @@ bool GroupsAnswer::sumRootBounds() {
 
 // Convex members in one place, as the parts of a mesh are.
 bool GroupsAnswer::mayBeDecidedByPairs() const {
-  return areWhole() && request_.threshold && !request_.gradient && !isEstimate() &&
-         groups_.a.areConvex() && groups_.b.areConvex() && groups_.a.onePlace(groups_.poses_a) &&
-         groups_.b.onePlace(groups_.poses_b);
+  return kHasDecomposition && areWhole() && request_.threshold && !request_.gradient &&
+         !isEstimate() && groups_.a.areConvex() && groups_.b.areConvex() &&
+         groups_.a.onePlace(groups_.poses_a) && groups_.b.onePlace(groups_.poses_b);
 }
 
 bool GroupsAnswer::decideByPairs() {
-  Budget limits(request_);
-  PartsBoundsRequest parts;
-  parts.negligible = kNegligible * *request_.threshold;
-  parts.interruption = limits.interruption();
-  const PartsBoundsResult bounds =
-      partsBounds(groups_.a.bodies(), *groups_.a.onePlace(groups_.poses_a), groups_.b.bodies(),
-                  *groups_.b.onePlace(groups_.poses_b), displacement_, parts);
-  if (!isDecided(decisionOf(bounds.any, request_))) return false;
-  result_.method = ProbabilityMethod::interval;
-  result_.lower = bounds.any.lower;
-  result_.upper = bounds.any.upper;
-  result_.status = ProbabilityStatus::decided;
-  result_.decision = decisionOf(bounds.any, request_);
-  result_.statistics.leaf_pairs = bounds.pairs;
-  result_.plan = {groups_.note,
-                  "decided by Hunter's and Bonferroni's bounds on pairs of convex members"};
-  return true;
+  if constexpr (!kHasDecomposition) {
+    return false;
+  } else {
+    Budget limits(request_);
+    PartsBoundsRequest parts;
+    parts.negligible = kNegligible * *request_.threshold;
+    parts.interruption = limits.interruption();
+    const PartsBoundsResult bounds =
+        partsBounds(groups_.a.bodies(), *groups_.a.onePlace(groups_.poses_a), groups_.b.bodies(),
+                    *groups_.b.onePlace(groups_.poses_b), displacement_, parts);
+    if (!isDecided(decisionOf(bounds.any, request_))) return false;
+    result_.method = ProbabilityMethod::interval;
+    result_.lower = bounds.any.lower;
+    result_.upper = bounds.any.upper;
+    result_.status = ProbabilityStatus::decided;
+    result_.decision = decisionOf(bounds.any, request_);
+    result_.statistics.leaf_pairs = bounds.pairs;
+    result_.plan = {groups_.note,
+                    "decided by Hunter's and Bonferroni's bounds on pairs of convex members"};
+    return true;
+  }
 }
 
 bool GroupsAnswer::unitePairs() {
-  auto sum =
-      unionOfPairs(groups_.a, groups_.poses_a, groups_.b, groups_.poses_b, displacement_, request_);
-  if (!sum) return false;
-  result_ = std::move(*sum);
-  result_.plan.insert(result_.plan.begin(), groups_.note);
-  return true;
+  if constexpr (kHasExact) {
+    auto sum = unionOfPairs(groups_.a, groups_.poses_a, groups_.b, groups_.poses_b, displacement_,
+                            request_);
+    if (!sum) return false;
+    result_ = std::move(*sum);
+    result_.plan.insert(result_.plan.begin(), groups_.note);
+    return true;
+  } else {
+    return false;
+  }
 }
 
 bool GroupsAnswer::divide() {

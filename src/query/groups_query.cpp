@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "base/until_no.h"
+#include "cells/without_contact.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
-#include "partition/motion_flux.h"
-#include "partition/partition.h"
-#include "partition/without_contact.h"
+#include "lines/motion_flux.h"
 #include "query/groups_answer.h"
 #include "query/mixture_query.h"
 #include "query/motion_gradient.h"
 #include "query/octree_cells.h"
+#include "query/partition.h"
 #include "query/tolerance_note.h"
 #include "query/truncation.h"
 

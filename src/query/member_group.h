@@ -14,8 +14,8 @@
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
-#include "partition/partition.h"
 #include "query/bounded_part.h"
+#include "query/partition.h"
 #include "query/prepared_geometry.h"
 
 namespace fcl_prob::detail {

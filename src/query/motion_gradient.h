@@ -7,7 +7,7 @@
 
 #include "base/budget.h"
 #include "fcl_prob/motion_gradient.h"
-#include "partition/motion_flux.h"
+#include "lines/motion_flux.h"
 
 namespace fcl_prob::detail {
 

@@ -9,11 +9,12 @@
 
 #include "base/budget.h"
 #include "base/ladder.h"
+#include "base/wings.h"
 #include "fcl_prob/monte_carlo.h"
-#include "partition/partition.h"
 #include "query/convex_meshes.h"
 #include "query/exact_mass.h"
 #include "query/octree_cells.h"
+#include "query/partition.h"
 #include "query/single_collide.h"
 #include "query/unbounded_pair.h"
 
@@ -83,6 +84,11 @@ class PairAnswer {
   bool divideFurther();
 
   bool take(ProbabilityResult result);
+
+  // Of convex shapes, and of meshes that are convex: nothing in a build without them.
+  std::optional<ProbabilityResult> massOf(const ProbabilityRequest& request) const;
+  std::optional<ProbabilityResult> meshesMass(const ProbabilityRequest& request) const;
+
   ProbabilityResult partition(std::size_t most_cells);
   std::size_t firstCells() const;
   void narrowBy(const ProbabilityResult& exact);
@@ -118,6 +124,22 @@ bool PairAnswer::take(ProbabilityResult result) {
   return true;
 }
 
+std::optional<ProbabilityResult> PairAnswer::massOf(const ProbabilityRequest& request) const {
+  if constexpr (kHasExact) {
+    return exactMass(pair_, displacement_, request);
+  } else {
+    return std::nullopt;
+  }
+}
+
+std::optional<ProbabilityResult> PairAnswer::meshesMass(const ProbabilityRequest& request) const {
+  if constexpr (kHasExact) {
+    return convexMeshesMass(pair_, displacement_, request);
+  } else {
+    return std::nullopt;
+  }
+}
+
 bool PairAnswer::collideOnce() {
   return take(singleCollide(pair_.a.geometry(), pair_.pose_a, pair_.b.geometry(), pair_.pose_b,
                             displacement_.mean(), request_));
@@ -133,19 +155,22 @@ bool PairAnswer::boundFromAbove() {
 }
 
 bool PairAnswer::sample() {
-  const auto& [a, pose_a, b, pose_b] = pair_;
-  if (plan_.route == Route::monte_carlo) {
-    return take(
-        monteCarloProbability(a.geometry(), pose_a, b.geometry(), pose_b, displacement_, request_));
+  if constexpr (kHasSampling) {
+    const auto& [a, pose_a, b, pose_b] = pair_;
+    return take(plan_.route == Route::monte_carlo
+                    ? monteCarloProbability(a.geometry(), pose_a, b.geometry(), pose_b,
+                                            displacement_, request_)
+                    : rareEventProbability(a.geometry(), pose_a, b.geometry(), pose_b,
+                                           displacement_, request_));
+  } else {
+    return false;
   }
-  return take(
-      rareEventProbability(a.geometry(), pose_a, b.geometry(), pose_b, displacement_, request_));
 }
 
 /// Of two convex meshes neither tree nor cells are needed, unless rounding leaves more of their
 /// mass open than the tolerance.
 bool PairAnswer::answerByConvexMeshes() {
-  auto result = convexMeshesMass(pair_, displacement_, request_);
+  auto result = meshesMass(request_);
   if (!result || !isAnswered(result->status)) return false;
   result->method = ProbabilityMethod::exact;
   if (request_.method == ProbabilityMethod::estimate) {
@@ -167,7 +192,7 @@ bool PairAnswer::boundByRoots() {
 /// Cells are asked where the exact mass leaves more open than the tolerance, or has no gradient; of
 /// deviations far below the size it may tell nothing, and cells all.
 bool PairAnswer::answerByExactMass() {
-  take(exactMass(pair_, displacement_, request_));
+  take(*massOf(request_));
   const bool unresolved = result_.status == ProbabilityStatus::resolution_limit ||
                           (isAnswered(result_.status) && request_.gradient && !result_.gradient);
   const bool is_unknown = *result_.upper - *result_.lower >= 1.0;
@@ -234,8 +259,8 @@ void PairAnswer::narrowBy(const ProbabilityResult& exact) {
 bool PairAnswer::closeByExactMass() {
   const ProbabilityRequest rest = budget_.withTimeLeft();
   std::optional<ProbabilityResult> exact;
-  if (plan_.exact_if_unresolved) exact = exactMass(pair_, displacement_, rest);
-  if (plan_.convex_meshes_if_unresolved) exact = convexMeshesMass(pair_, displacement_, rest);
+  if (plan_.exact_if_unresolved) exact = massOf(rest);
+  if (plan_.convex_meshes_if_unresolved) exact = meshesMass(rest);
   if (!exact || !isAnswered(exact->status)) return false;
   if (request_.gradient && !exact->gradient) return false;
   narrowBy(*exact);

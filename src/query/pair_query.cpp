@@ -3,11 +3,12 @@
 #include "query/pair_query.h"
 
 #include "base/until_no.h"
+#include "base/wings.h"
+#include "cells/without_contact.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
-#include "partition/without_contact.h"
 #include "query/mixture_query.h"
 #include "query/pair_answer.h"
 #include "query/tolerance_note.h"
@@ -35,10 +36,14 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
                                     const ProbabilityRequest& request) const {
   validateRequest(request);
   if (request.method == ProbabilityMethod::monte_carlo) {
-    ProbabilityResult result = monteCarloProbability(a_->geometry(), pose_a, b_->geometry(), pose_b,
-                                                     displacement, request);
-    noteTolerance(request, result);
-    return result;
+    if constexpr (!kHasSampling) {
+      refuseWithout(toString(request.method), "SAMPLING");
+    } else {
+      ProbabilityResult result = monteCarloProbability(a_->geometry(), pose_a, b_->geometry(),
+                                                       pose_b, displacement, request);
+      noteTolerance(request, result);
+      return result;
+    }
   }
   return mixtureProbability(
       displacement, ofOneCall(request),

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "cobstacle/convex_set.h"
-#include "cobstacle/support_shape.h"
+#include "convex/convex_set.h"
+#include "convex/support_shape.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
 

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "cobstacle/convex_solid.h"
+#include "convex/convex_solid.h"
 #include "fcl_prob/convex_body.h"
 #include "fcl_prob/probability_request.h"
 #include "geometry/closed_mesh.h"
-#include "pieces/piece_tree.h"
+#include "scene/piece_tree.h"
 
 namespace fcl_prob::detail {
 

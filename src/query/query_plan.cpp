@@ -2,12 +2,13 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/query_plan.h"
 
+#include "base/wings.h"
+#include "exact/curved_pair.h"
+#include "exact/ellipsoid_polytope.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/geometry_kind.h"
 #include "geometry/mesh_visitor.h"
-#include "narrowphase/curved_pair.h"
-#include "narrowphase/ellipsoid_polytope.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -30,7 +31,7 @@ struct QueryPair {
 
   /// Convex shapes whose C-obstacle has an exact mass under a displacement.
   bool haveExactMass(const GaussianDisplacement& displacement) const {
-    if (!areConvex()) return false;
+    if (!kHasExact || !areConvex()) return false;
     return displacement.rank() < 3 || areFlat() || areSpheres() || areRounded() || areCurved();
   }
 
@@ -43,11 +44,19 @@ struct QueryPair {
 
   /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
   bool areCurved() const {
-    return areConvex() && !areRounded() &&
-           (isCurvedPair(a.rootBody(), b.rootBody()) || areEllipsoidAndFlat());
+    if constexpr (kHasExact) {
+      return areConvex() && !areRounded() &&
+             (isCurvedPair(a.rootBody(), b.rootBody()) || areEllipsoidAndFlat());
+    } else {
+      return false;
+    }
   }
   bool areEllipsoidAndFlat() const {
-    return areConvex() && isEllipsoidWithPolytope(a.rootBody(), b.rootBody());
+    if constexpr (kHasExact) {
+      return areConvex() && isEllipsoidWithPolytope(a.rootBody(), b.rootBody());
+    } else {
+      return false;
+    }
   }
 
   /// Their C-obstacle is a polytope swept by a ball.
@@ -124,7 +133,8 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   plan.try_root_bound =
       pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
   plan.exact_if_unresolved = pair.haveExactMass(displacement);
-  plan.convex_meshes_if_unresolved = pair.anyMesh() && pair.areFlatOrMeshes() && !request.gradient;
+  plan.convex_meshes_if_unresolved =
+      kHasExact && pair.anyMesh() && pair.areFlatOrMeshes() && !request.gradient;
   plan.convex_meshes_first = plan.convex_meshes_if_unresolved &&
                              request.method != ProbabilityMethod::interval &&
                              pair.triangleCount() <= kFewTriangles;
@@ -163,6 +173,7 @@ std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& d
 
 QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacement,
                     const ProbabilityRequest& request) {
+  if (!kHasExact) refuseWithout(toString(request.method), "EXACT");
   if (pair.anyUnbounded()) return planUnbounded();
   if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
   QueryPlan plan{Route::exact_mass, false, {}};
@@ -203,10 +214,16 @@ QueryPlan planConvexBound(const QueryPair& pair, const ProbabilityRequest& reque
 }
 
 QueryPlan planGeneralPcd(const QueryPair& pair, const ProbabilityRequest& request) {
+  if (!kHasPaper) refuseWithout(toString(request.method), "PAPER");
   if (request.contact == ContactMeaning::solid && pair.anyMesh()) {
     refuse(request.method, pair, "it bounds contact of surfaces, not of solids");
   }
   return {Route::general_pcd, false, {}};
+}
+
+QueryPlan planSampling(Route route, const ProbabilityRequest& request) {
+  if (!kHasSampling) refuseWithout(toString(request.method), "SAMPLING");
+  return {route, false, {}};
 }
 
 }  // namespace
@@ -228,9 +245,9 @@ QueryPlan planQuery(const PreparedGeometry& a, const PreparedGeometry& b,
     case ProbabilityMethod::general_pcd_min:
       return planGeneralPcd(pair, request);
     case ProbabilityMethod::monte_carlo:
-      return {Route::monte_carlo, false, {}};
+      return planSampling(Route::monte_carlo, request);
     case ProbabilityMethod::rare_event:
-      return {Route::rare_event, false, {}};
+      return planSampling(Route::rare_event, request);
     case ProbabilityMethod::exact:
       return planExact(pair, displacement, request);
   }

@@ -3,7 +3,7 @@
 #include "query/single_collide.h"
 
 #include "base/decision.h"
-#include "montecarlo/displaced_collider.h"
+#include "geometry/displaced_collider.h"
 
 namespace fcl_prob::detail {
 

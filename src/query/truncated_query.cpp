@@ -5,14 +5,14 @@
 
 #include "base/budget.h"
 #include "base/until_no.h"
+#include "cells/without_contact.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
-#include "partition/partition.h"
-#include "partition/without_contact.h"
 #include "query/bounded_part.h"
 #include "query/octree_cells.h"
 #include "query/pair_query.h"
+#include "query/partition.h"
 #include "query/tolerance_note.h"
 #include "query/truncation.h"
 

@@ -3,10 +3,10 @@
 // Displacements that stay within an ellipsoid: P(contact and inside) / P(inside).
 #pragma once
 
+#include "cells/ball_truncation.h"
 #include "fcl_prob/mixture.h"
 #include "fcl_prob/probability_request.h"
 #include "fcl_prob/probability_result.h"
-#include "partition/ball_truncation.h"
 
 namespace fcl_prob::detail {
 

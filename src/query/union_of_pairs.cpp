@@ -10,11 +10,12 @@
 #include "base/budget.h"
 #include "base/constants.h"
 #include "base/decision.h"
-#include "cobstacle/pair_obstacle.h"
+#include "bounds/convex_bound.h"
+#include "convex/pair_obstacle.h"
+#include "exact/convex_pair_mass.h"
+#include "exact/polytope_pair.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/normal_mass.h"
-#include "narrowphase/convex_pair_mass.h"
-#include "narrowphase/polytope_pair.h"
 
 namespace fcl_prob::detail {
 namespace {

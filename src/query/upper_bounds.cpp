@@ -6,8 +6,9 @@
 
 #include "base/budget.h"
 #include "base/decision.h"
+#include "base/wings.h"
+#include "bounds/convex_bound.h"
 #include "fcl_prob/general_pcd.h"
-#include "narrowphase/convex_pair_mass.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -45,25 +46,29 @@ ProbabilityResult convexBound(const PlacedPair& pair, const GaussianDisplacement
 
 ProbabilityResult generalPcdBound(const PlacedPair& pair, const GaussianDisplacement& displacement,
                                   const ProbabilityRequest& request) {
-  Budget limits(request);
-  GeneralPcdRequest pcd_request;
-  pcd_request.interruption = limits.interruption();
-  pcd_request.confidence = request.confidence;
-  pcd_request.max_pairs = request.max_cells;
-  pcd_request.variant = request.method == ProbabilityMethod::general_pcd_min
-                            ? GeneralPcdVariant::minimum
-                            : GeneralPcdVariant::sum;
-  const GeneralPcdResult pcd = generalPcd(pair.a.geometry(), pair.pose_a, pair.b.geometry(),
-                                          pair.pose_b, displacement, pcd_request);
-  ProbabilityResult result = boundedBy(pcd.upper, request);
-  if (!pcd.complete) result.status = limits.stopped().value_or(ProbabilityStatus::cell_limit);
-  result.statistics.raw_sum = pcd.raw_sum;
-  result.statistics.pairs_tested = pcd.pairs_bounded;
-  result.statistics.leaf_pairs = pcd.leaf_pairs;
-  result.plan.push_back(
-      "GeneralPCD over the bounding volume trees: " + std::to_string(pcd.pairs_bounded) +
-      " pairs bounded, their sum clipped at 1");
-  return result;
+  if constexpr (!kHasPaper) {
+    refuseWithout(toString(request.method), "PAPER");
+  } else {
+    Budget limits(request);
+    GeneralPcdRequest pcd_request;
+    pcd_request.interruption = limits.interruption();
+    pcd_request.confidence = request.confidence;
+    pcd_request.max_pairs = request.max_cells;
+    pcd_request.variant = request.method == ProbabilityMethod::general_pcd_min
+                              ? GeneralPcdVariant::minimum
+                              : GeneralPcdVariant::sum;
+    const GeneralPcdResult pcd = generalPcd(pair.a.geometry(), pair.pose_a, pair.b.geometry(),
+                                            pair.pose_b, displacement, pcd_request);
+    ProbabilityResult result = boundedBy(pcd.upper, request);
+    if (!pcd.complete) result.status = limits.stopped().value_or(ProbabilityStatus::cell_limit);
+    result.statistics.raw_sum = pcd.raw_sum;
+    result.statistics.pairs_tested = pcd.pairs_bounded;
+    result.statistics.leaf_pairs = pcd.leaf_pairs;
+    result.plan.push_back(
+        "GeneralPCD over the bounding volume trees: " + std::to_string(pcd.pairs_bounded) +
+        " pairs bounded, their sum clipped at 1");
+    return result;
+  }
 }
 
 std::optional<ProbabilityResult> intervalOfRootBound(const PlacedPair& pair,

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "bounds/convex_bound.h"
 #include "geometry/occupancy.h"
-#include "narrowphase/convex_pair_mass.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {

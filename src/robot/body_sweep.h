@@ -4,8 +4,8 @@
 #pragma once
 
 #include "fcl_prob/robot.h"
-#include "pieces/point_motion.h"
 #include "robot/body_balls.h"
+#include "scene/point_motion.h"
 
 namespace fcl_prob::detail {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "partition/line_bets.h"
-#include "partition/probable_partition.h"
+#include "cells/probable_partition.h"
+#include "lines/line_bets.h"
 #include "robot/probable_answer.h"
 
 namespace fcl_prob::detail {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "partition/partition.h"
 #include "query/bounded_part.h"
 #include "query/mixture_query.h"
+#include "query/partition.h"
 #include "query/single_collide.h"
 #include "query/tolerance_note.h"
 #include "query/truncation.h"

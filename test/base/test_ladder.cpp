@@ -82,10 +82,10 @@ TEST_CASE("rungs that do not serve or are left out are not climbed, those that a
   Toy toy(request);
   toy.small = false;
   CHECK(climbed(toy) == Names{"look"});
-  rungsLeftOut() = {"look", "stare"};
+  leftOut() = {"look", "stare"};
   Toy without(request);
   const Names names = climbed(without);
-  rungsLeftOut().clear();
+  leftOut().clear();
   CHECK(names == Names{"glance", "stare"});
 }
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "cobstacle/convex_mesh.h"
-#include "cobstacle/minkowski_sum.h"
+#include "convex/convex_mesh.h"
+#include "convex/minkowski_sum.h"
 #include "fcl_prob/convex_pcd.h"
 
 namespace {

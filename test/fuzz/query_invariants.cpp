@@ -10,8 +10,8 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "fuzz_tally.h"
+#include "geometry/displaced_collider.h"
 #include "geometry/mesh_visitor.h"
-#include "montecarlo/displaced_collider.h"
 
 using namespace fcl_prob;
 

@@ -13,7 +13,7 @@
 
 #include "catch.h"
 #include "fcl_prob/group.h"
-#include "montecarlo/displaced_collider.h"
+#include "geometry/displaced_collider.h"
 #include "random_bodies.h"
 
 namespace {

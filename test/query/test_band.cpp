@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-#include "../gaussian/high_precision.h"
+#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/broadphase.h"
 #include "fcl_prob/fcl_prob.h"

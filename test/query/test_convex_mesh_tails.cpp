@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 // Boxes as closed meshes, of any size in deviations and so far that P is no double, against
 // products of Φ in 50 digits.
-#include "../gaussian/high_precision.h"
+#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
 #include "mesh_shapes.h"

@@ -3,7 +3,7 @@
 // Convex meshes by the masses of polytopes, against products of Φ in 50 digits and the partition.
 #include "query/convex_meshes.h"
 
-#include "../gaussian/high_precision.h"
+#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
 #include "mesh_shapes.h"

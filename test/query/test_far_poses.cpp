@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../gaussian/high_precision.h"
+#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/convex_pcd.h"

@@ -16,8 +16,8 @@
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
+#include "geometry/displaced_collider.h"
 #include "mesh_shapes.h"
-#include "montecarlo/displaced_collider.h"
 #include "poses.h"
 #include "shapes.h"
 

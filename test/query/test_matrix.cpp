@@ -11,12 +11,12 @@
 #include <cmath>
 
 #include "catch.h"
-#include "cobstacle/support_shape.h"
+#include "convex/support_shape.h"
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/monte_carlo.h"
+#include "geometry/displaced_collider.h"
 #include "geometry/geometry_kind.h"
 #include "mesh_shapes.h"
-#include "montecarlo/displaced_collider.h"
 #include "shapes.h"
 
 using namespace fcl_prob;

@@ -15,8 +15,8 @@
 #include "fcl_prob/batch.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
+#include "geometry/displaced_collider.h"
 #include "mesh_shapes.h"
-#include "montecarlo/displaced_collider.h"
 #include "poses.h"
 #include "shapes.h"
 

@@ -9,7 +9,7 @@
 
 #include "geometry/closed_mesh.h"
 #include "mesh_shapes.h"
-#include "partition/partition.h"
+#include "query/partition.h"
 #include "random_bodies.h"
 
 namespace fcl_prob_test {

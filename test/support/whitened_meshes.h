@@ -4,8 +4,8 @@
 #pragma once
 
 #include "mesh_shapes.h"
-#include "pieces/piece_tree.h"
-#include "pieces/whitened_tree.h"
+#include "scene/piece_tree.h"
+#include "scene/whitened_tree.h"
 
 namespace fcl_prob_test {
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <thread>
 
-#include "carving/cell_carver.h"
 #include "catch.h"
-#include "partition/cell_divider.h"
-#include "partition/point_tester.h"
+#include "cells/cell_carver.h"
+#include "cells/cell_divider.h"
+#include "cells/point_tester.h"
 #include "random_bodies.h"
 #include "whitened_meshes.h"
 

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// fcl_prob bench ladder: which rungs answer, and what queries take without each of them.
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "base/left_out.h"
+#include "base/stopwatch.h"
+#include "bench/bench_scenes.h"
+#include "bench/bench_task.h"
+#include "bench/benchmark.h"
+#include "bench/mixed_scenes.h"
+#include "cli/number_text.h"
+#include "fcl_prob/collision_probability.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+constexpr double kMostSecondsOfRung = 2.0;
+constexpr std::size_t kMixedScenes = 30;
+constexpr std::size_t kShapePairs = 40;
+
+using Ask = std::function<ProbabilityResult(const ProbabilityRequest&)>;
+
+/// A scene, which is prepared anew for everything that is left out.
+struct LadderScene {
+  std::string group;
+  std::function<Ask()> prepare;
+};
+
+/// Rungs, and mechanisms inside of them, by the names that detail::isLeftOut() is asked for.
+const std::vector<std::string>& whatCanBeLeftOut() {
+  static const std::vector<std::string> all{
+      "root volumes",      "convex meshes",   "exact mass",     "lines",        "columns",
+      "polytope cells",    "first boxes",     "nearly convex",  "patches",      "layers of nodes",
+      "quadrics",          "possible parts",  "crossing parts", "quick tester", "long double",
+      "curved boundaries", "rounded sections"};
+  return all;
+}
+
+const std::vector<BenchTask>& ladderTasks() {
+  static const std::vector<BenchTask> all{intervalTask(0.1), intervalTask(0.01), estimateTask(0.01),
+                                          decisionTask(0.05)};
+  return all;
+}
+
+Ask askOf(std::shared_ptr<PreparedScene> scene) {
+  return [scene = std::move(scene)](const ProbabilityRequest& request) {
+    return scene->query(request).result;
+  };
+}
+
+void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes) {
+  for (const BenchScene& scene : benchScenes()) {
+    scenes.push_back({"statues", [scene, folder = options.models_folder] {
+                        return askOf(std::make_shared<PreparedScene>(
+                            prepareBenchScene(scene, folder, "obbrss")));
+                      }});
+  }
+  MixedScenes mixed(options.models_folder, options.seed);
+  const std::size_t count = options.quick ? kMixedScenes / 5 : kMixedScenes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::shared_ptr<PreparedScene> drawn = mixed.next().scene;
+    scenes.push_back({"mixed", [drawn] {
+                        return askOf(std::make_shared<PreparedScene>(
+                            drawn->objectA(), drawn->objectB(), drawn->displacement(), "obbrss"));
+                      }});
+  }
+}
+
+Geometry randomShape(Uniforms& random) {
+  const auto size = [&random] { return random.logBetween(0.02, 0.2); };
+  switch (random.below(6)) {
+    case 0:
+      return std::make_shared<fcl::Boxd>(size(), size(), size());
+    case 1:
+      return std::make_shared<fcl::Sphered>(size());
+    case 2:
+      return std::make_shared<fcl::Capsuled>(size(), size());
+    case 3:
+      return std::make_shared<fcl::Cylinderd>(size(), size());
+    case 4:
+      return std::make_shared<fcl::Coned>(size(), size());
+    default:
+      return std::make_shared<fcl::Ellipsoidd>(size(), size(), size());
+  }
+}
+
+// Half of them move in a plane only.
+void addShapePairs(const BenchOptions& options, std::vector<LadderScene>& scenes) {
+  Uniforms random(options.seed);
+  for (std::size_t i = 0; i < kShapePairs; ++i) {
+    const auto query = std::make_shared<PreparedQuery>(randomShape(random), randomShape(random));
+    fcl::Transform3d pose = fcl::Transform3d::Identity();
+    pose.linear() = random.rotation();
+    pose.translation() = random.rotation().col(0) * random.between(0.05, 0.3);
+    Eigen::Vector3d deviations;
+    for (int k = 0; k < 3; ++k) deviations[k] = random.logBetween(0.01, 0.05);
+    if (i % 2 == 1) deviations[2] = 0.0;
+    const auto error = GaussianDisplacement::fromStandardDeviations(
+        deviations, Eigen::Quaterniond(random.rotation()));
+    scenes.push_back({"shapes", [query, pose, error] {
+                        return Ask([=](const ProbabilityRequest& request) {
+                          ProbabilityResult result;
+                          query->collisionProbability(fcl::Transform3d::Identity(), pose, error,
+                                                      request, result);
+                          return result;
+                        });
+                      }});
+  }
+}
+
+struct Asked {
+  ProbabilityResult result;
+  double seconds;
+};
+
+/// All tasks of a scene, the quicker of two runs; the first query prepares it.
+std::vector<Asked> askAll(const LadderScene& scene, const BenchOptions& options) {
+  const Ask ask = scene.prepare();
+  std::vector<Asked> all;
+  for (const BenchTask& task : ladderTasks()) {
+    ProbabilityRequest request = task.request(options.seed);
+    if (scene.group == "shapes" && request.method == ProbabilityMethod::interval) {
+      request.method = ProbabilityMethod::automatic;
+    }
+    request.time_limit = kMostSecondsOfRung;
+    Asked best{{}, 1e300};
+    const bool is_first = all.empty();
+    for (int run = is_first ? -1 : 0; run < 2; ++run) {
+      const detail::Stopwatch watch;
+      ProbabilityResult result = ask(request);
+      const double seconds = watch.seconds();
+      if (run >= 0 && seconds < best.seconds) best = {std::move(result), seconds};
+    }
+    all.push_back(std::move(best));
+  }
+  return all;
+}
+
+/// How often a rung was climbed and answered, and how long that took.
+struct Climbed {
+  std::size_t times = 0;
+  std::size_t answered = 0;
+  double seconds = 0.0;
+};
+
+class LadderTable {
+ public:
+  explicit LadderTable(const BenchOptions& options) : options_(options) {}
+
+  void add(const LadderScene& scene) {
+    const std::vector<Asked> with = askAll(scene, options_);
+    for (const Asked& asked : with) {
+      ++queries_;
+      seconds_ += asked.seconds;
+      for (const RungRecord& rung : asked.result.statistics.rungs) {
+        Climbed& climbed = rungs_[rung.name];
+        climbed.times += rung.times;
+        climbed.answered += rung.answered;
+        climbed.seconds += rung.seconds;
+      }
+    }
+    for (const std::string& name : whatCanBeLeftOut()) {
+      if (name.find(options_.only) == std::string::npos) continue;
+      detail::leftOut() = {name};
+      const std::vector<Asked> without = askAll(scene, options_);
+      detail::leftOut().clear();
+      for (std::size_t i = 0; i < with.size(); ++i) {
+        const double ratio = without[i].seconds / with[i].seconds;
+        ratios_[{name, scene.group}].push_back(ratio);
+        ratios_[{name, "all"}].push_back(ratio);
+        records_.push_back({{"left_out", name},
+                            {"group", scene.group},
+                            {"task", ladderTasks()[i].name},
+                            {"with_ms", 1e3 * with[i].seconds},
+                            {"without_ms", 1e3 * without[i].seconds},
+                            {"with", toString(with[i].result.status)},
+                            {"without", toString(without[i].result.status)}});
+      }
+    }
+  }
+
+  BenchReport take() {
+    BenchReport report;
+    report.title = "What each rung, and each mechanism, is worth";
+    report.table = TextTable({"left out", "climbed", "answered", "share of time", "all: median",
+                              "mean", "90 %", "statues: mean", "mixed: mean", "shapes: mean"});
+    for (const auto& [name, climbed] : rungs_) {
+      const auto listed = std::find(whatCanBeLeftOut().begin(), whatCanBeLeftOut().end(), name);
+      if (listed == whatCanBeLeftOut().end()) addRow(name, climbed, report);
+    }
+    for (const std::string& name : whatCanBeLeftOut()) addRow(name, rungs_[name], report);
+    report.notes =
+        "Intervals of 10 % and 1 %, estimates of 1 % and decisions at 5 %, 2 s at most, one "
+        "thread:\n"
+        "the six statues, 30 mixed pairs (see `bench mixed`), 40 pairs of convex shapes. "
+        "`climbed`,\n"
+        "`answered`: of " +
+        std::to_string(queries_) +
+        " queries. The other columns: the time without it over that with it,\n"
+        "`mean` is geometric.\n";
+    report.records = std::move(records_);
+    return report;
+  }
+
+ private:
+  void addRow(const std::string& name, const Climbed& climbed, BenchReport& report) const {
+    const auto over = [&](const std::string& group, const auto& value) {
+      const auto found = ratios_.find({name, group});
+      return found == ratios_.end() ? std::string() : numberText(value(found->second), 3);
+    };
+    const auto mean = [](const std::vector<double>& ratios) {
+      double sum = 0.0;
+      for (const double ratio : ratios) sum += std::log(ratio);
+      return std::exp(sum / static_cast<double>(ratios.size()));
+    };
+    const auto at = [](double share) {
+      return [share](const std::vector<double>& ratios) { return quantile(ratios, share); };
+    };
+    const bool is_rung = climbed.times > 0;
+    report.table.add({name, is_rung ? std::to_string(climbed.times) : "",
+                      is_rung ? std::to_string(climbed.answered) : "",
+                      is_rung ? numberText(climbed.seconds / seconds_, 2) : "",
+                      over("all", at(0.5)), over("all", mean), over("all", at(0.9)),
+                      over("statues", mean), over("mixed", mean), over("shapes", mean)});
+  }
+
+  const BenchOptions& options_;
+  std::size_t queries_ = 0;
+  double seconds_ = 0.0;
+  std::map<std::string, Climbed> rungs_;
+  std::map<std::pair<std::string, std::string>, std::vector<double>> ratios_;
+  nlohmann::ordered_json records_ = nlohmann::ordered_json::array();
+};
+
+}  // namespace
+
+BenchReport benchLadder(const BenchOptions& options, const BenchProgress& progress) {
+  std::vector<LadderScene> scenes;
+  addMeshScenes(options, scenes);
+  addShapePairs(options, scenes);
+  LadderTable table(options);
+  bool goes_on = true;
+  for (std::size_t i = 0; i < scenes.size() && goes_on; ++i) {
+    const double done = static_cast<double>(i) / static_cast<double>(scenes.size());
+    goes_on = progress(done, scenes[i].group + " " + std::to_string(i + 1));
+    if (goes_on) table.add(scenes[i]);
+  }
+  BenchReport report = table.take();
+  report.interrupted = !goes_on;
+  return report;
+}
+
+}  // namespace fcl_prob::cli

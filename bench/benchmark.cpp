@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "bench/benchmark.h"
+
+#ifdef FCL_PROB_HAS_CLOUD
+#include "bench/bench_clouds.h"
+#endif
+
+namespace fcl_prob::cli {
+
+std::string BenchReport::markdown() const {
+  const std::string warning = interrupted ? "**Interrupted: rows are missing.**\n\n" : "";
+  return "## " + title + "\n\n" + warning + table.markdown() + "\n" + notes;
+}
+
+std::string BenchReport::csv() const {
+  return table.csv() + (interrupted ? "# interrupted: rows are missing\n" : "");
+}
+
+std::string BenchReport::json() const {
+  nlohmann::ordered_json all = records;
+  if (interrupted) all.push_back({{"interrupted", true}});
+  return all.dump(1) + "\n";
+}
+
+const std::vector<Benchmark>& benchmarks() {
+  static const std::vector<Benchmark> all{
+      {"certified",
+       "intervals, estimates and decisions against 10,000 calls of fcl::collide, on six scenes",
+       true, benchCertified},
+#ifdef FCL_PROB_HAS_CLOUD
+      {"cloud", "rendered depth images of three objects against the objects themselves", true,
+       benchCloud},
+#endif
+      {"conjunction", "2,170 encounters of satellites against what their file says of them", true,
+       benchConjunction},
+      {"ladder", "which rungs answer, and what queries take without each of them", true,
+       benchLadder},
+      {"mixed", "100 random pairs of meshes of any kind and size beside their errors", true,
+       benchMixed},
+      {"parts", "100 random scenes of robot parts and a can beside a human arm", true, benchParts},
+      {"pose", "errors of rotations and joints against counting, on six scenes and an arm", true,
+       benchPose},
+      {"pose_pairs",
+       "random ellipsoids and superquadrics with errors of the pose, as others draw them", false,
+       benchPosePairs},
+      {"robot", "decisions for robot links beside an arm, groups of links, batches of poses", true,
+       benchRobot},
+      {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,
+       benchStability},
+      {"table1", "the paper's Table I on six scenes, with all of its rows and more", true,
+       benchTable1},
+#ifdef FCL_PROB_HAS_PLANNING
+      {"states", "decisions on the states of a Fetch arm along paths past a human arm", true,
+       benchStates},
+      {"table2",
+       "the paper's Table II: paths of an arm in two scenes, by eleven ways to test a state", true,
+       benchTable2, true},
+#endif
+  };
+  return all;
+}
+
+}  // namespace fcl_prob::cli

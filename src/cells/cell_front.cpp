@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "cells/cell_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/constants.h"
+#include "mass/cell_layer.h"
+#include "scene/band_margin.h"
+#include "scene/turning_margin.h"
+
+namespace fcl_prob::detail {
+
+namespace {
+
+// The constants below only steer; no bound depends on them. Measured on the benchmark scenes.
+
+// A pair can cover (a slice of) a cell only if its C-obstacle is about as large as the cell: pairs
+// are probed for that, most central first, until kProbes pairs a cell were leaves or too small.
+constexpr double kProbeRatio = 0.5;
+constexpr int kProbes = 60;
+
+// Beyond the probes a pair is refined only if its C-obstacle is this many times larger than the
+// cell along every axis.
+constexpr double kRefineRatio = 6.0;
+
+// The least share of a cell's width that is worth cutting off, in a last look at all pairs and as
+// soon as a pair is met.
+constexpr double kLeastShare = 0.05;
+constexpr double kImmediateShare = 0.3;
+constexpr int kCarveRounds = 8;
+
+// Narrowing a part a second time, from what is left of it, cuts off a little more.
+constexpr int kClipRounds = 2;
+
+// The planes of a curved obstacle closer than this count as one.
+constexpr double kThinLayer = 1e-11;
+
+constexpr NodeBox kEverywhere{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
+
+// Depth of a plane that covers nothing of the cell.
+constexpr double kDeepest = 0.9999;
+
+// The order of a heap whose first is the lowest.
+constexpr auto kHigher = [](const auto& x, const auto& y) { return x.rank > y.rank; };
+
+}  // namespace
+
+CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
+                     ProbabilityStatistics& statistics)
+    : pair_(pair),
+      obstacles_(obstacles),
+      statistics_(statistics),
+      kernels_(slabKernels()),
+      cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
+      box_{},
+      layers_(pair),
+      support_a_(pair.a),
+      support_b_(pair.b) {}
+
+void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) {
+  cell_ = cell;
+  box_ = cell.box();
+  covered_.clear();
+  cutting_.clear();
+  least_depth_ = kDeepest;
+  coarse_.clear();
+  stack_.clear();
+  gather(inherited);
+  statistics_.peak_front = std::max(statistics_.peak_front, coarse_.size() + cutting_.size());
+  if (!cell_.empty() && !covered_.empty()) classifyAgain();
+}
+
+// The leaves first: for what they cover, the other pairs need not be refined.
+void CellFront::gather(const std::vector<FrontPair>& inherited) {
+  for (const FrontPair& pair : inherited) {
+    if (!pair.hasObstacle()) continue;
+    ++statistics_.pairs_tested;
+    if (meetsCell(obstacleBoxOf(pair))) gatherLeaf(pair);
+    if (cell_.empty()) return;
+  }
+  carve();
+  if (cell_.empty()) return;
+  const std::size_t before = cutting_.size();
+  gatherCoarse(inherited);
+  if (!cell_.empty() && cutting_.size() > before) carve();
+}
+
+void CellFront::gatherLeaf(const FrontPair& pair) {
+  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
+  const CellCut cut = kernels_.classify(slabs, box_);
+  if (cut.relation == CellRelation::outside) return;
+  if (slabs.outer_only) return gatherSection(pair);
+  if (cut.relation == CellRelation::inside) return coverAll();
+  CuttingPair cutting{pair, cut.sides, cut.covered, {}, 0.0, 2.0};
+  if (cut.sides == 1) setPlane(cut, cutting);
+  cutting_.push_back(cutting);
+}
+
+// The one plane of a pair's slabs that cuts the cell.
+void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
+  const SlabArrays& slabs = obstacles_.slabs(cutting.pair.obstacle);
+  const double sign = cut.upper_side ? -1.0 : 1.0;
+  const int i = cut.slab;
+  cutting.inner.m = sign * Eigen::Vector3d(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
+  cutting.outer = cut.upper_side ? -slabs.hi()[i] : slabs.lo()[i];
+  cutting.inner.s = cutting.outer + slabs.margin()[i];
+  cutting.layered = (pair_.band || pair_.turning) && slabs.margin()[i] > kThinLayer;
+  cutting.depth = depthOf(cutting.inner);
+}
+
+CuttingPair CellFront::addHalfSpace(const CellPlane& plane) {
+  const FrontPair pair = FrontPair::ofHalfSpace(obstacles_.addHalfSpace(plane.m, plane.s));
+  CuttingPair cutting{pair, 1, 0.0, {}, 0.0, 2.0};
+  setPlane({CellRelation::cut, 1, 0, false, 0.0}, cutting);
+  return cutting;
+}
+
+void CellFront::coverAll() {
+  covered_.push_back(cell_);
+  cell_.hi = cell_.lo;
+  cell_.settled = true;
+}
+
+// A pair that is known by its support function. It is examined closely only if it reaches out of
+// what the best plane so far covers.
+void CellFront::gatherSection(const FrontPair& pair) {
+  const SupportObstacle obstacle = obstacles_.support(pair.nodes);
+  CuttingPair cutting{pair, 2, -1.0, {}, 0.0, 2.0};
+  if (least_depth_ < kDeepest && lowestOf(obstacle, pair.nodes, deepest_.m) >= deepest_.s) {
+    cutting_.push_back(cutting);
+    return;
+  }
+  const CellSection section = sectionOfPair(obstacle, pair.nodes);
+  if (section.relation == CellSection::Relation::outside) return;
+  if (section.relation == CellSection::Relation::inside) return coverAll();
+  if (!section.normal.isZero(0.0)) {
+    cutting.sides = 1;
+    cutting.inner = {-section.normal, -section.inner};
+    cutting.outer = -section.outer;
+    cutting.layered = section.outer - section.inner > 64 * obstacle.error() + kThinLayer;
+    // Even a plane that covers nothing bounds what may collide.
+    cutting.depth = std::min(depthOf(cutting.inner), kDeepest);
+    noteDepth(cutting);
+  }
+  cutting_.push_back(cutting);
+}
+
+// Within a band V loses, from inside, what is closer to its boundary than that: what a plane leaves
+// of a cell that is larger by the band all around is known to be V's.
+CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const {
+  if (!pair_.band) return sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  Eigen::Vector3d grown;
+  for (int k = 0; k < 3; ++k) grown[k] = pair_.band->inwardAlong(Eigen::Vector3d::Unit(k));
+  const int rank = grown.isZero(0.0) ? cell_.rank : 3;
+  CellSection section = sectionOf(obstacle, cell_.lo - grown, cell_.hi + grown, rank);
+  if (section.normal.isZero(0.0)) return section;
+  const Eigen::Vector3d& n = section.normal;
+  const double rounding = 64 * kEpsilon * (kReach + std::fabs(section.outer));
+  section.outer += pair_.band->outwardAlong(n, nodes) + rounding;
+  section.inner -= pair_.band->inwardAlong(n) + rounding;
+  section.relation =
+      n.dot(cell_.lowestCorner(n)) - rounding > section.outer     ? CellSection::Relation::outside
+      : n.dot(cell_.lowestCorner(-n)) + rounding <= section.inner ? CellSection::Relation::inside
+                                                                  : CellSection::Relation::cut;
+  return section;
+}
+
+// Lower bound of m·y over the C-obstacle of two pieces.
+double CellFront::lowestOf(const SupportObstacle& obstacle, NodePair nodes,
+                           const Eigen::Vector3d& m) const {
+  return -obstacle.supportUpper(-m) - outwardOfBand(m, nodes);
+}
+
+double CellFront::outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const {
+  return pair_.band ? pair_.band->outwardAlong(m, nodes) : 0.0;
+}
+
+double CellFront::depthOf(const CellPlane& plane) const {
+  double middle = 0.0;
+  double radius = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    middle += plane.m[k] * box_.center[k];
+    radius += std::fabs(plane.m[k]) * box_.half[k];
+  }
+  return (plane.s - middle) / std::max(radius, 1e-300);
+}
+
+void CellFront::noteDepth(const CuttingPair& cutting) {
+  if (cutting.depth >= least_depth_) return;
+  least_depth_ = cutting.depth;
+  deepest_ = cutting.inner;
+}
+
+void CellFront::rankPair(double rank, const BoxedPair& boxed) {
+  ordered_.push_back({rank, static_cast<int>(boxed_.size())});
+  boxed_.push_back(boxed);
+}
+
+// Most central pairs first: they are the most likely to cover the cell.
+void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
+  ordered_.clear();
+  boxed_.clear();
+  for (const FrontPair& pair : inherited) {
+    if (pair.hasObstacle()) continue;
+    ++statistics_.pairs_tested;
+    const NodeBox box = obstacleBox(pair_, pair.nodes);
+    if (!meetsCell(box)) continue;
+    if (largerThanCell(pair, box, kProbeRatio)) {
+      rankPair(eccentricity(box), {obstacles_.frontPair(pair.nodes), box});
+    } else {
+      coarse_.push_back(pair);
+    }
+  }
+  std::sort(ordered_.begin(), ordered_.end(),
+            [](const Ranked& x, const Ranked& y) { return x.rank < y.rank; });
+  int probes = kProbes;
+  for (const Ranked& ranked : ordered_) {
+    refine(boxed_[ranked.place], probes);
+    if (cell_.empty()) return;
+  }
+}
+
+void CellFront::refine(const BoxedPair& coarse, int& probes) {
+  stack_.push_back(coarse);
+  while (!stack_.empty()) {
+    const BoxedPair boxed = stack_.back();
+    const FrontPair& pair = boxed.pair;
+    stack_.pop_back();
+    ++statistics_.pairs_tested;
+    if (!meetsCell(boxed.box)) continue;
+    if (pair.hasObstacle()) {
+      --probes;
+      const std::size_t before = cutting_.size();
+      gatherLeaf(pair);
+      if (cutting_.size() > before && cutting_.back().covered > kImmediateShare) {
+        carveBy(pair, kImmediateShare);
+      }
+      if (cell_.empty()) return;
+    } else if (largerThanCell(boxed.pair, boxed.box, probes > 0 ? kProbeRatio : kRefineRatio)) {
+      expand(boxed);
+    } else {
+      --probes;
+      coarse_.push_back(pair);
+    }
+  }
+}
+
+// Pushes the more central child last.
+void CellFront::expand(const BoxedPair& boxed) {
+  const std::array<NodePair, 2> children = childrenOf(pair_, boxed.pair.nodes);
+  std::array<NodeBox, 2> boxes{obstacleBox(pair_, children[0]), obstacleBox(pair_, children[1])};
+  const int last = eccentricity(boxes[0]) < eccentricity(boxes[1]) ? 0 : 1;
+  for (const int i : {1 - last, last}) {
+    if (!meetsCell(boxes[i]) || !meetsLayer(children[i])) continue;
+    stack_.push_back({obstacles_.frontPair(children[i]), boxes[i]});
+  }
+}
+
+// Settles slices of the cell that a cutting pair covers, largest first.
+void CellFront::carve() {
+  for (int round = 0; round < kCarveRounds; ++round) {
+    CellSlice best{-1, false, 0.0};
+    double share = kLeastShare;
+    // What a pair may cover was computed for the cell as it was; a smaller cell may be covered
+    // better, so that from the second round on the filter is a guess.
+    for (const CuttingPair& cutting : cutting_) {
+      if (cutting.covered <= (round == 0 ? share : 0.5 * share)) continue;
+      const CellSlice slice = kernels_.coveredSlice(obstacles_.slabs(cutting.pair.obstacle), box_);
+      if (slice.axis < 0 || slice.axis >= cell_.rank) continue;
+      if (slice.width > share * 2 * box_.half[slice.axis]) {
+        share = slice.width / (2 * box_.half[slice.axis]);
+        best = slice;
+      }
+    }
+    if (best.axis < 0) return;
+    cover(best);
+    if (cell_.empty()) return;
+  }
+}
+
+bool CellFront::carveBy(const FrontPair& pair, double least_share) {
+  const CellSlice slice = kernels_.coveredSlice(obstacles_.slabs(pair.obstacle), box_);
+  if (slice.axis < 0 || slice.axis >= cell_.rank) return false;
+  if (slice.width <= least_share * 2 * box_.half[slice.axis]) return false;
+  cover(slice);
+  return true;
+}
+
+void CellFront::cover(const CellSlice& covered) {
+  Cell slice = cell_;
+  const int k = covered.axis;
+  if (covered.at_lower_end) {
+    cell_.lo[k] = std::min(slice.hi[k], slice.lo[k] + covered.width);
+    slice.hi[k] = cell_.lo[k];
+  } else {
+    cell_.hi[k] = std::max(slice.lo[k], slice.hi[k] - covered.width);
+    slice.lo[k] = cell_.hi[k];
+  }
+  covered_.push_back(slice);
+  box_ = cell_.box();
+}
+
+void CellFront::classifyAgain() {
+  previous_.swap(cutting_);
+  cutting_.clear();
+  least_depth_ = kDeepest;
+  for (const CuttingPair& cutting : previous_) {
+    if (meetsCell(obstacleBoxOf(cutting.pair))) gatherLeaf(cutting.pair);
+    if (cell_.empty()) return;
+  }
+}
+
+NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
+  if (pair.isHalfSpace()) return kEverywhere;
+  return obstacleBox(pair_, pair.nodes);
+}
+
+bool CellFront::meetsCell(const NodeBox& box) const {
+  return !isClearOf(box, cell_.lo.data(), cell_.hi.data());
+}
+
+bool CellFront::meetsCell(const NodeLayer& layer) const {
+  double middle = 0.0;
+  double radius = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    middle += layer.n[k] * box_.center[k];
+    radius += std::fabs(layer.n[k]) * box_.half[k];
+  }
+  return !(middle + radius < layer.lo || middle - radius > layer.hi);
+}
+
+// Whether the layer of two nodes, if they have one, meets the cell.
+bool CellFront::meetsLayer(NodePair nodes) {
+  const std::optional<NodeLayer> layer = layers_.of(nodes);
+  return !layer || meetsCell(*layer);
+}
+
+// How far the middle of the cell is from that of the C-obstacle's box.
+double CellFront::eccentricity(const NodeBox& box) const {
+  double off = 0.0;
+  for (int k = 0; k < cell_.rank; ++k) {
+    off += std::fabs(0.5 * (box.lo[k] + box.hi[k]) - box_.center[k]);
+  }
+  return off;
+}
+
+// What a band adds to the box may collide, but does not for certain.
+bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const {
+  for (int k = 0; k < cell_.rank; ++k) {
+    double own = box.hi[k] - box.lo[k];
+    if (pair_.band) own -= 2.0 * outwardOfBand(Eigen::Vector3d::Unit(k), pair.nodes);
+    if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
+  }
+  return true;
+}
+
+Eigen::Vector3d CellFront::acrossNearest(const Eigen::Vector3d& point) const {
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  double nearest = kInfinity;
+  for (const CuttingPair& cutting : cutting_) {
+    if (cutting.pair.isHalfSpace()) continue;
+    const CellPlane plane = farthestPlane(slabs(cutting.pair), point);
+    const double beyond = plane.s - plane.m.dot(point);
+    if (plane.m.isZero(0.0) || beyond >= nearest) continue;
+    nearest = beyond;
+    across = plane.m;
+  }
+  return across;
+}
+
+double CellFront::lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const {
+  double lowest = -1e-13;  // rounding of the sum
+  for (int k = 0; k < 3; ++k) {
+    const double lo = std::max(box.lo[k], cell_.lo[k]);
+    const double hi = std::min(box.hi[k], cell_.hi[k]);
+    lowest += m[k] * (m[k] > 0 ? lo : hi);
+  }
+  return lowest;
+}
+
+// The side of the layer that is below.
+double CellFront::lowestInLayer(const NodeLayer& layer, const NodeBox& box,
+                                const Eigen::Vector3d& m) const {
+  Eigen::Vector3d lo, hi;
+  for (int k = 0; k < 3; ++k) {
+    lo[k] = std::max(box.lo[k], cell_.lo[k]);
+    hi[k] = std::min(box.hi[k], cell_.hi[k]);
+  }
+  if (layer.n.dot(m) > 0.0) return lowestBeyond(lo, hi, m, layer.n, layer.lo);
+  return lowestBeyond(lo, hi, m, -layer.n, -layer.hi);
+}
+
+double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
+  return lowestInCell(obstacleBoxOf(pair), m);
+}
+
+double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const {
+  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
+  const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
+  if (!slabs.outer_only) return lowest;
+  return std::max(lowest, lowestOf(obstacles_.support(pair.nodes), pair.nodes, m));
+}
+
+double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
+  if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
+  const double a = support_a_.along(m, nodes.a);
+  const double b = -support_b_.along(-m, nodes.b);
+  const Eigen::Vector3d rounded =
+      pair_.turning ? Eigen::Vector3d(pair_.a.error + pair_.b.error) : slabError(pair_, nodes);
+  const double moved = pair_.turning ? pair_.turning->along(m, nodes) : outwardOfBand(m, nodes);
+  const double error =
+      4 * m.cwiseAbs().dot(rounded) + moved + 1e-15 * (std::fabs(a) + std::fabs(b));
+  return b - a - error;
+}
+
+// Lower bound of m·y over the C-obstacle of two nodes ∩ cell: as good as it gets if it is below the
+// level.
+double CellFront::lowestOfParts(const BoxedPair& boxed, const CellPlane& level) {
+  const NodePair nodes = boxed.pair.nodes;
+  double lowest = lowestInCell(boxed.box, level.m);
+  if (lowest >= level.s) return lowest;
+  if (const auto layer = layers_.of(nodes)) {
+    if (!meetsCell(*layer)) return kInfinity;
+    lowest = std::max(lowest, lowestInLayer(*layer, boxed.box, level.m));
+    if (lowest >= level.s) return lowest;
+  }
+  lowest = std::max(lowest, lowestOfVertices(nodes, level.m));
+  if (lowest >= level.s || !areLeaves(pair_, nodes) || !obstacles_.areTriangles(nodes)) {
+    return lowest;
+  }
+  const SlabArrays slabs = obstacles_.slabsOnce(nodes, once_);
+  if (kernels_.classify(slabs, box_).relation == CellRelation::outside) return kInfinity;
+  return std::max(lowest, kernels_.minimumAlong(slabs, box_, level.m.data()));
+}
+
+// Adds to the heap of pairs by how low they reach.
+void CellFront::addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below) {
+  ++statistics_.pairs_tested;
+  const BoxedPair boxed{FrontPair::ofNodes(nodes), obstacleBox(pair_, nodes)};
+  if (!meetsCell(boxed.box)) return;
+  const double lowest = lowestOfParts(boxed, level);
+  if (lowest >= level.s) {
+    below.lowest_of_others = std::min(below.lowest_of_others, lowest);
+    return;
+  }
+  rankPair(lowest, boxed);
+  std::push_heap(ordered_.begin(), ordered_.end(), kHigher);
+}
+
+void CellFront::findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
+                          int budget, PartsBelow& below) {
+  below.pairs.clear();
+  below.lowest = kInfinity;
+  below.lowest_of_others = kInfinity;
+  ordered_.clear();
+  boxed_.clear();
+  for (const FrontPair& pair : pairs) addBelow(pair.nodes, level, below);
+  for (; !ordered_.empty() && budget > 0; --budget) {
+    const Ranked lowest = ordered_.front();
+    const NodePair nodes = boxed_[lowest.place].pair.nodes;
+    if (lowest.rank >= known || areLeaves(pair_, nodes)) break;
+    std::pop_heap(ordered_.begin(), ordered_.end(), kHigher);
+    ordered_.pop_back();
+    for (const NodePair child : childrenOf(pair_, nodes)) addBelow(child, level, below);
+  }
+  if (!ordered_.empty()) below.lowest = ordered_.front().rank;
+  for (const Ranked& ranked : ordered_) below.pairs.push_back(boxed_[ranked.place].pair);
+}
+
+bool CellFront::clip(const FrontPair& pair, Cell& part) const {
+  const NodeBox box = obstacleBoxOf(pair);
+  for (int k = 0; k < cell_.rank; ++k) {
+    part.lo[k] = std::max(box.lo[k], part.lo[k]);
+    part.hi[k] = std::min(box.hi[k], part.hi[k]);
+  }
+  if (!pair.hasObstacle()) return !part.empty();
+  for (int round = 0; round < kClipRounds && !part.empty(); ++round) {
+    double lo[3] = {part.lo[0], part.lo[1], part.lo[2]};
+    double hi[3] = {part.hi[0], part.hi[1], part.hi[2]};
+    kernels_.contract(obstacles_.slabs(pair.obstacle), part.box(), lo, hi);
+    for (int k = 0; k < cell_.rank; ++k) {
+      part.lo[k] = lo[k];
+      part.hi[k] = hi[k];
+    }
+  }
+  return !part.empty();
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The pairs of pieces that may meet one cell, refined as far as the cell needs.
+#pragma once
+
+#include <vector>
+
+#include "cells/open_cell.h"
+#include "convex/cell_section.h"
+#include "fcl_prob/probability_result.h"
+#include "scene/node_layers.h"
+#include "scene/node_support.h"
+#include "scene/obstacle_table.h"
+
+namespace fcl_prob::detail {
+
+/// A pair of leaves whose C-obstacle meets the cell without covering it.
+struct CuttingPair {
+  FrontPair pair;
+  int sides;        ///< planes of the obstacle over which the cell sticks out
+  double covered;   ///< no slice with a larger share of the cell's width is within the obstacle
+  CellPlane inner;  ///< for sides == 1: {m·y >= s} of the cell is within the obstacle
+  double outer;     ///< for sides == 1: the obstacle lies in {m·y >= outer}
+  double depth;  ///< for sides == 1: signed distance of the plane from the cell's middle, -1 to 1
+  bool layered = false;  ///< dividing the cell brings the planes closer to each other
+};
+
+/// Works on one cell at a time: sorts its pairs, and cuts off the slices of it that a pair covers.
+class CellFront {
+ public:
+  CellFront(const WhitenedPair& pair, ObstacleTable& obstacles, ProbabilityStatistics& statistics);
+
+  /// Takes up a cell with the front inherited from its parent. Afterwards cell() is what remains of
+  /// it, covered() the slices that certainly collide, cutting() and coarse() its own front.
+  void take(const Cell& cell, const std::vector<FrontPair>& inherited);
+
+  const Cell& cell() const { return cell_; }
+  const CellBox& box() const { return box_; }
+  const std::vector<Cell>& covered() const { return covered_; }
+  const std::vector<CuttingPair>& cutting() const { return cutting_; }
+
+  /// Pairs with an inner node: too large to say anything of the cell but that they may meet it.
+  const std::vector<FrontPair>& coarse() const { return coarse_; }
+
+  /// Signed distance of a plane from the cell's middle: -1 covers all, 1 nothing.
+  double depthOf(const CellPlane& plane) const;
+
+  /// Takes the part of the cell in a half-space as known to collide.
+  CuttingPair addHalfSpace(const CellPlane& plane);
+
+  const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
+
+  /// The inward normal of the plane beyond which a point is, of the cutting pair that is nearest to
+  /// it; 0 if there is none.
+  Eigen::Vector3d acrossNearest(const Eigen::Vector3d& point) const;
+
+  /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
+  double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const;
+
+  /// The same from the slabs of a pair of leaves.
+  double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
+
+  /// Lower bound of m·y over the C-obstacle of two nodes of meshes, in the cell or not, from their
+  /// vertices. Calls with the same m share their work until another m is used.
+  double lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m);
+
+  /// What reaches below a level, in pairs as large as they came or smaller.
+  struct PartsBelow {
+    std::vector<FrontPair> pairs;
+    double lowest;            ///< of them, or a bound that is at least as low
+    double lowest_of_others;  ///< of those that do not reach below the level
+  };
+
+  /// How low coarse pairs reach within the cell. The lowest one is opened until that is known, no
+  /// pair reaches below `known`, or `budget` nodes were opened: what lies higher stays as it is.
+  void findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
+                 int budget, PartsBelow& below);
+
+  /// Shrinks a part of the cell to a box around what the pair's C-obstacle has of it; false if that
+  /// is nothing.
+  bool clip(const FrontPair& pair, Cell& part) const;
+
+ private:
+  struct BoxedPair {
+    FrontPair pair;
+    NodeBox box;  ///< of its C-obstacle
+  };
+  /// One of `boxed_`, to be sorted: several times smaller.
+  struct Ranked {
+    double rank;
+    int place;
+  };
+
+  void gather(const std::vector<FrontPair>& inherited);
+  void gatherLeaf(const FrontPair& pair);
+  void gatherSection(const FrontPair& pair);
+  CellSection sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const;
+  double lowestOf(const SupportObstacle& obstacle, NodePair nodes, const Eigen::Vector3d& m) const;
+  double outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const;
+  void setPlane(const CellCut& cut, CuttingPair& cutting) const;
+  void coverAll();
+  void noteDepth(const CuttingPair& cutting);
+  void gatherCoarse(const std::vector<FrontPair>& inherited);
+  void refine(const BoxedPair& coarse, int& probes);
+  void expand(const BoxedPair& pair);
+  void carve();
+  bool carveBy(const FrontPair& pair, double least_share);
+  void cover(const CellSlice& slice);
+  void classifyAgain();
+  NodeBox obstacleBoxOf(const FrontPair& pair) const;
+  bool meetsCell(const NodeBox& box) const;
+  bool meetsCell(const NodeLayer& layer) const;
+  bool meetsLayer(NodePair nodes);
+  double eccentricity(const NodeBox& box) const;
+  bool largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const;
+  double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
+  double lowestInLayer(const NodeLayer& layer, const NodeBox& box, const Eigen::Vector3d& m) const;
+  void rankPair(double rank, const BoxedPair& boxed);
+  double lowestOfParts(const BoxedPair& boxed, const CellPlane& level);
+  void addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below);
+
+  const WhitenedPair& pair_;
+  ObstacleTable& obstacles_;
+  ProbabilityStatistics& statistics_;
+  const SlabKernels& kernels_;
+
+  Cell cell_;
+  CellBox box_;
+  std::vector<Cell> covered_;
+  std::vector<CuttingPair> cutting_;
+  double least_depth_ = 1.0;  ///< among the pairs with sections
+  CellPlane deepest_;         ///< inner plane of the cutting pair of least depth
+  std::vector<FrontPair> coarse_;
+  NodeLayers layers_;
+  NodeSupport support_a_;  ///< along m
+  NodeSupport support_b_;  ///< along -m
+  std::vector<BoxedPair> stack_;
+  std::vector<CuttingPair> previous_;
+  std::vector<BoxedPair> boxed_;
+  std::vector<Ranked> ordered_;
+  TriangleSlabsData once_;
+};
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "exact/convex_pair_mass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/agreed_bounds.h"
+#include "base/left_out.h"
+#include "bounds/pair_bounds.h"
+#include "convex/pair_obstacle.h"
+#include "convex/resolved_part.h"
+#include "exact/curved_pair.h"
+#include "exact/ellipsoid_polytope.h"
+#include "exact/layered_mass.h"
+#include "exact/near_section.h"
+#include "exact/polytope_section.h"
+#include "exact/rounded_pair.h"
+#include "exact/section_mass.h"
+#include "fcl_prob/normal_mass.h"
+#include "mass/ball_pair.h"
+
+namespace fcl_prob {
+namespace {
+
+/// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
+constexpr double kSandwichWidth = 1e-4;
+
+/// What is aimed at by sections of flat displacements: of polytopes, of those swept by a ball, of
+/// others.
+constexpr double kRoundingWidth = 1e-10, kRoundedWidth = 1e-9, kCurvedWidth = 1e-6;
+
+/// How many of them: before quadrature over the boundary is tried, and instead of polytopes.
+constexpr int kFewSections = 10, kMostSections = 40;
+
+/// What is below cannot be told from nothing.
+constexpr double kNothing = 1e-300;
+
+/// Of the bodies' size: how far apart sections are that tell of each other. Far more than positions
+/// are rounded by, and little beside a body.
+constexpr double kStepOfSection = 0x1p-16;
+
+/// Mass of a ball, of which the closed form for equal deviations is the fastest.
+Bounds ballMass(const detail::PrincipalBall& ball, const GaussianDisplacement& displacement) {
+  if (!displacement.isotropic()) return detail::principalBallMass(ball, displacement);
+  // The deviations differ by rounding only; the mass falls with the distance and grows with the
+  // radius.
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const auto [x, y, z] = ball.centre;
+  const auto distance = static_cast<double>(std::hypot(x, y, z));
+  const auto radius = static_cast<double>(ball.radius);
+  const double far = distance * (1.0 + kRounding) + 2.0 * ball.centre_error;
+  const double near = distance * (1.0 - kRounding) - 2.0 * ball.centre_error;
+  const double small = radius * (1.0 - kRounding) - ball.radius_error;
+  const double large = radius * (1.0 + kRounding) + ball.radius_error;
+  const double most = displacement.standardDeviations().maxCoeff();
+  const double least = displacement.standardDeviations().minCoeff();
+  return {normalBallMass(far / least, std::max(small, 0.0) / most).lower,
+          normalBallMass(std::max(near, 0.0) / most, large / least).upper};
+}
+
+}  // namespace
+
+Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
+                              const ConvexBody& b, const fcl::Transform3d& pose_b,
+                              const GaussianDisplacement& displacement,
+                              const Interruption& interruption, double inset) {
+  const double size = std::max(a.set().size(), b.set().size());
+  const ResolvedPart resolved = resolvedPart(displacement, size);
+  if (resolved.left_out > 0.0) {
+    const auto mass_of = [&](const GaussianDisplacement& of) {
+      return detail::convexPairMass(a, pose_a, b, pose_b, of, interruption, inset);
+    };
+    const Bounds mass = massNear(mass_of, resolved, kStepOfSection * size);
+    if (mass.width() < 1.0) return mass;
+  }
+  const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
+  const PairObstacle obstacle(frame, a.set(), b.set());
+  PairBounds pair;
+  Bounds known{0.0, 1.0};
+  const bool is_flat = isFlat(displacement);
+  const auto narrowByLayers = [&](double width, int most_sections) {
+    const auto section = [&](const fcl::Transform3d& at_a, const fcl::Transform3d& at_b,
+                             const GaussianDisplacement& across) {
+      return detail::convexPairMass(a, at_a, b, at_b, across, interruption, inset);
+    };
+    known = agreed(
+        known, layeredMass(a, pose_a, b, pose_b, displacement, section, {width, most_sections}));
+    return known.width() <= width * known.upper;
+  };
+  if (obstacle->isPolytope()) {
+    if (frame.rank == 1 || frame.rank == 2) {
+      known = polytopeSectionMass(a, pose_a, b, pose_b, displacement, interruption, inset);
+      if (known.width() <= std::max(kRoundingWidth * known.upper, kNothing)) return known;
+    }
+    if (is_flat) narrowByLayers(kRoundingWidth, kMostSections);
+    return agreed(known, pair.mass(*obstacle, {0.0, interruption}));
+  }
+  if (const auto ball = ballOfPair(a, pose_a, b, pose_b, displacement)) {
+    known = ballMass(*ball, displacement);
+    if (known.width() <= kSandwichWidth * known.upper) return known;
+  }
+  const double layered_width =
+      isRoundedPair(a, b) || isEllipsoidWithPolytope(a, b) ? kRoundedWidth : kCurvedWidth;
+  if (is_flat && narrowByLayers(layered_width, kFewSections)) return known;
+  if (frame.rank >= 2 && isRoundedPair(a, b) &&
+      !(frame.rank == 2 && isLeftOut("rounded sections"))) {
+    const RoundedEffort effort{false, interruption};
+    known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (frame.rank >= 2 && isEllipsoidWithPolytope(a, b)) {
+    const RoundedEffort effort{false, interruption};
+    known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, effort).mass);
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (frame.rank == 3 && isCurvedPair(a, b)) {
+    known = agreed(known, curvedPairMass(a, pose_a, b, pose_b, displacement, interruption));
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (frame.rank < 3 && isSectionPair(a, b)) {
+    known = agreed(known, sectionMass(a, pose_a, b, pose_b, displacement, interruption));
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  if (is_flat && !isDue(interruption)) {
+    narrowByLayers(layered_width, kMostSections);
+    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+  }
+  using Faces = ConvexSetObstacle::Faces;
+  const ConvexSetObstacle outer(frame, a.set(), b.set(), Faces::outer);
+  const ConvexSetObstacle inner(frame, a.set(), b.set(), Faces::inner);
+  const MassEffort effort{kSandwichWidth, interruption};
+  return agreed(known, {pair.mass(inner, effort).lower, pair.mass(outer, effort).upper});
+}
+
+Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                      const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement) {
+  return detail::convexPairMass(a, pose_a, b, pose_b, displacement, {});
+}
+
+}  // namespace fcl_prob

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/partition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/ladder.h"
+#include "base/number_text.h"
+#include "cells/carved_partition.h"
+#include "cells/cell_estimate.h"
+#include "cells/claim_observer.h"
+#include "cells/partition_engine.h"
+#include "cells/without_contact.h"
+#include "geometry/validation.h"
+#include "lines/column_bounds.h"
+#include "lines/line_estimate.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+constexpr const char* kNoGradient =
+    "no gradient: what the mean changes where A does not move is no moment of the section";
+
+// By how many deviations rounding may move the ends of lines, of the relative tolerance: no part of
+// their errors.
+constexpr double kMostRoundingOfLines = 0.03;
+
+// Boxes seldom decide where P is as near to the threshold as this share of it, unless there are
+// many members.
+constexpr double kNearThreshold = 0.5;
+
+// A decision is left to polytope cells when it needs more boxes than these. Measured on links
+// beside an arm (`bench states`): 12, 32, 128 and 256 are slower.
+constexpr std::size_t kFirstBoxes = 64;
+
+/// One scene, one question. The rungs are in the order of kLadder, and know nothing of each other
+/// but what is certain by then.
+class PartitionQuery {
+ public:
+  PartitionQuery(const PartitionObject& a, const PartitionObject& b,
+                 const GaussianDisplacement& displacement, const ProbabilityRequest& request,
+                 const BallTruncation* ball)
+      : given_(displacement),
+        request_(request),
+        ball_(ball),
+        budget_(request),
+        known_(request),
+        scene_(a, b, displacement, request, ball != nullptr),
+        may_use_polytopes_(!ball && mayBeCarved(scene_, request)) {
+    result_.method = isEstimate() ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
+    result_.statistics.rungs.push_back({"whitening", budget_.seconds(), known_.interval(), 1, 0});
+    announceFrame();
+  }
+
+  ProbabilityResult answer();
+
+ private:
+  bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
+  bool isDecision() const { return request_.threshold.has_value(); }
+
+  void announceFrame() const {
+    if (claim_observer) claim_observer->frame(scene_.whitening(), given_);
+  }
+
+  // Polytope cells: at once for an interval, for a decision where little else helps.
+  bool isIntervalByPolytopes() const { return may_use_polytopes_ && !isDecision(); }
+  bool isNearThreshold() const { return may_use_polytopes_ && near_threshold_; }
+  bool mayUsePolytopes() const { return may_use_polytopes_; }
+  bool dividePolytopes();
+
+  // A mean over lines, where nothing but P is asked for and an object can be taken whole.
+  bool isForLines() const;
+  bool estimateByLines();
+
+  // Bounds on columns of lines, where an object can be taken whole.
+  bool isForColumns() const { return may_use_polytopes_ && isDecision(); }
+  bool boundColumns();
+
+  // Boxes: a few where polytopes come after them, else as many as it takes.
+  bool divideFirstBoxes();
+  bool always() const { return true; }
+  bool divideBoxes();
+  bool sampleBoxes();
+
+  PartitionEngine& engine();
+  std::unique_ptr<PointTester> makeTester();
+  void describeBoxes();
+
+  static const std::array<Rung<PartitionQuery>, 8> kLadder;
+
+  const GaussianDisplacement& given_;
+  const ProbabilityRequest& request_;
+  const BallTruncation* ball_;
+  Budget budget_;
+  Known known_;
+  QueryScene scene_;
+  bool may_use_polytopes_;
+  bool near_threshold_ = false;
+  std::optional<PartitionEngine> engine_;
+  std::unique_ptr<PointTester> tester_;
+  ProbabilityResult result_;
+};
+
+const std::array<Rung<PartitionQuery>, 8> PartitionQuery::kLadder{{
+    {"polytope cells", &PartitionQuery::isIntervalByPolytopes, &PartitionQuery::dividePolytopes},
+    {"lines", &PartitionQuery::isForLines, &PartitionQuery::estimateByLines},
+    {"columns", &PartitionQuery::isForColumns, &PartitionQuery::boundColumns},
+    {"polytope cells", &PartitionQuery::isNearThreshold, &PartitionQuery::dividePolytopes},
+    {"first boxes", &PartitionQuery::mayUsePolytopes, &PartitionQuery::divideFirstBoxes},
+    {"polytope cells", &PartitionQuery::mayUsePolytopes, &PartitionQuery::dividePolytopes},
+    {"boxes", &PartitionQuery::always, &PartitionQuery::divideBoxes, true},
+    {"samples of boxes", &PartitionQuery::isEstimate, &PartitionQuery::sampleBoxes, true},
+}};
+
+ProbabilityResult PartitionQuery::answer() {
+  climb(kLadder, *this, known_, result_.statistics.rungs);
+  known_.tell(result_);
+  ProbabilityStatistics& statistics = result_.statistics;
+  for (const RungRecord& rung : statistics.rungs) {
+    statistics.seconds.emplace_back(rung.name, rung.seconds);
+  }
+  return std::move(result_);
+}
+
+bool PartitionQuery::dividePolytopes() {
+  may_use_polytopes_ = false;
+  const ProbabilityMethod method = result_.method;
+  const bool reached = carve(scene_, request_, budget_, result_);
+  known_.narrow(result_);
+  if (reached) return true;
+  // What was claimed so far is over.
+  result_.method = method;
+  announceFrame();
+  return false;
+}
+
+bool PartitionQuery::isForLines() const {
+  return isEstimate() && !ball_ && !request_.gradient && !isDecision();
+}
+
+bool PartitionQuery::estimateByLines() {
+  const auto lines = WholeBodyLines::of(scene_);
+  if (!lines || !lines->isExact()) return false;
+  if (lines->rounding() > kMostRoundingOfLines * request_.relative_tolerance) return false;
+  const auto estimate = lineEstimate(*lines, request_, budget_);
+  if (!estimate) return false;
+  result_.status = estimate->status;
+  result_.estimate = estimate->value;
+  result_.standard_error = estimate->standard_error;
+  known_.narrow({0.0, estimate->upper});
+  result_.statistics.cells = estimate->columns;
+  result_.statistics.samples = estimate->lines;
+  result_.plan.push_back("mean over " + std::to_string(estimate->lines) + " parallel lines in " +
+                         std::to_string(estimate->columns) +
+                         " columns, against convex meshes taken whole; cells left out");
+  return true;
+}
+
+bool PartitionQuery::boundColumns() {
+  const auto lines = WholeBodyLines::of(scene_);
+  if (!lines) return false;
+  const double threshold = *request_.threshold;
+  const ColumnBounds columns = columnBounds(*lines, threshold, request_.max_cells);
+  known_.narrow(columns.bounds);
+  const bool is_pair = scene_.a().parts.size() == 1 && scene_.b().parts.size() == 1;
+  near_threshold_ = is_pair && std::fabs(columns.likely - threshold) < kNearThreshold * threshold;
+  if (!isDecided(known_.decision())) return false;
+  result_.status = ProbabilityStatus::decided;
+  result_.statistics.cells = columns.columns;
+  result_.plan.push_back("decided by bounds on " + std::to_string(columns.columns) +
+                         " columns, against convex meshes taken whole; cells left out");
+  return true;
+}
+
+PartitionEngine& PartitionQuery::engine() {
+  if (!engine_) {
+    const PartitionScene boxes{scene_.pair(),
+                               scene_.rank(),
+                               scene_.solids(),
+                               ball_,
+                               request_.gradient,
+                               isEstimate(),
+                               request_.relative_tolerance};
+    engine_.emplace(boxes, request_, budget_, result_.statistics);
+  }
+  return *engine_;
+}
+
+std::unique_ptr<PointTester> PartitionQuery::makeTester() {
+  return std::make_unique<PointTester>(scene_.pair(), engine().obstacles(), scene_.solids(),
+                                       WholeBodyTester::of(scene_));
+}
+
+// A limit on the first boxes is none of the request.
+bool PartitionQuery::divideFirstBoxes() {
+  const std::size_t most = std::min(request_.max_cells, kFirstBoxes);
+  result_.status = engine().run(false, most);
+  known_.narrow(engine().interval());
+  const bool is_first_limit =
+      result_.status == ProbabilityStatus::cell_limit && most < request_.max_cells;
+  if (is_first_limit) return false;
+  describeBoxes();
+  return true;
+}
+
+bool PartitionQuery::divideBoxes() {
+  if (isEstimate()) {
+    tester_ = makeTester();
+    if (tester_->isQuick()) engine().expectQuickSamples();
+  }
+  result_.status = engine().run(isEstimate(), request_.max_cells);
+  known_.narrow(engine().interval());
+  if (isEstimate()) return false;
+  if (request_.gradient && scene_.rank() == 3) {
+    fillGradient(scene_.whitening(), engine().moment(), result_);
+  }
+  describeBoxes();
+  return true;
+}
+
+bool PartitionQuery::sampleBoxes() {
+  if (tester_->isQuick()) {
+    result_.plan.push_back(
+        "samples tested against convex meshes taken whole, not triangle by triangle");
+  }
+  if (request_.threads > 1) engine().obstacles().share();
+  CellSampler sampler(
+      std::move(tester_), [this] { return makeTester(); }, request_.seed,
+      claim_observer ? 1 : request_.threads);
+  const SampledMass sampled =
+      sampleOpenCells(engine(), sampler, request_, result_.statistics, result_.status);
+  known_.narrow(engine().interval());
+  const bool with_gradient = request_.gradient && scene_.rank() == 3;
+  if (with_gradient) fillGradient(scene_.whitening(), engine().moment(), result_);
+  fillEstimate(scene_.whitening(), engine(), sampled, with_gradient, result_);
+  describeBoxes();
+  return true;
+}
+
+void PartitionQuery::describeBoxes() {
+  const int rank = scene_.rank(), of_covariance = given_.rank();
+  const auto tell = [this](std::string text) { result_.plan.push_back(std::move(text)); };
+  tell("partition of the displacement space into " + std::to_string(result_.statistics.cells) +
+       " cells, " + std::to_string(result_.statistics.leaf_pairs) + " pairs of pieces refined");
+  if (rank < of_covariance) {
+    tell("deviations below what positions are rounded by: " + std::to_string(of_covariance - rank) +
+         " axes left out of the cells, their reach added to the rounding");
+  }
+  if (of_covariance < 3) {
+    tell("covariance of rank " + std::to_string(of_covariance) + ": " +
+         std::to_string(3 - of_covariance) + " axes left out of the cells");
+  }
+  if (request_.gradient && rank < 3) tell(kNoGradient);
+  if (request_.hasBand()) {
+    tell("holds for all shapes within bands of " +
+         numberText(request_.band_a.outward + request_.band_b.outward) + " m outwards and " +
+         numberText(request_.band_a.inward + request_.band_b.inward) + " m inwards, added up");
+  }
+  if (scene_.solids()) tell("containment decided once for every free cell");
+}
+
+}  // namespace
+
+ProbabilityResult partitionProbability(const PartitionObject& a, const PartitionObject& b,
+                                       const GaussianDisplacement& displacement,
+                                       const ProbabilityRequest& request,
+                                       const BallTruncation* ball) {
+  if (a.tree->isEmpty() || b.tree->isEmpty()) {
+    return withoutContact(request, "an octree without occupied cells collides with nothing");
+  }
+  if (displacement.rank() > 0 && std::max(a.tree->radius(), b.tree->radius()) < kLeastSize) {
+    requireMeasurable(a.tree->radius(), b.tree->radius());
+  }
+  return PartitionQuery(a, b, displacement, request, ball).answer();
+}
+
+}  // namespace fcl_prob::detail
