@@ -79,7 +79,4 @@ class ConvexParts {
   std::shared_ptr<const Data> data_;
 };
 
-/// A polytope with faces for FCL, whose collide() and managers take it.
-std::shared_ptr<fcl::Convexd> convexGeometry(const ConvexPolytope& polytope);
-
 }  // namespace fcl_prob

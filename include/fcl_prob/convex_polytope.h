@@ -3,7 +3,10 @@
 // A closed convex polytope with its faces.
 #pragma once
 
+#include <fcl/geometry/shape/convex.h>
+
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 namespace fcl_prob {
@@ -29,5 +32,8 @@ struct ConvexPolytope {
 /// from several threads at once. \throws InvalidGeometry if `points` is empty or has a non-finite
 /// coordinate.
 ConvexPolytope convexHull(const std::vector<Eigen::Vector3d>& points);
+
+/// A polytope with faces for FCL, whose collide() and managers take it.
+std::shared_ptr<fcl::Convexd> convexGeometry(const ConvexPolytope& polytope);
 
 }  // namespace fcl_prob

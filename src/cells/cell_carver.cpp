@@ -49,7 +49,8 @@ double rimMass(const CarvedCell& cell, double radius) {
 
 double settledAccuracy(const ProbabilityRequest& request) {
   if (request.threshold) return kDecisionAccuracy;
-  return std::clamp(kSettledShareOfCarving * request.relative_tolerance, kBestAccuracy, kWorstAccuracy);
+  return std::clamp(kSettledShareOfCarving * request.relative_tolerance, kBestAccuracy,
+                    kWorstAccuracy);
 }
 
 bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {

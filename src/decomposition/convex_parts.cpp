@@ -122,20 +122,6 @@ bool coversSolidOf(const TriangleMesh& mesh, const Cover& cover) {
 
 }  // namespace
 
-std::shared_ptr<fcl::Convexd> convexGeometry(const ConvexPolytope& polytope) {
-  auto faces = std::make_shared<std::vector<int>>();
-  for (const ConvexPolytope::Face& face : polytope.faces) {
-    faces->push_back(static_cast<int>(face.vertices.size()));
-    faces->insert(faces->end(), face.vertices.begin(), face.vertices.end());
-  }
-  const auto vertices = std::make_shared<const std::vector<fcl::Vector3d>>(
-      polytope.vertices.begin(), polytope.vertices.end());
-  auto convex = std::make_shared<fcl::Convexd>(vertices, static_cast<int>(polytope.faces.size()),
-                                               std::move(faces));
-  convex->computeLocalAABB();
-  return convex;
-}
-
 struct ConvexParts::Data {
   std::vector<ConvexPolytope> polytopes;
   std::vector<ConvexBody> bodies;

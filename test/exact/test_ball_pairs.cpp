@@ -6,10 +6,10 @@
 
 #include <array>
 
-#include "high_precision.h"
 #include "catch.h"
 #include "disc_truth.h"
 #include "fcl_prob/convex_pcd.h"
+#include "high_precision.h"
 #include "random_bodies.h"
 
 namespace {

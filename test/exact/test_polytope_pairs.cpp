@@ -6,10 +6,10 @@
 
 #include <random>
 
-#include "high_precision.h"
 #include "catch.h"
 #include "exact/polytope_pair.h"
 #include "fcl_prob/convex_parts.h"
+#include "high_precision.h"
 
 namespace {
 

@@ -9,10 +9,10 @@
 #include <array>
 #include <vector>
 
-#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/normal_mass.h"
+#include "high_precision.h"
 #include "mass/exact_hull.h"
 #include "random_bodies.h"
 
@@ -51,7 +51,7 @@ void addGenerators(const PlacedBox& box, std::vector<Vector>& generators) {
 /// The mass of the part of the line { t σ axis } in the zonotope of all differences of two boxes,
 /// where that is widened by `by` (may be negative): an intersection of slabs.
 Digits50 trueLineMass(const PlacedBox& a, const PlacedBox& b, const GaussianDisplacement& d,
-                    double by) {
+                      double by) {
   std::vector<Vector> generators;
   addGenerators(a, generators);
   addGenerators(b, generators);
@@ -144,8 +144,8 @@ TEST_CASE("the exact mass of boxes along a line at every scale and thinness") {
     CHECK(bounds.lower <= bounds.upper);
     CHECK(holds(bounds, truth, truth));
     CHECK(Digits50(convexPcd(ConvexBody(fcl::Boxd(a.sides)), a.pose, ConvexBody(fcl::Boxd(b.sides)),
-                           b.pose, displacement)
-                     .least) >= truth * (1 - Digits50(1e-30)));
+                             b.pose, displacement)
+                       .least) >= truth * (1 - Digits50(1e-30)));
     // As tight as rounding of the sizes allows, and ties that are broken by turning by 1e-10.
     const double rounding = 1e-9 * (sizeOf(a) + sizeOf(b));
     CHECK(Digits50(bounds.upper) <= trueLineMass(a, b, displacement, rounding) + Digits50(1e-12));
@@ -176,7 +176,7 @@ struct AlignedPair {
     Digits50 product = 1;
     for (int k = 0; k < 3; ++k) {
       const Digits50 lower = Digits50(centre[k]) - half[k] - by,
-                   upper = Digits50(centre[k]) + half[k] + by;
+                     upper = Digits50(centre[k]) + half[k] + by;
       if (lower > upper) return 0;
       const double deviation = displacement.standardDeviations()[k];
       if (deviation == 0.0) {
@@ -228,10 +228,12 @@ TEST_CASE("the exact mass of boxes along the axes of motion, every rank, scale a
     CHECK(holds(bounds, pair.truth(-turned), pair.truth(turned)));
     const double rounding = 1e-11 * size;
     if (rank < 3) {
-      CHECK(Digits50(bounds.upper) <= pair.truth(rounding) * (1 + Digits50(1e-6)) + Digits50(1e-299));
+      CHECK(Digits50(bounds.upper) <=
+            pair.truth(rounding) * (1 + Digits50(1e-6)) + Digits50(1e-299));
       AlignedPair inner = pair;
       inner.half *= std::max(0.0, 1.0 - 2.0 * rounding / pair.half.minCoeff());
-      CHECK(Digits50(bounds.lower) >= inner.truth(-rounding) * (1 - Digits50(1e-6)) - Digits50(1e-299));
+      CHECK(Digits50(bounds.lower) >=
+            inner.truth(-rounding) * (1 - Digits50(1e-6)) - Digits50(1e-299));
     }
     resolved += bounds.lower > 0 && bounds.width() < 1e-5 * bounds.upper;
   }
@@ -312,7 +314,7 @@ TEST_CASE("hulls on a grid are exact however thin they are") {
       const Eigen::Vector2d& q = hull[(k + 1) % hull.size()];
       for (const Eigen::Vector2d& r : points) {
         const Digits50 turn = (Digits50(q.x()) - p.x()) * (Digits50(r.y()) - p.y()) -
-                            (Digits50(q.y()) - p.y()) * (Digits50(r.x()) - p.x());
+                              (Digits50(q.y()) - p.y()) * (Digits50(r.x()) - p.x());
         CHECK(turn >= 0);
       }
     }

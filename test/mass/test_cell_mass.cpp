@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/polytope_mass.h"
+#include "high_precision.h"
 #include "random_bodies.h"
 
 using namespace fcl_prob;

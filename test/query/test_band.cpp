@@ -11,11 +11,11 @@
 #include <cmath>
 #include <random>
 
-#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/broadphase.h"
 #include "fcl_prob/fcl_prob.h"
 #include "fcl_prob/normal_mass.h"
+#include "high_precision.h"
 #include "mesh_shapes.h"
 #include "poses.h"
 #include "shapes.h"

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the fcl_prob authors
 // Boxes as closed meshes, of any size in deviations and so far that P is no double, against
 // products of Φ in 50 digits.
-#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
+#include "high_precision.h"
 #include "mesh_shapes.h"
 #include "random_bodies.h"
 #include "shapes.h"

@@ -3,9 +3,9 @@
 // Convex meshes by the masses of polytopes, against products of Φ in 50 digits and the partition.
 #include "query/convex_meshes.h"
 
-#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
+#include "high_precision.h"
 #include "mesh_shapes.h"
 #include "random_bodies.h"
 

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "high_precision.h"
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/convex_pcd.h"
 #include "fcl_prob/group.h"
 #include "fcl_prob/mixture.h"
+#include "high_precision.h"
 #include "mesh_shapes.h"
 #include "random_bodies.h"
 
