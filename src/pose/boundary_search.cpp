@@ -24,14 +24,13 @@ constexpr double kWidest = 4.0;
 // How far along a line the boundary is looked for, and how exactly.
 constexpr double kReach = 6.0;
 constexpr double kFirstStep = 1.0;
-constexpr double kStepOfPlane = 0.3;
-constexpr double kExact = 0.08;
+constexpr double kExact = 0.04;
+
+// The first step from where a fitted model has the boundary: so many of its spreads, and no more
+// than where nothing is known.
+constexpr double kStepInSpreads = 2.0;
 
 Eigen::Index pointsOfPlane(Eigen::Index dimension) { return 2 * dimension + 6; }
-
-Eigen::Index pointsOfBend(Eigen::Index dimension) {
-  return 2 * BoundaryModel::coefficients(dimension, true);
-}
 
 constexpr double kQuestionsOfLine = 6.0;
 
@@ -41,8 +40,13 @@ double BoundarySearch::questionsOfPlane(Eigen::Index dimension) {
   return 1.5 * kLook + kQuestionsOfLine * static_cast<double>(pointsOfPlane(dimension));
 }
 
-double BoundarySearch::questionsOfBend(Eigen::Index dimension) {
-  return kQuestionsOfLine * static_cast<double>(pointsOfBend(dimension));
+Eigen::Index BoundarySearch::missingFor(int points_each) const {
+  const Eigen::Index wanted = points_each * BoundaryModel::coefficients(dimension_, true);
+  return std::max<Eigen::Index>(wanted - points_.cols(), 0);
+}
+
+double BoundarySearch::questionsOfBend(int points_each) const {
+  return kQuestionsOfLine * static_cast<double>(missingFor(points_each));
 }
 
 Eigen::VectorXd BoundarySearch::normals(std::uint64_t index) const {
@@ -131,9 +135,9 @@ std::optional<BoundaryModel> BoundarySearch::plane() {
   return turned;
 }
 
-void BoundarySearch::bend(BoundaryModel& model) {
-  const Eigen::Index missing = pointsOfBend(dimension_) - points_.cols();
-  if (missing > 0) addPoints(model, missing, kStepOfPlane);
+void BoundarySearch::bend(BoundaryModel& model, int points_each) {
+  const double step = std::clamp(kStepInSpreads * model.spread(), kExact, kFirstStep);
+  addPoints(model, missingFor(points_each), step);
   model.fit(points_, true);
 }
 

@@ -24,12 +24,13 @@ class BoundarySearch {
   /// A model by a plane; nothing where no contact is seen, or nothing else, even far out.
   std::optional<BoundaryModel> plane();
 
-  /// The same as a quadric, by more points of the boundary.
-  void bend(BoundaryModel& model);
+  /// The same as a quadric, by more points of the boundary: so many for each of its coefficients.
+  void bend(BoundaryModel& model, int points_each);
 
-  /// How many questions plane() and bend() ask, about.
+  /// How many questions plane() asks, about; and how many bend() with so many points there are
+  /// already.
   static double questionsOfPlane(Eigen::Index dimension);
-  static double questionsOfBend(Eigen::Index dimension);
+  double questionsOfBend(int points_each) const;
 
   std::size_t questions() const { return questions_; }
 
@@ -37,6 +38,7 @@ class BoundarySearch {
   Eigen::VectorXd normals(std::uint64_t index) const;
   bool asked(const Eigen::VectorXd& x);
   std::optional<BoundaryModel> halfSpace();
+  Eigen::Index missingFor(int points_each) const;
   std::optional<double> levelOn(const BoundaryModel& model, const Eigen::VectorXd& across,
                                 double guess, double step);
   void addPoints(const BoundaryModel& model, Eigen::Index count, double step);

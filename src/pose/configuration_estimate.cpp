@@ -16,7 +16,7 @@ namespace {
 // Samples of the first look; and between two looks: stakes and tolerances follow what was seen, but
 // a look costs time of its own.
 constexpr std::size_t kFirstSamples = 256;
-constexpr double kLeastGrowth = 1.25;
+constexpr double kLeastGrowth = 1.1;
 constexpr double kMostGrowth = 4.0;
 
 // So many are drawn at most where none says that the tolerance can be reached: the more, the

@@ -9,7 +9,6 @@
 #include "base/constants.h"
 #include "base/random_words.h"
 #include "fcl_prob/monte_carlo.h"
-#include "pose/boundary_search.h"
 #include "pose/drawn_along.h"
 #include "pose/sampled_configuration.h"
 #include "sampling/sample_loop.h"
@@ -35,16 +34,28 @@ constexpr double kLeastDeviation = 1e-3;
 // What the integral for the mass of a quadric may be wrong by; far more than it is.
 constexpr double kMassError = 1e-9;
 
-// Hits of the largest weight that MeanSequence adds to those seen.
+// The root of how many hits of the largest weight MeanSequence adds to those seen.
 constexpr double kUnseen = 2.0;
+
+// Shares of samples drawn as the density has them that are chosen from: in between, the number of
+// samples is nearly flat.
+constexpr double kShares[] = {0.3, 0.45, 0.6, 0.75, 0.9};
+
+// Points of the boundary for each coefficient of a quadric, at first and at most: beyond, less than
+// an eighth of its variance is noise of the points, and more of them tell little.
+constexpr int kFirstPoints = 2;
+constexpr int kMostPoints = 8;
+
+// Of the variance, what twice the points leave, about.
+constexpr double kLeftOfVariance = 0.7;
 
 // Of one sample near a model: the integral of the density times the weight over what lies between
 // where contact was expected to begin and where it does.
-double varianceNear(const BoundaryModel& model) {
+double varianceNear(const BoundaryModel& model, double as_they_are) {
   constexpr int kParts = 8;
   double sum = 0.0;
   for (const BoundaryModel::Misfit& misfit : model.misfits()) {
-    const DrawnAlong drawn(misfit.expected, model.spread());
+    const DrawnAlong drawn(misfit.expected, model.spread(), as_they_are);
     const double part = (misfit.at - misfit.expected) / kParts;
     for (int i = 0; i < kParts; ++i) {
       const double s = misfit.expected + (i + 0.5) * part;
@@ -68,8 +79,8 @@ CountingSource::CountingSource(const ConfigurationMixture& mixture, const Geomet
     offset_ += component.weight * counting.mass;
     variance += component.weight * counting.variance;
     has_models = has_models || counting.model;
+    weight_ = std::max(weight_, 1.0 / counting.as_they_are);
   }
-  weight_ = has_models ? DrawnAlong::largestWeight() : 1.0;
   samples_.emplace(Bounds{has_models ? -weight_ : 0.0, weight_}, weight_, 0.0, std::sqrt(variance));
   watch_.spendCells(questions_ / kSamplesACell);
 }
@@ -94,14 +105,44 @@ bool CountingSource::collidesAt(const RandomConfiguration& configuration,
       sampledAt(configuration, x.tail(configuration.dimension()), x.head<kTranslation>()));
 }
 
-// About how many it takes: for the variance, and for what no sample shows.
+// As MeanSequence::samplesFor() has it.
 double CountingSource::samplesWith(double variance, double weight, double probability) const {
   double tolerance = request_.toleranceAt(probability);
   if (request_.threshold) {
     tolerance = std::max(tolerance, 0.25 * std::fabs(*request_.threshold - probability));
   }
   if (!(tolerance > 0.0)) return kInfinity;
-  return std::max(variance / (tolerance * tolerance), kUnseen * weight / tolerance);
+  const double by_spread = 0.5 * variance / (tolerance * tolerance);
+  return by_spread + std::hypot(by_spread, kUnseen * weight / tolerance);
+}
+
+// The share with which the fewest samples are needed, as far as the points of the boundary tell:
+// none of the samples is asked, so that all have the same weights.
+double CountingSource::chooseShare(Counting& counting) const {
+  const double mass = counting.model->mass();
+  double fewest = kInfinity;
+  for (const double share : kShares) {
+    const double variance = varianceNear(*counting.model, share);
+    const double samples = samplesWith(variance, 1.0 / share, mass);
+    if (samples < fewest || share == kShares[0]) {
+      fewest = samples;
+      counting.as_they_are = share;
+      counting.variance = variance;
+    }
+  }
+  return fewest;
+}
+
+// More points of the boundary, while they are likely to save more calls than they take.
+void CountingSource::bend(BoundarySearch& search, Counting& counting) const {
+  for (int points = kFirstPoints; points <= kMostPoints && watch_.goOn(); points *= 2) {
+    const double mass = counting.model->mass(), weight = 1.0 / counting.as_they_are;
+    const double saved = samplesWith(counting.variance, weight, mass) -
+                         samplesWith(kLeftOfVariance * counting.variance, weight, mass);
+    if (!(saved > search.questionsOfBend(points))) break;
+    search.bend(*counting.model, points);
+    chooseShare(counting);
+  }
 }
 
 CountingSource::Counting CountingSource::prepared(const ConfigurationMixture::Component& component,
@@ -115,19 +156,14 @@ CountingSource::Counting CountingSource::prepared(const ConfigurationMixture::Co
   BoundarySearch search(question, dimension, seed);
   counting.model = search.plane();
   if (counting.model) {
-    const double weight = DrawnAlong::largestWeight();
-    double mass = counting.model->mass();
-    if (samplesWith(varianceNear(*counting.model), weight, mass) >
-        2.0 * BoundarySearch::questionsOfBend(dimension)) {
-      search.bend(*counting.model);
-      mass = counting.model->mass();
-    }
-    const double near = varianceNear(*counting.model), plain = mass * (1.0 - mass);
-    if (samplesWith(near, weight, mass) < samplesWith(plain, 1.0, mass)) {
+    chooseShare(counting);
+    bend(search, counting);
+    const double mass = counting.model->mass(), plain = mass * (1.0 - mass);
+    if (chooseShare(counting) < samplesWith(plain, 1.0, mass)) {
       counting.mass = mass;
-      counting.variance = near;
     } else {
       counting.variance = plain;
+      counting.as_they_are = 1.0;
       counting.model.reset();
     }
   }
@@ -162,7 +198,7 @@ CountingSource::Counted CountingSource::countNear(const Counting& counting,
   const BoundaryModel& model = *counting.model;
   const Eigen::VectorXd across = normals.head(normals.size() - 1);
   const double level = model.level(across);
-  const DrawnAlong drawn(level, model.spread());
+  const DrawnAlong drawn(level, model.spread(), counting.as_they_are);
   const double s = drawn.at(uniform);
   const bool hit = collidesAt(*counting.configuration, model.pointAt(across, s));
   const double wrong = (hit ? 1.0 : 0.0) - (s > level ? 1.0 : 0.0);
@@ -202,7 +238,7 @@ void CountingSource::drawTo(std::size_t count, double /*tolerance*/) {
 void CountingSource::describe(ProbabilityResult& result) const {
   result.statistics.samples += drawn_ + questions_;
   result.statistics.hits += hits_;
-  const bool has_models = weight_ != 1.0;
+  const bool has_models = weight_ > 1.0;
   result.plan.push_back(
       std::to_string(drawn_) + " calls of fcl::collide at random configurations" +
       (has_models ? ", mostly near a quadric along the boundary of contact whose mass is known (" +

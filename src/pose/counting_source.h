@@ -11,6 +11,7 @@
 
 #include "base/budget.h"
 #include "pose/boundary_model.h"
+#include "pose/boundary_search.h"
 #include "pose/configuration_mixture.h"
 #include "pose/estimate_source.h"
 #include "sampling/placement_collider.h"
@@ -44,7 +45,8 @@ class CountingSource : public EstimateSource {
     const RandomConfiguration* configuration;
     std::optional<BoundaryModel> model;  ///< nothing: contacts are counted as they are
     double mass = 0.0;                   ///< of the model
-    double variance = 0.25;  ///< of a sample, as far as it is known before there are any
+    double as_they_are = 1.0;  ///< share of the samples that is drawn as the density has them
+    double variance = 0.25;    ///< of a sample, as far as it is known before there are any
   };
 
   /// What is added to the mean by one sample.
@@ -56,6 +58,8 @@ class CountingSource : public EstimateSource {
   bool collidesAt(const RandomConfiguration& configuration, const Eigen::VectorXd& x) const;
   Counting prepared(const ConfigurationMixture::Component& component, std::uint64_t seed);
   double samplesWith(double variance, double weight, double probability) const;
+  double chooseShare(Counting& counting) const;
+  void bend(BoundarySearch& search, Counting& counting) const;
   Counted countAt(std::size_t index) const;
   Counted countNear(const Counting& counting, const Eigen::VectorXd& normals, double uniform) const;
 

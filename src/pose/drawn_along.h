@@ -16,50 +16,45 @@ inline double quantileOf(double uniform) {
   return -std::sqrt(2.0) * erfcInverse(2.0 * std::clamp(uniform, 1e-16, 1.0 - 1e-16));
 }
 
-/// Where along a line samples are drawn: near the level where contact is expected to begin; some as
-/// the density has them and some far out, so that no weight is large wherever contact is.
+/// Where along a line samples are drawn: near the level where contact is expected to begin, and a
+/// share of them as the density has them, so that no weight is large wherever contact is.
 class DrawnAlong {
  public:
-  DrawnAlong(double level, double spread)
-      : level_(level), scale_(std::max(kScale * spread, kLeastScale)) {}
-
-  /// No weight is larger.
-  static constexpr double largestWeight() { return 1.0 / kAsTheyAre; }
+  /// \param as_they_are  the share, in (0, 1): no weight is larger than one over it. The more, the
+  ///                     fewer samples bound what none of them shows; the less, the less variance
+  ///                     has what they do
+  DrawnAlong(double level, double spread, double as_they_are)
+      : level_(level),
+        scale_(std::max(kScale * spread, kLeastScale)),
+        as_they_are_(as_they_are),
+        near_(kNearest * (1.0 - as_they_are)),
+        around_(1.0 - as_they_are - near_) {}
 
   double at(double uniform) const {
     double rest = uniform;
-    if (rest < kNear) return level_ + scale_ * logit(rest / kNear);
-    rest -= kNear;
-    if (rest < kAround) return level_ + around() * logit(rest / kAround);
-    rest -= kAround;
-    if (rest < kAsTheyAre) return quantileOf(rest / kAsTheyAre);
-    return kWide * quantileOf((rest - kAsTheyAre) / kFarOut);
+    if (rest < near_) return level_ + scale_ * logit(rest / near_);
+    rest -= near_;
+    if (rest < around_) return level_ + kTimesAround * scale_ * logit(rest / around_);
+    return quantileOf((rest - around_) / as_they_are_);
   }
 
   /// The normal density at s over that of what is drawn.
   double weightAt(double s) const {
-    const double density = kNear * logistic((s - level_) / scale_) / scale_ +
-                           kAround * logistic((s - level_) / around()) / around() +
-                           kAsTheyAre * normalDensity(s) +
-                           kFarOut * normalDensity(s / kWide) / kWide;
+    const double wide = kTimesAround * scale_;
+    const double density = near_ * logistic((s - level_) / scale_) / scale_ +
+                           around_ * logistic((s - level_) / wide) / wide +
+                           as_they_are_ * normalDensity(s);
     return normalDensity(s) / density;
   }
 
  private:
-  // Shares of samples, and the deviation of those far out. More as they are: smaller weights, so
-  // that fewer samples bound what none of them shows; more near: less variance of what they do.
-  static constexpr double kNear = 0.25;
-  static constexpr double kAround = 0.2;
-  static constexpr double kAsTheyAre = 0.45;
-  static constexpr double kFarOut = 0.1;
-  static constexpr double kWide = 2.5;
+  // Of the samples near the level, what is drawn with the smaller scale.
+  static constexpr double kNearest = 0.55;
 
   // Of the spread.
   static constexpr double kScale = 0.5;
   static constexpr double kLeastScale = 0.01;
   static constexpr double kTimesAround = 4.0;
-
-  double around() const { return kTimesAround * scale_; }
 
   static double logit(double p) {
     const double inside = std::clamp(p, 1e-16, 1.0 - 1e-16);
@@ -73,6 +68,9 @@ class DrawnAlong {
 
   double level_;
   double scale_;
+  double as_they_are_;
+  double near_;
+  double around_;
 };
 
 }  // namespace fcl_prob::detail
