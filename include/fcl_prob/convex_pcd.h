@@ -44,24 +44,6 @@ struct ConvexPcdBounds {
 ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                           const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 
-/// What the paper prints, for comparison. Upper bounds in exact arithmetic; rounding is not added.
-struct ConvexPcdBaselines {
-  /// The field as printed, 1/(2π), with the exact integral over every face: twice the divergence
-  /// bound.
-  double printed_field = 0.0;
-
-  /// The field as printed and its maximum over the corners of every triangle (Eq. 11).
-  double printed_field_vertex_maximum = 0.0;
-
-  /// The same with the right factor 1/(4π).
-  double vertex_maximum = 0.0;
-};
-
-/// \throws InvalidPose if a pose is not finite or not rigid
-ConvexPcdBaselines convexPcdBaselines(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                                      const ConvexBody& b, const fcl::Transform3d& pose_b,
-                                      const GaussianDisplacement& displacement);
-
 /// The probability itself, certified. The bounds differ by a rounding margin only for two bodies
 /// with flat sides, for two balls, and, where the displacement has rank 2 or 3, for bodies rounded
 /// by a ball (spheres, capsules, RSS) beside each other or beside bodies with flat sides. There

@@ -13,9 +13,6 @@ namespace fcl_prob {
 /// for which the result is a normal double; h may be infinite.
 double normalTailMass(double h);
 
-/// log Φ(-h), accurate also where Φ(-h) underflows (h > 38) and where it is close to 1.
-double logNormalTailMass(double h);
-
 /// Mass of [lo, hi] under N(0, 1): 0 if hi <= lo; the ends may be infinite. Computed on the side of
 /// the tail, so that it keeps about 1e-15 relative accuracy down to 1e-300; for intervals far
 /// narrower than 1 it does not cancel either.

@@ -55,23 +55,4 @@ struct VectorBounds {
 /// the terms cancel: at a size of 1e-3 about 1e-9 of the moment is lost.
 VectorBounds polytopeMoment(const ConvexPolytope& polytope, double vertex_error = 0.0);
 
-/// The half-space { y : normal·y >= offset }; |normal| = 1.
-struct HalfSpace {
-  Eigen::Vector3d normal;
-  double offset;
-};
-
-/// Mass of box ∩ half-space under N(0, I), certified. The box may be unbounded. Exact up to the
-/// rounding of an interval mass if the half-space is axis-aligned or contains or misses the box;
-/// otherwise the masses of the polytopes that lie safely inside and outside of it: relative width
-/// about 1e-11 where the half-space cuts deep, more where it cuts off no more than a sliver.
-/// \throws InvalidGeometry if a bound is NaN, the normal is not a unit vector to 1e-9 or the offset
-/// is
-///         NaN.
-Bounds boxHalfSpaceMass(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, const HalfSpace& h);
-
-/// Mass of box ∩ h1 ∩ h2 under N(0, I), certified, as boxHalfSpaceMass().
-Bounds boxWedgeMass(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, const HalfSpace& h1,
-                    const HalfSpace& h2);
-
 }  // namespace fcl_prob

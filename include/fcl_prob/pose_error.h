@@ -82,9 +82,6 @@ class PoseError {
   /// kind (rotation vector or exponential). \throws InvalidPose
   PoseError inWorldFrame(const fcl::Transform3d& pose) const;
 
-  /// The same with both in the body's frame. \throws InvalidPose
-  PoseError inBodyFrame(const fcl::Transform3d& pose) const;
-
   /// The coordinates of the same error in another frame, and about another point: Ad ξ, where
   /// `to_new` maps coordinates of the old frame to the new ones. Of an exponential in the world
   /// frame that is exact (Exp(Ad_T ξ) = T Exp(ξ) T⁻¹); of a rotation vector it is so if only the

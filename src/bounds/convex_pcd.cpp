@@ -46,11 +46,4 @@ ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, c
   return detail::convexPcd(a, pose_a, b, pose_b, displacement, {});
 }
 
-ConvexPcdBaselines convexPcdBaselines(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                                      const ConvexBody& b, const fcl::Transform3d& pose_b,
-                                      const GaussianDisplacement& displacement) {
-  const detail::PairFrame frame = detail::pairFrame(a, pose_a, b, pose_b, displacement);
-  return detail::PairBounds().baselines(*detail::PairObstacle(frame, a.set(), b.set()));
-}
-
 }  // namespace fcl_prob

@@ -164,20 +164,4 @@ ConvexPcdBounds PairBounds::ellipsoidBounds(const CObstacle& obstacle, const Ell
   return withLeast(result);
 }
 
-ConvexPcdBaselines PairBounds::baselines(const CObstacle& obstacle) {
-  const int rank = obstacle.frame().rank;
-  const Eigen::Matrix3d error = prepareFaces(obstacle);
-  if (rank == 0 || scratch_.faces.vertices().empty()) return {};
-  const Extents extents(rank == 3 ? &obstacle : nullptr, scratch_.faces, error.norm());
-  const Separation separation = separationOf(scratch_.faces, rank);
-  const Eigen::Vector3d n = farthest(extents, {separation.nearest, separation.face});
-  const double factor = rank == 3 ? 1.0 : 1.0 / prismMass(rank);
-  ConvexPcdBaselines result;
-  result.printed_field = 2.0 * factor * relaxedIntegral(scratch_.faces, error, n, work_).value;
-  result.printed_field_vertex_maximum =
-      factor * vertexMaximumBound(scratch_.faces, n, 1.0 / (2.0 * M_PI));
-  result.vertex_maximum = factor * vertexMaximumBound(scratch_.faces, n, 1.0 / (4.0 * M_PI));
-  return result;
-}
-
 }  // namespace fcl_prob::detail

@@ -27,7 +27,6 @@ class PairBounds {
 
   /// \param enough  all bounds may be 1 if it is seen early that the least would be at least this
   ConvexPcdBounds bounds(const CObstacle& obstacle, double enough = kNeverEnough);
-  ConvexPcdBaselines baselines(const CObstacle& obstacle);
 
   /// Certified mass of the polytope whose faces the C-obstacle gives.
   Bounds mass(const CObstacle& obstacle, const MassEffort& effort = {});

@@ -157,19 +157,4 @@ RelaxedIntegral relaxedIntegral(const Ellipsoid& ball, const PairFrame& frame,
   return result;
 }
 
-double vertexMaximumBound(const FaceSet& faces, const Eigen::Vector3d& n, double field_factor) {
-  double sum = 0.0;
-  forEachTriangle(faces, [&](const Eigen::Vector3d& area, double, int a, int b, int c) {
-    const double la = n.dot(faces.vertices()[a]);
-    const double lb = n.dot(faces.vertices()[b]);
-    const double lc = n.dot(faces.vertices()[c]);
-    // The field is -T(l) n up to its factor, and T decreases: towards the front the maximum is
-    // where l is least, on the faces that look along n where it is largest.
-    const double seen = n.dot(area);
-    const double l = seen < 0.0 ? std::min({la, lb, lc}) : std::max({la, lb, lc});
-    sum -= seen * 2.0 * normalTailMass(l);
-  });
-  return field_factor * sum;
-}
-
 }  // namespace fcl_prob::detail

@@ -36,10 +36,4 @@ RelaxedIntegral relaxedIntegral(const FaceSet& faces, const Eigen::Matrix3d& err
 RelaxedIntegral relaxedIntegral(const Ellipsoid& ball, const PairFrame& frame,
                                 const Eigen::Vector3d& n);
 
-/// The paper's Eq. 11: on every triangle the maximum of the field over its corners instead of the
-/// integral. `field_factor` is 1/(2π) as printed, or 1/(4π) as it should be. Here the field is
-/// field_factor · (1 + erf(y·m/√2)) m with m = -n, which is the paper's with n_d from V to the
-/// origin.
-double vertexMaximumBound(const FaceSet& faces, const Eigen::Vector3d& n, double field_factor);
-
 }  // namespace fcl_prob::detail

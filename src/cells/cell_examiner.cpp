@@ -67,7 +67,6 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
                            double relative_tolerance, ProbabilityStatistics& statistics)
     : pair_(pair),
       front_(pair, obstacles, statistics),
-      smooth_(pair, obstacles),
       solids_(solids),
       with_moments_(with_moments),
       sampled_(sampled),
@@ -77,7 +76,6 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
-  witness_has_plane_ = false;
   ++statistics_.cells;
   if (inherited.size() > kLongFront && witness() && witness()->covers(cell)) {
     settle(cell, "crossing surfaces");
@@ -90,7 +88,6 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
     settleFree(front_.cell());
     return std::move(result_);
   }
-  if (settleSmooth(front_.cell())) return std::move(result_);
   if (const auto leader = bestLeader()) {
     openWithPlane(*leader);
   } else {
@@ -109,7 +106,6 @@ std::optional<CuttingPair> CellExaminer::bestLeader() {
     if (!cutting.pair.isHalfSpace()) near_.push_back(cutting.pair);
   }
   const auto plane = witness()->plane(front_.cell(), near_);
-  witness_has_plane_ = plane.has_value();
   if (plane && (!best || front_.depthOf(*plane) < best->depth)) return front_.addHalfSpace(*plane);
   return best;
 }
@@ -189,14 +185,6 @@ void CellExaminer::settleFree(const Cell& cell) {
       break;
     }
   }
-}
-
-// What collides in the cell is what of it is in one quadric.
-bool CellExaminer::settleSmooth(const Cell& cell) {
-  if (with_moments_ || !front_.coarse().empty() || !maySkim(cell)) return false;
-  const auto mass = smooth_.massOf(cell, front_.cutting(), kSettledAccuracy, observer_);
-  if (mass) result_.settled += {*mass, Eigen::Vector3d::Zero(), 0.0};
-  return mass.has_value();
 }
 
 // Of what is settled of the cell from which an open one is cut out, whose mass that may collide is

@@ -9,7 +9,6 @@
 #include "cells/claim_observer.h"
 #include "cells/crossing_witness.h"
 #include "cells/possible_parts.h"
-#include "cells/smooth_cell.h"
 #include "scene/containment.h"
 
 namespace fcl_prob::detail {
@@ -63,7 +62,6 @@ class CellExaminer {
   void settlePart(const Cell& cell, const CellPlane& plane, double sign, double accuracy);
   double accuracyBeside(const OpenCell& open) const;
   void settleFree(const Cell& cell);
-  bool settleSmooth(const Cell& cell);
   void settleAround(const Cell& box);
   void claim(const char* method, bool collides, const Cell& cell) const;
   void claim(const char* method, bool collides, const Cell& cell, const CoveredPart& part) const;
@@ -76,7 +74,6 @@ class CellExaminer {
   ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
   std::optional<double> massOfPart(const OpenCell& open, const PartMeasure& measure,
                                    const CoveredPart& part);
-  std::optional<CoveredPart> partOfSurfaces(const OpenCell& open, double& mass);
   double lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const;
   void addPart(OpenCell& open);
   void addPossible(OpenCell& open);
@@ -88,10 +85,8 @@ class CellExaminer {
 
   const WhitenedPair& pair_;
   CellFront front_;
-  SmoothCell smooth_;
   std::optional<CrossingWitness> witness_;  ///< made when a front first is long enough for it
   CrossingWitness::Hint hint_{-1, -1};      ///< until then
-  bool witness_has_plane_ = false;          ///< in the cell that is examined
   const SolidContact* solids_;
   bool with_moments_;
   bool sampled_;

@@ -19,9 +19,6 @@ constexpr int kMostTried = 32;
 constexpr int kMostMeasured = 2;
 constexpr double kLeastCovered = 0.02;
 
-// With a larger share of the gap in the part of one pair none is sought by crossing surfaces.
-constexpr double kPairIsEnough = 0.1;
-
 // For a gradient a part's moment should not be known worse than the rest of its cell.
 constexpr double kMomentShare = 0.05;
 
@@ -66,23 +63,6 @@ std::optional<double> CellExaminer::massOfPart(const OpenCell& open, const PartM
   const double gap = open.gap() - covered;
   if (with_moments_ && covered * measure.bend() > kMomentShare * gap) return std::nullopt;
   return covered;
-}
-
-// What crossing surfaces cover below the plane, if that is more than `mass`.
-std::optional<CoveredPart> CellExaminer::partOfSurfaces(const OpenCell& open, double& mass) {
-  constexpr int kMost = CoveredPart::kMostPlanes - 1;
-  std::optional<CoveredPart> part;
-  if (witness_has_plane_) {
-    part = witness()->partBesidePlane(front_.cell(), kMost);
-  } else if (open.front.front().isHalfSpace() && witness()) {
-    part = witness()->part(front_.cell(), kMost);
-  }
-  if (!part) return std::nullopt;
-  part->planes[part->count++] = {-open.plane.m, -open.plane.s};
-  const auto covered = massOfPart(open, PartMeasure(open.cell), *part);
-  if (!covered || !(*covered > mass)) return std::nullopt;
-  mass = *covered;
-  return part;
 }
 
 // Lower bound of m·y over all that may collide in an open cell.
@@ -160,15 +140,10 @@ void CellExaminer::weigh(OpenCell& open) {
   double mass = kLeastCovered * open.gap();
   const ObstaclePart below = largestPart(open, CoveredPart::kMostPlanes - 1, mass);
   open.part = below.part;
-  const auto by_surfaces = mass < kPairIsEnough * open.gap() && !isLeftOut("crossing parts")
-                               ? partOfSurfaces(open, mass)
-                               : std::nullopt;
-  if (by_surfaces) open.part = *by_surfaces;
   if (open.part.count == 0) return;
   claim("part below a plane", true, open.cell, open.part);
   open.lower = std::min(open.upper, open.lower + mass);
-  // Two convex parts tell little of surfaces as finely divided as those.
-  if (by_surfaces || isLeftOut("possible parts")) return;
+  if (isLeftOut("possible parts")) return;
   CoveredPart leading;
   leading.planes[0] = open.plane;
   leading.count = 1;

@@ -358,7 +358,6 @@ void CrossingWitness::tryPlane(Side& side, int vertex, const SweptVertex& swept,
   const Attempt attempt{&side, vertex, {m, s}, depth};
   if (!certify(side, vertex, {{attempt.plane}, 1}, m, depth, cell)) return;
   best_ = attempt;
-  touched_by_best_ = touched_;
 }
 
 Eigen::Vector3d CrossingWitness::acrossTouched(const Side& side) const {

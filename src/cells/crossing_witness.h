@@ -40,14 +40,6 @@ class CrossingWitness {
   /// nodes `near` can show; nothing if they show none.
   std::optional<CellPlane> plane(const Cell& cell, const std::vector<FrontPair>& near);
 
-  /// Where a surface is bent one plane tells little of it: a convex part of the cell, with up to
-  /// `most` planes, that collides by the same vertex as what is beyond the plane. Only after
-  /// plane() has found one in the same cell; nothing where shapes move.
-  std::optional<CoveredPart> partBesidePlane(const Cell& cell, int most);
-
-  /// Such a part by a vertex by which a proof was found last, without any plane.
-  std::optional<CoveredPart> part(const Cell& cell, int most);
-
  private:
   /// Points and rays tried until one of them tells inside from outside for certain.
   static constexpr int kTrials = 6;
@@ -104,11 +96,7 @@ class CrossingWitness {
   double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
                         const std::vector<Eigen::Vector3i>& touched, const Eigen::Vector3d& m,
                         double most) const;
-  std::optional<CoveredPart> partOf(const Side& side, int vertex, const SweptVertex& swept,
-                                    const std::vector<Eigen::Vector3i>& touched, int rank,
-                                    int most);
   static bool isWithin(const CoveredPart& part, const Eigen::Vector3d& y);
-  bool meetsPlane(const CoveredPart& part, const Cell& cell) const;
   bool certify(Side& side, int vertex, const CoveredPart& part, const Eigen::Vector3d& m,
                double depth, const Cell& cell);
 
@@ -125,9 +113,6 @@ class CrossingWitness {
   Tried tried_across_;                    ///< what they touch, in this cell
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
-  std::vector<Eigen::Vector3i> touched_by_best_;
-  std::vector<Eigen::Vector3d> across_;  ///< of those, normals into what is covered by area
-  std::vector<Eigen::Vector3i> group_;
 };
 
 }  // namespace fcl_prob::detail

@@ -17,8 +17,6 @@ using detail::normalDensity;
 // 1/√2 - kInverseSqrtTwo
 constexpr double kInverseSqrtTwoLow = -4.8336466567264567e-17;
 
-constexpr double kLogSqrtTwoPi = 0.91893853320467274178;
-
 // a * b - product, exactly (Dekker 1971); |a|, |b| < 1e100.
 double productError(double a, double b, double product) {
   constexpr double kSplitter = 134217729.0;  // 2^27 + 1
@@ -45,15 +43,6 @@ double upperTail(double h) {
 
 double normalTailMass(double h) {
   return h < 0 ? 0.5 * std::erfc(h * kInverseSqrtTwo) : upperTail(h);
-}
-
-double logNormalTailMass(double h) {
-  if (h < 0) return std::log1p(-upperTail(-h));
-  if (h < 30) return std::log(upperTail(h));
-  // Asymptotic series of Mills' ratio; the next term is below 1e-19.
-  const double z = 1 / (h * h);
-  const double series = -z * (1 - z * (3 - z * (15 - z * (105 - z * 945))));
-  return -0.5 * h * h - std::log(h) - kLogSqrtTwoPi + std::log1p(series);
 }
 
 double normalIntervalMass(double lo, double hi) {

@@ -201,18 +201,6 @@ PoseError PoseError::inWorldFrame(const fcl::Transform3d& pose) const {
   return result;
 }
 
-PoseError PoseError::inBodyFrame(const fcl::Transform3d& pose) const {
-  requirePose(pose);
-  if (!isInWorld(convention_)) return *this;
-  const fcl::Transform3d back = pose.inverse();
-  if (isExponential(convention_)) return mapped(adjoint(back), PoseConvention::body_exponential);
-  PoseError result = mapped(turning(back.linear()), PoseConvention::body_rotation_vector);
-  if (independent_translation_) {
-    result.independent_translation_ = independent_translation_->rotated(back.linear());
-  }
-  return result;
-}
-
 PoseError PoseError::transformed(const fcl::Transform3d& to_new) const {
   requirePose(to_new);
   return mapped(adjoint(to_new), convention_);

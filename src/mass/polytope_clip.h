@@ -8,6 +8,12 @@
 
 namespace fcl_prob::detail {
 
+/// The half-space { y : normal·y >= offset }; |normal| = 1.
+struct HalfSpace {
+  Eigen::Vector3d normal;
+  double offset;
+};
+
 /// Vertices within this of the plane, in units of the largest distance from the origin of a vertex
 /// or of the plane, count as on it: twice the rounding of their distance.
 inline constexpr double kClipTolerance = 4 * 2.220446049250313e-16;

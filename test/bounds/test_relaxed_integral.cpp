@@ -106,23 +106,6 @@ TEST_CASE("the integral does not depend on the side from which it is seen") {
   }
 }
 
-TEST_CASE("the maximum over the corners is at least the integral") {
-  RandomBodies random(63);
-  std::vector<TailValue> work;
-  double largest = 0.0;
-  for (int i = 0; i < 100; ++i) {
-    const double size = random.logUniform(0.1, 10);
-    const FaceSet faces = randomBody(random, size, (size + 1.0) * random.direction());
-    const Eigen::Vector3d n = faces.vertices().front().normalized();
-    const double integral = relaxedIntegral(faces, kNoError, n, work).value;
-    const double maximum = vertexMaximumBound(faces, n, 0.25 / M_PI);
-    CHECK(maximum >= integral * (1 - 1e-9));
-    largest = std::max(largest, maximum / integral);
-    CHECK(vertexMaximumBound(faces, n, 0.5 / M_PI) == Approx(2.0 * maximum));
-  }
-  CHECK(largest > 1.5);
-}
-
 TEST_CASE("an ellipsoid's sections against those of a fine polytope") {
   RandomBodies random(64);
   std::vector<TailValue> work;

@@ -134,12 +134,8 @@ TEST_CASE("an error means the same in the world's and in the body's frame") {
           PoseConvention::world_exponential, PoseConvention::body_exponential}) {
       const PoseError error(randomCovariance(random, 6), convention, mean);
       const fcl::Transform3d expected = displacedPose(pose, convention, mean);
-      for (const PoseError& same : {error.inWorldFrame(pose), error.inBodyFrame(pose)}) {
-        checkSame(displacedPose(pose, same.convention(), same.mean()), expected);
-      }
-      const PoseError back = error.inWorldFrame(pose).inBodyFrame(pose).inWorldFrame(pose);
-      CHECK((back.covariance() - error.inWorldFrame(pose).covariance()).cwiseAbs().maxCoeff() <
-            1e-12);
+      const PoseError same = error.inWorldFrame(pose);
+      checkSame(displacedPose(pose, same.convention(), same.mean()), expected);
     }
   }
 }

@@ -155,7 +155,6 @@ TEST_CASE("The checker finds claims that are wrong") {
   CHECK(violations(*mesh, *mesh) == 0);
   CHECK(violations(*mesh, *larger_mesh) > 0);
   CHECK(violations(*mesh, *smaller_mesh) > 0);
-  // By the quadric of the ball, too.
   CHECK(violations(ball, ball) == 0);
   CHECK(violations(ball, larger) > 0);
   CHECK(violations(ball, smaller) > 0);
