@@ -3,8 +3,6 @@
 // Ways to answer a query, cheapest first.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -33,8 +31,8 @@ struct Rung {
 /// Climbs the rungs that serve, in their order, until one has answered.
 /// \param records  what each told and took is added to them
 /// \return  whether one has
-template <typename Query, std::size_t kCount>
-bool climb(const std::array<Rung<Query>, kCount>& ladder, Query& query, const Known& known,
+template <typename Query>
+bool climb(const std::vector<Rung<Query>>& ladder, Query& query, const Known& known,
            std::vector<RungRecord>& records) {
   for (const Rung<Query>& rung : ladder) {
     if (!(query.*rung.serves)()) continue;

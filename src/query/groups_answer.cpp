@@ -3,7 +3,6 @@
 #include "query/groups_answer.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -69,7 +68,7 @@ class GroupsAnswer {
   bool isStillUnknown() const;
   bool collideAll();
 
-  static const std::array<Rung<GroupsAnswer>, 5> kLadder;
+  static const std::vector<Rung<GroupsAnswer>> kLadder;
 
   const PlacedGroups& groups_;
   const GaussianDisplacement& displacement_;
@@ -83,13 +82,13 @@ class GroupsAnswer {
   ProbabilityResult result_;
 };
 
-const std::array<Rung<GroupsAnswer>, 5> GroupsAnswer::kLadder{{
+const std::vector<Rung<GroupsAnswer>> GroupsAnswer::kLadder{
     {"root volumes", &GroupsAnswer::mayBeFar, &GroupsAnswer::sumRootBounds},
     {"pairs", &GroupsAnswer::mayBeDecidedByPairs, &GroupsAnswer::decideByPairs},
     {"union of pairs", &GroupsAnswer::isForUnionOfPairs, &GroupsAnswer::unitePairs},
     {"partition", &GroupsAnswer::always, &GroupsAnswer::divide, true},
     {"one fcl::collide", &GroupsAnswer::isStillUnknown, &GroupsAnswer::collideAll, true},
-}};
+};
 
 bool GroupsAnswer::mayBeFar() const {
   return !request_.gradient && !request_.hasBand() && !isEstimate() && groups_.a.haveRootBodies() &&

@@ -3,7 +3,6 @@
 #include "query/pair_answer.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -93,7 +92,7 @@ class PairAnswer {
   std::size_t firstCells() const;
   void narrowBy(const ProbabilityResult& exact);
 
-  static const std::array<Rung<PairAnswer>, 10> kLadder;
+  static const std::vector<Rung<PairAnswer>> kLadder;
 
   const QueryPlan& plan_;
   const PlacedPair& pair_;
@@ -105,7 +104,7 @@ class PairAnswer {
   ProbabilityResult result_;
 };
 
-const std::array<Rung<PairAnswer>, 10> PairAnswer::kLadder{{
+const std::vector<Rung<PairAnswer>> PairAnswer::kLadder{
     {"one fcl::collide", &PairAnswer::isStill, &PairAnswer::collideOnce, true},
     {"closed form", &PairAnswer::isUnbounded, &PairAnswer::answerInClosedForm, true},
     {"bound", &PairAnswer::isBoundByName, &PairAnswer::boundFromAbove, true},
@@ -116,7 +115,7 @@ const std::array<Rung<PairAnswer>, 10> PairAnswer::kLadder{{
     {"partition", &PairAnswer::always, &PairAnswer::divide, true},
     {"exact mass", &PairAnswer::mayHaveExactMass, &PairAnswer::closeByExactMass},
     {"partition", &PairAnswer::hasCellsLeft, &PairAnswer::divideFurther, true},
-}};
+};
 
 bool PairAnswer::take(ProbabilityResult result) {
   result_ = std::move(result);

@@ -3,7 +3,6 @@
 #include "query/partition.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -91,7 +90,7 @@ class PartitionQuery {
   std::unique_ptr<PointTester> makeTester();
   void describeBoxes();
 
-  static const std::array<Rung<PartitionQuery>, 8> kLadder;
+  static const std::vector<Rung<PartitionQuery>> kLadder;
 
   const GaussianDisplacement& given_;
   const ProbabilityRequest& request_;
@@ -106,7 +105,7 @@ class PartitionQuery {
   ProbabilityResult result_;
 };
 
-const std::array<Rung<PartitionQuery>, 8> PartitionQuery::kLadder{{
+const std::vector<Rung<PartitionQuery>> PartitionQuery::kLadder{
     {"polytope cells", &PartitionQuery::isIntervalByPolytopes, &PartitionQuery::dividePolytopes},
     {"lines", &PartitionQuery::isForLines, &PartitionQuery::estimateByLines},
     {"columns", &PartitionQuery::isForColumns, &PartitionQuery::boundColumns},
@@ -115,7 +114,7 @@ const std::array<Rung<PartitionQuery>, 8> PartitionQuery::kLadder{{
     {"polytope cells", &PartitionQuery::mayUsePolytopes, &PartitionQuery::dividePolytopes},
     {"boxes", &PartitionQuery::always, &PartitionQuery::divideBoxes, true},
     {"samples of boxes", &PartitionQuery::isEstimate, &PartitionQuery::sampleBoxes, true},
-}};
+};
 
 ProbabilityResult PartitionQuery::answer() {
   climb(kLadder, *this, known_, result_.statistics.rungs);

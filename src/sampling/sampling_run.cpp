@@ -77,9 +77,14 @@ void GradientSum::report(bool full_rank, std::size_t samples, ProbabilityResult&
     return;
   }
   const auto n = static_cast<double>(samples);
+  const Eigen::Vector3d error(means_[0].standardError(n), means_[1].standardError(n),
+                              means_[2].standardError(n));
+  if (!error.allFinite()) {
+    result.plan.push_back("no gradient: so few samples tell nothing of its error");
+    return;
+  }
   result.gradient = Eigen::Vector3d(means_[0].mean(n), means_[1].mean(n), means_[2].mean(n));
-  result.gradient_standard_error = Eigen::Vector3d(
-      means_[0].standardError(n), means_[1].standardError(n), means_[2].standardError(n));
+  result.gradient_standard_error = error;
 }
 
 }  // namespace fcl_prob::detail

@@ -33,9 +33,9 @@ class Toy {
   }
 };
 
-const std::array<Rung<Toy>, 3> kToys{{{"glance", &Toy::isSmall, &Toy::look},
-                                      {"look", &Toy::always, &Toy::lookCloser},
-                                      {"stare", &Toy::always, &Toy::lookClosest, true}}};
+const std::vector<Rung<Toy>> kToys{{"glance", &Toy::isSmall, &Toy::look},
+                                   {"look", &Toy::always, &Toy::lookCloser},
+                                   {"stare", &Toy::always, &Toy::lookClosest, true}};
 
 std::vector<std::string> climbed(Toy& toy) {
   climb(kToys, toy, toy.known, toy.records);

@@ -93,6 +93,26 @@ TEST_CASE("rare events of meshes agree with the box probability at 1e-8 and 1e-1
   }
 }
 
+TEST_CASE("a gradient is told with an error or not at all") {
+  const fcl::Boxd box(1.0, 1.0, 1.0);
+  const auto displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  fcl::Transform3d beside = fcl::Transform3d::Identity();
+  beside.translation().x() = 1.1;
+  for (const std::size_t samples : {1, 2, 10}) {
+    ProbabilityRequest request = rareRequest(samples);
+    request.gradient = true;
+    for (const ProbabilityResult& result :
+         {rareEventProbability(box, fcl::Transform3d::Identity(), box, beside, displacement,
+                               request),
+          monteCarloProbability(box, fcl::Transform3d::Identity(), box, beside, displacement,
+                                request)}) {
+      CHECK(result.gradient.has_value() == result.gradient_standard_error.has_value());
+      if (result.gradient) CHECK(result.gradient_standard_error->allFinite());
+      if (samples == 1) CHECK_FALSE(result.gradient);
+    }
+  }
+}
+
 TEST_CASE("both sides of an obstacle are found") {
   const auto a = makeModel<fcl::OBBRSSd>(boxMesh(kOne));
   const auto b = makeModel<fcl::OBBRSSd>(joined(transformed(boxMesh(kOne), at({1.6, 0, 0})),
