@@ -164,9 +164,10 @@ class CellQueue {
 
   std::size_t mostOfRound(const Kind& kind) const {
     if (kind.isOneByOne()) return 1;
-    constexpr RoundSizes sizes = Kind::kRounds;
-    const std::size_t most = std::clamp(heap_.size() / sizes.open_of_one, sizes.least, sizes.most);
-    return std::clamp<std::size_t>(cellsLeft() / sizes.cells_left_of_one, 1, most);
+    constexpr RoundSizes kSizes = Kind::kRounds;
+    const std::size_t most =
+        std::clamp(heap_.size() / kSizes.open_of_one, kSizes.least, kSizes.most);
+    return std::clamp<std::size_t>(cellsLeft() / kSizes.cells_left_of_one, 1, most);
   }
 
   std::size_t takeLargest(const Kind& kind) {

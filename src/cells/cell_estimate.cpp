@@ -17,7 +17,7 @@ constexpr double kMostDrawnAgain = 1.6;
 
 void fillGradient(const Whitening& whitening, const MomentBounds& moment,
                   ProbabilityResult& result) {
-  const Eigen::Matrix3d moving = whitening.matrix();
+  const Eigen::Matrix3d& moving = whitening.matrix();
   const Eigen::Vector3d middle = 0.5 * (moment.lower + moment.upper);
   const Eigen::Vector3d half = 0.5 * (moment.upper - moment.lower);
   const Eigen::Vector3d gradient = moving.transpose() * middle;
@@ -35,7 +35,7 @@ void fillEstimate(const Whitening& whitening, const PartitionEngine& engine,
   result.standard_error = estimate.standard_error;
   result.statistics.samples = sampled.samples;
   if (!with_gradient) return;
-  const Eigen::Matrix3d moving = whitening.matrix();
+  const Eigen::Matrix3d& moving = whitening.matrix();
   Eigen::Vector3d moment = engine.settled().moment + sampled.moment;
   for (const OpenCell& cell : engine.openCells()) moment += engine.coveredPart(cell).moment;
   result.gradient = moving.transpose() * moment;

@@ -77,7 +77,7 @@ TEST_CASE("path tells what a mesh of the robot was read without", "[cli]") {
                "<robot name=\"r\"><link name=\"l\"><collision><geometry><mesh "
                "filename=\"arm.obj\"/></geometry></collision></link></robot>");
   folder.write("scene.json", R"({"robot": {"urdf": "arm.urdf"}, "joints": {}, "obstacles": [
-    {"name": "o", "sphere": {"radius": 0.1}, "pose": [0.2, 0.2, 0.3],
+    {"name": "o", "sphere": 0.1, "pose": [0.2, 0.2, 0.3],
      "displacement": {"sigma": [0.1, 0.1, 0.1]}}], "request": {"threshold": 0.9}})");
   for (const std::vector<std::string>& of :
        {std::vector<std::string>{}, {"--json"}, {"--probable", "0.01"}, {"--between"}}) {
