@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench mixed: pairs of meshes as users have them.
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "bench/bench_task.h"
 #include "bench/benchmark.h"
@@ -95,16 +93,12 @@ class MixedTable {
     request.time_limit = kMostSecondsOfMixed;
     const TimedResult timed = scene.scene->query(request);
     const ProbabilityResult& result = timed.result;
-    const double p = result.probability();
-    const double error = result.standard_error.value_or(0.5 * (*result.upper - *result.lower));
-    const double samples = p * (1.0 - p) / std::max(error * error, 1e-300);
-    const double per_sample = scene.loop.time_ms / static_cast<double>(scene.loop.samples);
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
       if (!kKinds[kind].has(scene)) continue;
       MeasuredKind& all = measured_[kind * mixedTasks().size() + task];
       all.times.push_back(timed.time_ms);
       all.ratios.push_back(timed.time_ms / scene.loop.time_ms);
-      all.monte_carlo_ratios.push_back(timed.time_ms / (samples * per_sample));
+      all.monte_carlo_ratios.push_back(overMonteCarlo(timed, scene.loop));
       all.limits += stoppedByLimit(result.status);
     }
     nlohmann::ordered_json record{{"scene", scene.name},

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench parts: robot parts and a can beside a human arm, scenes at random.
-#include <fcl/narrowphase/distance.h>
-
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
-#include "base/bisection.h"
 #include "bench/bench_task.h"
 #include "bench/benchmark.h"
 #include "bench/fcl_loop.h"
+#include "bench/pose_beside.h"
 #include "bench/result_hash.h"
 #include "bench/task_record.h"
 #include "bench/uniforms.h"
@@ -74,7 +71,9 @@ class PartsTable {
   /// A scene of one part whose P is large enough.
   void addScene(std::size_t part) {
     for (;;) {
-      const fcl::Transform3d pose = poseBeside(part);
+      const double apart = random_.between(0.002, 0.08);
+      const fcl::Transform3d pose =
+          poseBeside(random_, geometries_[part], arm_mesh_, arm_, apart, 2.0, 30);
       const GaussianDisplacement error = randomError(random_, 0.01, 0.05);
       const PreparedScene scene({meshes_[part], pose}, {arm_mesh_, fcl::Transform3d::Identity()},
                                 error, "obbrss");
@@ -129,47 +128,16 @@ class PartsTable {
   }
 
  private:
-  // From a random side, moved towards a vertex of the arm until the two are so far apart.
-  fcl::Transform3d poseBeside(std::size_t part) {
-    const double distance = random_.between(0.002, 0.08);
-    fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.linear() = random_.rotation();
-    const Eigen::Vector3d middle = geometries_[part]->aabb_local.center();
-    const Eigen::Vector3d vertex = arm_mesh_.vertices[random_.below(arm_mesh_.vertices.size())];
-    const Eigen::Vector3d direction = random_.rotation().col(0);
-    const auto place = [&](double away) {
-      pose.translation() = vertex + away * direction - pose.linear() * middle;
-    };
-    const auto isNear = [&](double away) {
-      place(away);
-      return distanceAt(part, pose) < distance;
-    };
-    constexpr int kHalvings = 30;
-    place(detail::bisect({0.0, 2.0}, kHalvings, isNear).fails);
-    return pose;
-  }
-
-  double distanceAt(std::size_t part, const fcl::Transform3d& pose) const {
-    const fcl::DistanceRequestd request;
-    fcl::DistanceResultd result;
-    return fcl::distance(geometries_[part].get(), pose, arm_.get(), fcl::Transform3d::Identity(),
-                         request, result);
-  }
-
   void addTask(std::size_t part, const PreparedScene& scene, ContactMeaning contact,
                const BenchTask& task, const FclLoop& loop, std::size_t row) {
     ProbabilityRequest request = task.request(options_.seed);
     request.contact = contact;
     const TimedResult timed = scene.quickestOfThree(request);
     const ProbabilityResult& result = timed.result;
-    const double p = result.probability();
-    const double error = result.standard_error.value_or(0.5 * (*result.upper - *result.lower));
-    const double samples = p * (1.0 - p) / std::max(error * error, 1e-300);
-    const double per_sample = loop.time_ms / static_cast<double>(loop.samples);
     Measured& all = measured_[row];
     all.times.push_back(timed.time_ms);
     all.ratios.push_back(timed.time_ms / loop.time_ms);
-    all.monte_carlo_ratios.push_back(timed.time_ms / (samples * per_sample));
+    all.monte_carlo_ratios.push_back(overMonteCarlo(timed, loop));
     all.cells.push_back(static_cast<double>(result.statistics.cells));
     all.front = std::max(all.front, result.statistics.peak_front);
     all.memory = std::max(all.memory, result.statistics.peak_memory);

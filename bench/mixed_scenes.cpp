@@ -2,13 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "bench/mixed_scenes.h"
 
-#include <fcl/narrowphase/distance.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <vector>
 
-#include "base/bisection.h"
+#include "bench/pose_beside.h"
 #include "cli/number_text.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/mesh_io.h"
@@ -60,12 +58,6 @@ bool isNearlyConvex(const TriangleMesh& mesh) {
   return detail::enclosedVolume(mesh) > kNearly * detail::enclosedVolume(around);
 }
 
-double distanceBetween(const Geometry& a, const fcl::Transform3d& pose, const Geometry& b) {
-  const fcl::DistanceRequestd request;
-  fcl::DistanceResultd result;
-  return fcl::distance(a.get(), pose, b.get(), fcl::Transform3d::Identity(), request, result);
-}
-
 }  // namespace
 
 MixedScenes::MixedScenes(const std::string& models_folder, std::uint64_t seed)
@@ -97,20 +89,7 @@ MixedScene MixedScenes::next() {
     const double deviation = error.standardDeviations().maxCoeff();
     const double apart = random_.between(0.1, 2.5) * deviation;
     const Geometry tree_a = buildTree(a, "obbrss"), tree_b = buildTree(b, "obbrss");
-    fcl::Transform3d pose = fcl::Transform3d::Identity();
-    pose.linear() = random_.rotation();
-    const Eigen::Vector3d middle = tree_a->aabb_local.center();
-    const Eigen::Vector3d vertex = b.vertices[random_.below(b.vertices.size())];
-    const Eigen::Vector3d direction = random_.rotation().col(0);
-    const auto place = [&](double away) {
-      pose.translation() = vertex + away * direction - pose.linear() * middle;
-    };
-    const auto isNear = [&](double away) {
-      place(away);
-      return distanceBetween(tree_a, pose, tree_b) < apart;
-    };
-    constexpr int kHalvings = 40;
-    place(detail::bisect({0.0, 4.0}, kHalvings, isNear).fails);
+    const fcl::Transform3d pose = poseBeside(random_, tree_a, b, tree_b, apart, 4.0, 40);
     auto scene = std::make_unique<PreparedScene>(
         LoadedObject{a, pose}, LoadedObject{b, fcl::Transform3d::Identity()}, error, "obbrss");
     const FclLoop loop = timeFclLoop(*scene, kFclChecks, seed_);

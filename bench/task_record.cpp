@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "bench/task_record.h"
 
+#include <algorithm>
+
 #include "cli/json_values.h"
 
 namespace fcl_prob::cli {
@@ -21,6 +23,15 @@ void addTaskTo(nlohmann::ordered_json& record, const BenchTask& task, const Time
                  {"cells", result.statistics.cells},
                  {"peak_front", result.statistics.peak_front},
                  {"peak_memory", result.statistics.peak_memory}});
+}
+
+double overMonteCarlo(const TimedResult& timed, const FclLoop& loop) {
+  const ProbabilityResult& result = timed.result;
+  const double p = result.probability();
+  const double error = result.standard_error.value_or(0.5 * (*result.upper - *result.lower));
+  const double samples = p * (1.0 - p) / std::max(error * error, 1e-300);
+  const double per_sample = loop.time_ms / static_cast<double>(loop.samples);
+  return timed.time_ms / (samples * per_sample);
 }
 
 }  // namespace fcl_prob::cli

@@ -16,4 +16,8 @@ namespace fcl_prob::cli {
 void addTaskTo(nlohmann::ordered_json& record, const BenchTask& task, const TimedResult& timed,
                const FclLoop& loop);
 
+/// The time over that of as many calls of fcl::collide as have the same standard error; of an
+/// interval, half its width.
+double overMonteCarlo(const TimedResult& timed, const FclLoop& loop);
+
 }  // namespace fcl_prob::cli

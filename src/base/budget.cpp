@@ -95,17 +95,15 @@ Allowance Budget::left() const {
           without(request_.samples, samples_)};
 }
 
-void Budget::shareTime(std::size_t parts, ProbabilityRequest& part) const {
+void Budget::shareTime(std::size_t parts, ProbabilityRequest& part, double kept_back) const {
   if (!request_.time_limit) return;
-  part.time_limit = std::max(kLeastSeconds, left().seconds / static_cast<double>(parts));
+  const double seconds = left().seconds - kept_back;
+  part.time_limit = std::max(kLeastSeconds, seconds / static_cast<double>(parts));
 }
 
 void Budget::share(std::size_t parts, ProbabilityRequest& part, const Allowance& kept_back) const {
   const Allowance all = left();
-  if (request_.time_limit) {
-    const double seconds = all.seconds - kept_back.seconds;
-    part.time_limit = std::max(kLeastSeconds, seconds / static_cast<double>(parts));
-  }
+  shareTime(parts, part, kept_back.seconds);
   part.max_cells = evenShare(without(all.cells, kept_back.cells), parts);
   part.samples = evenShare(without(all.samples, kept_back.samples), parts);
 }

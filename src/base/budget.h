@@ -30,9 +30,6 @@ struct Allowance {
 /// for its siblings. The clock starts when this is made, by the thread that made the call.
 class Budget {
  public:
-  /// Of the time limit, what an estimate may divide cells for: the rest is for sampling them.
-  static constexpr double kShareForDividing = 0.8;
-
   /// Keeps a reference.
   /// \param share  of the time limit
   explicit Budget(const ProbabilityRequest& request, double share = 1.0)
@@ -74,7 +71,8 @@ class Budget {
 
   /// Narrows the time limit of `part`, a request for the first of `parts` that are left to be done,
   /// to an even share: what one of them does not use is there for the next.
-  void shareTime(std::size_t parts, ProbabilityRequest& part) const;
+  /// \param kept_back  seconds that the parts leave for later
+  void shareTime(std::size_t parts, ProbabilityRequest& part, double kept_back = 0.0) const;
 
   /// The same for the time limit, the cells and the samples, of which each part has at least one.
   /// Memory is given back after each part, so that each may have all of it.

@@ -7,6 +7,7 @@
 
 #include "base/agreed_bounds.h"
 #include "base/decision.h"
+#include "base/known_text.h"
 
 namespace fcl_prob::detail {
 
@@ -22,9 +23,7 @@ class Known {
   void narrow(const Bounds& bounds) { interval_ = agreed(interval_, bounds); }
 
   /// By what a result is certain of, if it is of anything.
-  void narrow(const ProbabilityResult& result) {
-    narrow({result.lower.value_or(0.0), result.upper.value_or(1.0)});
-  }
+  void narrow(const ProbabilityResult& result) { narrow(boundsOf(result)); }
 
   Decision decision() const { return decisionOf(interval_, request_); }
   std::optional<ProbabilityStatus> satisfied() const {

@@ -11,28 +11,32 @@ namespace fcl_prob {
 namespace detail {
 namespace {
 
-void addRung(const RungRecord& one, std::vector<RungRecord>& all) {
-  const auto same = std::find_if(
-      all.begin(), all.end(), [&one](const RungRecord& of_all) { return of_all.name == one.name; });
-  if (same == all.end()) {
-    all.push_back(one);
-    return;
-  }
-  same->seconds += one.seconds;
-  same->known.lower = std::min(same->known.lower, one.known.lower);
-  same->known.upper = std::max(same->known.upper, one.known.upper);
-  same->times += one.times;
-  same->answered += one.answered;
+const std::string& nameOf(const RungRecord& rung) { return rung.name; }
+const std::string& nameOf(const std::pair<std::string, double>& time) { return time.first; }
+
+void addTo(RungRecord& same, const RungRecord& one) {
+  same.seconds += one.seconds;
+  same.known.lower = std::min(same.known.lower, one.known.lower);
+  same.known.upper = std::max(same.known.upper, one.known.upper);
+  same.times += one.times;
+  same.answered += one.answered;
 }
 
-void addTime(const std::pair<std::string, double>& one,
-             std::vector<std::pair<std::string, double>>& all) {
-  const auto same = std::find_if(all.begin(), all.end(),
-                                 [&one](const auto& of_all) { return of_all.first == one.first; });
-  if (same == all.end()) {
-    all.push_back(one);
-  } else {
-    same->second += one.second;
+void addTo(std::pair<std::string, double>& same, const std::pair<std::string, double>& one) {
+  same.second += one.second;
+}
+
+template <typename Named>
+void addByName(const std::vector<Named>& more, std::vector<Named>& all) {
+  for (const Named& one : more) {
+    const auto same = std::find_if(all.begin(), all.end(), [&one](const Named& of_all) {
+      return nameOf(of_all) == nameOf(one);
+    });
+    if (same == all.end()) {
+      all.push_back(one);
+    } else {
+      addTo(*same, one);
+    }
   }
 }
 
@@ -46,8 +50,8 @@ void addStatistics(const ProbabilityStatistics& one, ProbabilityStatistics& all)
   all.peak_memory = std::max(all.peak_memory, one.peak_memory);
   all.samples += one.samples;
   all.hits += one.hits;
-  for (const RungRecord& rung : one.rungs) addRung(rung, all.rungs);
-  for (const auto& time : one.seconds) addTime(time, all.seconds);
+  addByName(one.rungs, all.rungs);
+  addByName(one.seconds, all.seconds);
 }
 
 }  // namespace detail

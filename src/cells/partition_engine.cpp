@@ -47,6 +47,9 @@ constexpr double kStalledBySweeps = 0.75;
 constexpr std::size_t kCellsOneByOne = 300;
 constexpr std::size_t kPairsOneByOne = 50'000;
 
+// Of the time limit, what an estimate may divide cells for: the rest is for sampling them.
+constexpr double kShareForDividing = 0.8;
+
 // Cells that are examined for one that is divided, about.
 constexpr std::size_t kCellsOfDivided = 6;
 
@@ -231,7 +234,7 @@ void PartitionEngine::lookForStall() {
 ProbabilityStatus PartitionEngine::run(bool estimate, std::size_t most_cells) {
   estimate_ = estimate;
   const ProbabilityStatus status =
-      queue_.run(*this, most_cells, estimate ? Budget::kShareForDividing : 1.0);
+      queue_.run(*this, most_cells, estimate ? kShareForDividing : 1.0);
   statistics_.leaf_pairs = obstacles_.pairCount();
   return status;
 }

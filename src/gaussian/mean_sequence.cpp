@@ -66,10 +66,10 @@ double MeanSequence::standardError() const {
 }
 
 // The n with deviation²/n + unseen²/n² = tolerance².
-double MeanSequence::samplesFor(double tolerance) const {
+double MeanSequence::samplesFor(double deviation, double hit, double tolerance) {
   if (!(tolerance > 0.0)) return kInfinity;
-  const double by_spread = 0.5 * std::pow(deviation() / tolerance, 2);
-  const double by_unseen = std::sqrt(kUnseenHits) * hit_ / tolerance;
+  const double by_spread = 0.5 * std::pow(deviation / tolerance, 2);
+  const double by_unseen = std::sqrt(kUnseenHits) * hit / tolerance;
   return by_spread + std::hypot(by_spread, by_unseen);
 }
 

@@ -51,8 +51,10 @@ class MeanSequence {
   /// the mean is made.
   double effectiveSamples() const { return squares_ > 0.0 ? sum_ * sum_ / squares_ : 0.0; }
 
-  /// With how many samples standardError() comes to a tolerance, if they go on as they were.
-  double samplesFor(double tolerance) const;
+  /// With how many samples standardError() comes to a tolerance, if they go on as they were; and
+  /// with how many samples of such a deviation and such a hit.
+  double samplesFor(double tolerance) const { return samplesFor(deviation(), hit_, tolerance); }
+  static double samplesFor(double deviation, double hit, double tolerance);
 
   /// Contains m at this moment and at all others but for a chance of at most `error`.
   Bounds interval(double error) const;

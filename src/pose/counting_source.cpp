@@ -34,9 +34,6 @@ constexpr double kLeastDeviation = 1e-3;
 // What the integral for the mass of a quadric may be wrong by; far more than it is.
 constexpr double kMassError = 1e-9;
 
-// The root of how many hits of the largest weight MeanSequence adds to those seen.
-constexpr double kUnseen = 2.0;
-
 // Shares of samples drawn as the density has them that are chosen from: in between, the number of
 // samples is nearly flat.
 constexpr double kShares[] = {0.3, 0.45, 0.6, 0.75, 0.9};
@@ -105,15 +102,12 @@ bool CountingSource::collidesAt(const RandomConfiguration& configuration,
       sampledAt(configuration, x.tail(configuration.dimension()), x.head<kTranslation>()));
 }
 
-// As MeanSequence::samplesFor() has it.
 double CountingSource::samplesWith(double variance, double weight, double probability) const {
   double tolerance = request_.toleranceAt(probability);
   if (request_.threshold) {
     tolerance = std::max(tolerance, 0.25 * std::fabs(*request_.threshold - probability));
   }
-  if (!(tolerance > 0.0)) return kInfinity;
-  const double by_spread = 0.5 * variance / (tolerance * tolerance);
-  return by_spread + std::hypot(by_spread, kUnseen * weight / tolerance);
+  return MeanSequence::samplesFor(std::sqrt(variance), weight, tolerance);
 }
 
 // The share with which the fewest samples are needed, as far as the points of the boundary tell:
@@ -134,15 +128,18 @@ double CountingSource::chooseShare(Counting& counting) const {
 }
 
 // More points of the boundary, while they are likely to save more calls than they take.
-void CountingSource::bend(BoundarySearch& search, Counting& counting) const {
+// Returns how many samples are needed then.
+double CountingSource::bend(BoundarySearch& search, Counting& counting) const {
+  double samples = chooseShare(counting);
   for (int points = kFirstPoints; points <= kMostPoints && watch_.goOn(); points *= 2) {
     const double mass = counting.model->mass(), weight = 1.0 / counting.as_they_are;
     const double saved = samplesWith(counting.variance, weight, mass) -
                          samplesWith(kLeftOfVariance * counting.variance, weight, mass);
     if (!(saved > search.questionsOfBend(points))) break;
     search.bend(*counting.model, points);
-    chooseShare(counting);
+    samples = chooseShare(counting);
   }
+  return samples;
 }
 
 CountingSource::Counting CountingSource::prepared(const ConfigurationMixture::Component& component,
@@ -156,10 +153,9 @@ CountingSource::Counting CountingSource::prepared(const ConfigurationMixture::Co
   BoundarySearch search(question, dimension, seed);
   counting.model = search.plane();
   if (counting.model) {
-    chooseShare(counting);
-    bend(search, counting);
+    const double samples = bend(search, counting);
     const double mass = counting.model->mass(), plain = mass * (1.0 - mass);
-    if (chooseShare(counting) < samplesWith(plain, 1.0, mass)) {
+    if (samples < samplesWith(plain, 1.0, mass)) {
       counting.mass = mass;
     } else {
       counting.variance = plain;

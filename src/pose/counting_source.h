@@ -59,7 +59,7 @@ class CountingSource : public EstimateSource {
   Counting prepared(const ConfigurationMixture::Component& component, std::uint64_t seed);
   double samplesWith(double variance, double weight, double probability) const;
   double chooseShare(Counting& counting) const;
-  void bend(BoundarySearch& search, Counting& counting) const;
+  double bend(BoundarySearch& search, Counting& counting) const;
   Counted countAt(std::size_t index) const;
   Counted countNear(const Counting& counting, const Eigen::VectorXd& normals, double uniform) const;
 

@@ -90,10 +90,9 @@ class AnyProbably {
 
   /// Lines, as long as they pay. \return  why that ends all; nothing if there are none to be had
   std::optional<ProbabilityStatus> tryLines() {
-    Budget limits(request_);
     for (;;) {
       if (decide()) return ProbabilityStatus::decided;
-      if (const auto stopped = limits.look(result_.certified, 0.0)) return stopped;
+      if (const auto stopped = budget_.look(result_.certified, 0.0)) return stopped;
       const LineTarget next = nextTarget();
       if (next.obstacle == nullptr) return std::nullopt;
       if (!next.obstacle->hasLines()) {

@@ -3,7 +3,7 @@
 // Every claim that the partition settles mass by, against the oracle.
 //
 // What is claimed of a set of whitened points holds for all of them
-// (src/partition/claim_observer.h); some are tried, most of them at corners, on edges and faces of
+// (src/cells/claim_observer.h); some are tried, most of them at corners, on edges and faces of
 // cells and on planes, as little inside as doubles allow. A point y stands
 // for the displacement that has it by law (whitened_frame.h), so that what is rounded in whitening
 // counts as the partition's.
