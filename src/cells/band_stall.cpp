@@ -16,7 +16,7 @@ double thicknessAlong(const Eigen::Vector3d& m, const OpenCell& open, const Band
   if (!band.isOfSweeps()) return band.thicknessAlong(m);
   double most = 0.0;
   for (const FrontPair& pair : open.front) {
-    if (!pair.isHalfSpace()) most = std::max(most, band.outwardAlong(m, pair.nodes));
+    if (!pair.isLayer()) most = std::max(most, band.outwardAlong(m, pair.nodes));
   }
   return most;
 }

@@ -38,6 +38,29 @@ constexpr int kMostOpened = 300;
 // pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
 constexpr std::size_t kLongFront = 70;
 
+// Topology is asked before pairs of triangles in cells that are this many times larger than the
+// triangles of one of the meshes: 1 and 4 take the same time on statues, 16 opens more pairs beside
+// bodies of a hundredth of the size.
+constexpr double kLargeBesideTriangles = 4.0;
+
+// A layer deeper in the cell than this is worth less than a look at its pairs of triangles.
+constexpr double kWorthwhileDepth = 0.9;
+
+// In a cell thinner than this, the slivers below known layers may be all there is.
+constexpr double kThinBesideSlivers = 16 * kSliver;
+
+Eigen::Vector3d meanLeafSize(const WhitenedTree& tree) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < tree.tree->nodes.size(); ++i) {
+    if (!tree.tree->nodes[i].isLeaf()) continue;
+    const NodeBox box = tree.boxOf(static_cast<int>(i));
+    for (int k = 0; k < 3; ++k) sum[k] += box.hi[k] - box.lo[k];
+    ++count;
+  }
+  return sum / std::max(count, 1);
+}
+
 void include(const Cell& part, Cell& box) {
   box.lo = box.lo.cwiseMin(part.lo);
   box.hi = box.hi.cwiseMax(part.hi);
@@ -72,7 +95,8 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
       sampled_(sampled),
       relative_tolerance_(relative_tolerance),
       statistics_(statistics),
-      possible_(front_, cutter_) {}
+      possible_(front_, cutter_),
+      leaf_size_(meanLeafSize(pair.a).cwiseMin(meanLeafSize(pair.b))) {}
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
@@ -82,13 +106,14 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
     return std::move(result_);
   }
   front_.take(cell, inherited);
+  const std::optional<CuttingPair> leader = findLeader();
   for (const Cell& covered : front_.covered()) settle(covered, "one pair");
   if (front_.cell().empty()) return std::move(result_);
   if (front_.coarse().empty() && front_.cutting().empty()) {
     settleFree(front_.cell());
     return std::move(result_);
   }
-  if (const auto leader = bestLeader()) {
+  if (leader) {
     openWithPlane(*leader);
   } else {
     openWithoutPlane();
@@ -96,18 +121,41 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
   return std::move(result_);
 }
 
-// The pair, or the proof by topology, that covers most of the cell under a single plane.
-std::optional<CuttingPair> CellExaminer::bestLeader() {
-  if (!maySkim(front_.cell())) return std::nullopt;
-  std::optional<CuttingPair> best = champion();
-  if (front_.coarse().size() + front_.cutting().size() <= kLongFront || !witness()) return best;
+// The pair, or the layer that topology proves, that covers most of the cell under a single plane.
+// The one that is likely to serve is asked first, and the other one only where it is needed.
+std::optional<CuttingPair> CellExaminer::findLeader() {
+  const bool topology_first = isLargeBesideTriangles() && !front_.coarse().empty();
+  std::optional<CuttingPair> leader;
+  if (topology_first) improveByTopology(leader);
+  if (leader && leader->depth < kWorthwhileDepth) return leader;
+  front_.open();
+  if (front_.cell().largestWidth() > kWidestIntegrated) return std::nullopt;
+  leader = champion();
+  const bool is_long = front_.coarse().size() + front_.cutting().size() > kLongFront;
+  if (!topology_first && is_long) improveByTopology(leader);
+  return leader;
+}
+
+// Then hardly any pair of them covers much of it.
+bool CellExaminer::isLargeBesideTriangles() const {
+  const Cell& cell = front_.cell();
+  for (int k = 0; k < cell.rank; ++k) {
+    if (cell.hi[k] - cell.lo[k] > kLargeBesideTriangles * leaf_size_[k]) return true;
+  }
+  return false;
+}
+
+void CellExaminer::improveByTopology(std::optional<CuttingPair>& best) {
+  const Cell& cell = front_.cell();
+  if (cell.empty() || cell.largestWidth() > kWidestIntegrated || !witness()) return;
   near_ = front_.coarse();
   for (const CuttingPair& cutting : front_.cutting()) {
-    if (!cutting.pair.isHalfSpace()) near_.push_back(cutting.pair);
+    if (!cutting.pair.isLayer()) near_.push_back(cutting.pair);
   }
-  const auto plane = witness()->plane(front_.cell(), near_);
-  if (plane && (!best || front_.depthOf(*plane) < best->depth)) return front_.addHalfSpace(*plane);
-  return best;
+  const auto layer = witness()->layer(cell, near_);
+  if (!layer) return;
+  const auto leader = front_.addLayer(layer->m, layer->from, layer->to);
+  if (leader && (!best || leader->depth < best->depth)) best = leader;
 }
 
 // Null where there is nothing to try.
@@ -168,10 +216,12 @@ void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double s
   result_.settled += settled;
 }
 
-// No surfaces meet anywhere in `cell`: one point of it tells whether the solids overlap.
+// No surfaces meet anywhere in `cell`, but for slivers at its sides that were settled with layers:
+// one point of the rest tells whether the solids overlap.
 void CellExaminer::settleFree(const Cell& cell) {
   if (!solids_ || cell.empty() || !solids_->possible(cell)) return claim("no pair", false, cell);
-  switch (solids_->at(0.5 * (cell.lo + cell.hi))) {
+  const bool is_thin = cell.leastWidth() < kThinBesideSlivers;
+  switch (is_thin ? Containment::unknown : solids_->at(0.5 * (cell.lo + cell.hi))) {
     case Containment::inside:
       settle(cell, "containment");
       break;
@@ -254,7 +304,7 @@ void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, doubl
                                bool nothing_below) const {
   const Cell& cell = front_.cell();
   const Eigen::Vector3d& m = leader.inner.m;
-  const bool by_pair = !leader.pair.isHalfSpace();
+  const bool by_pair = !leader.pair.isLayer();
   if (settled_from < leader.inner.s) observer_->excuse(cell, m, settled_from, leader.inner.s);
   CoveredPart above;
   above.planes[0] = leader.inner;
@@ -265,6 +315,19 @@ void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, doubl
   if (!isCutBack(box)) return;
   visitAround(cell, box,
               [&](const Cell& part) { claimBelow("beside what stays open", part, from); });
+}
+
+// Whether all of the cell below a plane, where no surfaces meet but in slivers at its sides, is
+// free: it is convex, so that one point of it tells, if it lies deeper than those.
+bool CellExaminer::isOutsideBelow(const CellPlane& plane) const {
+  const Cell& cell = front_.cell();
+  const Eigen::Vector3d lowest = cell.lowestCorner(plane.m);
+  const double room = plane.s - plane.m.dot(lowest);
+  if (!(room > 0.0)) return true;
+  const Eigen::Vector3d to_middle = 0.5 * (cell.lo + cell.hi) - lowest;
+  const double share = std::min(0.5, 0.25 * room / plane.m.dot(to_middle));
+  return 0.5 * share * cell.leastWidth() > kThinBesideSlivers &&
+         solids_->at(lowest + share * to_middle) == Containment::outside;
 }
 
 // The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
@@ -301,7 +364,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
     if (pair.obstacle == leader.pair.obstacle) continue;
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < enough) lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
-    if (lowest < open.possible_from && !pair.isHalfSpace()) {
+    if (lowest < open.possible_from && !pair.isLayer()) {
       lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, m));
     }
     keep(pair, lowest);
@@ -310,6 +373,10 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   settled_from = std::min(settled_from, below_.lowest_of_others);
   for (const FrontPair& pair : below_.pairs) keep(pair, below_.lowest);
   if (open.front.size() > 1) box = layerBox(box, m, open.possible_from, leader.inner.s);
+  if (solids_ && solids_->possible(cell)) {
+    if (!isOutsideBelow({m, open.possible_from})) return openWithoutPlane();
+    box = cell;
+  }
 
   const double sliver = massNear(cell, m, leader.inner.s - settled_from);
   result_.settled.mass.upper += sliver;

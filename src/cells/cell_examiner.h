@@ -67,10 +67,13 @@ class CellExaminer {
   void claim(const char* method, bool collides, const Cell& cell, const CoveredPart& part) const;
   void claimBelow(const char* method, const Cell& cell, const CellPlane& plane) const;
   std::optional<CuttingPair> champion() const;
-  std::optional<CuttingPair> bestLeader();
+  std::optional<CuttingPair> findLeader();
+  bool isLargeBesideTriangles() const;
+  void improveByTopology(std::optional<CuttingPair>& best);
   CrossingWitness* witness();
   void openWithoutPlane();
   bool maySkim(const Cell& cell) const;
+  bool isOutsideBelow(const CellPlane& plane) const;
   ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
   std::optional<double> massOfPart(const OpenCell& open, const PartMeasure& measure,
                                    const CoveredPart& part);
@@ -95,6 +98,7 @@ class CellExaminer {
   ClaimObserver* const observer_ = claim_observer;
   CubeCutter cutter_;
   PossibleParts possible_;
+  Eigen::Vector3d leaf_size_;  ///< mean of the boxes of triangles, of the mesh of smaller ones
   Examination result_;
   std::vector<FrontPair> near_;
   CellFront::PartsBelow below_;

@@ -68,13 +68,40 @@ void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) 
   least_depth_ = kDeepest;
   coarse_.clear();
   stack_.clear();
-  gather(inherited);
+  gatherLeaves(inherited);
+  if (!cell_.empty()) gatherCoarse(inherited);
+  noteFront();
+}
+
+void CellFront::noteFront() {
   statistics_.peak_front = std::max(statistics_.peak_front, coarse_.size() + cutting_.size());
   if (!cell_.empty() && !covered_.empty()) classifyAgain();
 }
 
-// The leaves first: for what they cover, the other pairs need not be refined.
-void CellFront::gather(const std::vector<FrontPair>& inherited) {
+// Most central pairs first: they are the most likely to cover the cell.
+void CellFront::open() {
+  const std::size_t before = cutting_.size();
+  ordered_.clear();
+  boxed_.clear();
+  const auto isToOpen = [this](const FrontPair& pair) {
+    const NodeBox box = obstacleBox(pair_, pair.nodes);
+    if (!largerThanCell(pair, box, kProbeRatio)) return false;
+    rankPair(eccentricity(box), {obstacles_.frontPair(pair.nodes), box});
+    return true;
+  };
+  coarse_.erase(std::remove_if(coarse_.begin(), coarse_.end(), isToOpen), coarse_.end());
+  std::sort(ordered_.begin(), ordered_.end(),
+            [](const Ranked& x, const Ranked& y) { return x.rank < y.rank; });
+  int probes = kProbes;
+  for (const Ranked& ranked : ordered_) {
+    refine(boxed_[ranked.place], probes);
+    if (cell_.empty()) break;
+  }
+  if (!cell_.empty() && cutting_.size() > before) carve();
+  noteFront();
+}
+
+void CellFront::gatherLeaves(const std::vector<FrontPair>& inherited) {
   for (const FrontPair& pair : inherited) {
     if (!pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
@@ -82,10 +109,6 @@ void CellFront::gather(const std::vector<FrontPair>& inherited) {
     if (cell_.empty()) return;
   }
   carve();
-  if (cell_.empty()) return;
-  const std::size_t before = cutting_.size();
-  gatherCoarse(inherited);
-  if (!cell_.empty() && cutting_.size() > before) carve();
 }
 
 void CellFront::gatherLeaf(const FrontPair& pair) {
@@ -111,11 +134,12 @@ void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
   cutting.depth = depthOf(cutting.inner);
 }
 
-CuttingPair CellFront::addHalfSpace(const CellPlane& plane) {
-  const FrontPair pair = FrontPair::ofHalfSpace(obstacles_.addHalfSpace(plane.m, plane.s));
-  CuttingPair cutting{pair, 1, 0.0, {}, 0.0, 2.0};
-  setPlane({CellRelation::cut, 1, 0, false, 0.0}, cutting);
-  return cutting;
+// As one of the cutting pairs, or as what covers all.
+std::optional<CuttingPair> CellFront::addLayer(const Eigen::Vector3d& m, double from, double to) {
+  const std::size_t before = cutting_.size();
+  gatherLeaf(FrontPair::ofLayer(obstacles_.addLayer(m, from, to)));
+  if (cutting_.size() == before || cutting_.back().sides != 1) return std::nullopt;
+  return cutting_.back();
 }
 
 void CellFront::coverAll() {
@@ -199,27 +223,11 @@ void CellFront::rankPair(double rank, const BoxedPair& boxed) {
   boxed_.push_back(boxed);
 }
 
-// Most central pairs first: they are the most likely to cover the cell.
 void CellFront::gatherCoarse(const std::vector<FrontPair>& inherited) {
-  ordered_.clear();
-  boxed_.clear();
   for (const FrontPair& pair : inherited) {
     if (pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
-    const NodeBox box = obstacleBox(pair_, pair.nodes);
-    if (!meetsCell(box)) continue;
-    if (largerThanCell(pair, box, kProbeRatio)) {
-      rankPair(eccentricity(box), {obstacles_.frontPair(pair.nodes), box});
-    } else {
-      coarse_.push_back(pair);
-    }
-  }
-  std::sort(ordered_.begin(), ordered_.end(),
-            [](const Ranked& x, const Ranked& y) { return x.rank < y.rank; });
-  int probes = kProbes;
-  for (const Ranked& ranked : ordered_) {
-    refine(boxed_[ranked.place], probes);
-    if (cell_.empty()) return;
+    if (meetsCell(obstacleBox(pair_, pair.nodes))) coarse_.push_back(pair);
   }
 }
 
@@ -314,7 +322,7 @@ void CellFront::classifyAgain() {
 }
 
 NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
-  if (pair.isHalfSpace()) return kEverywhere;
+  if (pair.isLayer()) return kEverywhere;
   return obstacleBox(pair_, pair.nodes);
 }
 
@@ -361,7 +369,7 @@ Eigen::Vector3d CellFront::acrossNearest(const Eigen::Vector3d& point) const {
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
   double nearest = kInfinity;
   for (const CuttingPair& cutting : cutting_) {
-    if (cutting.pair.isHalfSpace()) continue;
+    if (cutting.pair.isLayer()) continue;
     const CellPlane plane = farthestPlane(slabs(cutting.pair), point);
     const double beyond = plane.s - plane.m.dot(point);
     if (plane.m.isZero(0.0) || beyond >= nearest) continue;

@@ -34,6 +34,9 @@ class CellFront {
   /// it, covered() the slices that certainly collide, cutting() and coarse() its own front.
   void take(const Cell& cell, const std::vector<FrontPair>& inherited);
 
+  /// Opens pairs of nodes that are large beside the cell, as far as one of theirs may cover it.
+  void open();
+
   const Cell& cell() const { return cell_; }
   const CellBox& box() const { return box_; }
   const std::vector<Cell>& covered() const { return covered_; }
@@ -45,8 +48,9 @@ class CellFront {
   /// Signed distance of a plane from the cell's middle: -1 covers all, 1 nothing.
   double depthOf(const CellPlane& plane) const;
 
-  /// Takes the part of the cell in a half-space as known to collide.
-  CuttingPair addHalfSpace(const CellPlane& plane);
+  /// Takes what the cell has of a layer as known to collide. Nothing if not one of its planes alone
+  /// cuts the cell.
+  std::optional<CuttingPair> addLayer(const Eigen::Vector3d& m, double from, double to);
 
   const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
 
@@ -91,7 +95,8 @@ class CellFront {
     int place;
   };
 
-  void gather(const std::vector<FrontPair>& inherited);
+  void gatherLeaves(const std::vector<FrontPair>& inherited);
+  void noteFront();
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
   CellSection sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const;

@@ -24,8 +24,11 @@ constexpr std::size_t kTriedForPlane = 4;
 // A cell in which a swept vertex touches more triangles than this is left to be divided.
 constexpr std::size_t kMostTouched = 400;
 
-// Depth of the least plane worth having.
-constexpr double kLeastPlaneDepth = 0.98;
+// The least share of a cell's extent that a layer is worth having for.
+constexpr double kLeastShareOfLayer = 0.01;
+
+// Directions tried for a layer: the second one is across what the best vertex of the first touches.
+constexpr int kRounds = 2;
 
 int leftmostVertex(const PieceTree& tree, int node) {
   while (!tree.nodes[node].isLeaf()) node = tree.nodes[node].left;
@@ -242,11 +245,25 @@ std::optional<bool> CrossingWitness::isInside(Side& side, const SweptVertex& swe
   return std::nullopt;
 }
 
-// Whether a vertex inside means contact, for all displacements of the cell.
+// Whether a vertex inside means contact, for all displacements of the cell: of surfaces that
+// another one of the same component is outside.
 bool CrossingWitness::crosses(Side& side, int vertex, const Cell& cell) {
   if (solid_) return true;
-  return leaves(side, side.inner.mesh().tree->caps->components.of_vertex[vertex], cell) &&
+  const int component = side.inner.mesh().tree->caps->components.of_vertex[vertex];
+  return (leaves(side, component, cell) || staysOutside(side, component, cell)) &&
          avoidsCaps(side, cell);
+}
+
+// Whether some vertex of the component is outside for all displacements of the cell, at which it
+// touches nothing.
+bool CrossingWitness::staysOutside(Side& side, int component, const Cell& cell) {
+  const auto no = [](const Eigen::Vector3i&) { return false; };
+  for (const int vertex : side.extremes[component]) {
+    const SweptVertex swept = sweep(side, vertex, cell);
+    if (!side.outer.visitTriangles(swept.lo, swept.hi, no)) continue;
+    if (isInside(side, swept) == false) return true;
+  }
+  return false;
 }
 
 // Some vertex of the component is beyond the outer mesh's bounds for every displacement of the
@@ -277,57 +294,117 @@ bool CrossingWitness::avoidsCaps(Side& side, const Cell& cell) {
   return true;
 }
 
-std::optional<CellPlane> CrossingWitness::plane(const Cell& cell,
-                                                const std::vector<FrontPair>& near) {
+std::optional<CrossingLayer> CrossingWitness::layer(const Cell& cell,
+                                                    const std::vector<FrontPair>& near) {
   best_.reset();
-  tried_across_.clear();
-  for (Side& side : sides_) {
-    if (side.last_found >= 0) tryVertex(side, side.last_found, cell, nullptr);
-  }
-  tryNear(cell, near, nullptr);
+  for (Side& side : sides_) trySide(side, cell, near);
   if (!best_) return std::nullopt;
-  for (int round = 0; round < 2; ++round) {
-    const Eigen::Vector3d m = best_->plane.m;
-    tryNear(cell, near, &m);
-    if (best_->plane.m == m) break;
-  }
   best_->side->last_found = best_->vertex;
-  return best_->plane;
+  return best_->layer;
 }
 
-// Tries vertices of some of the nodes: any, or with a direction m those farthest along it.
-void CrossingWitness::tryNear(const Cell& cell, const std::vector<FrontPair>& near,
-                              const Eigen::Vector3d* m) {
-  tried_along_.clear();
-  const std::size_t step = std::max<std::size_t>(near.size() / kTriedForPlane, 1);
-  for (Side& side : sides_) {
-    for (std::size_t i = step / 2; i < near.size(); i += step) {
-      const int node = side.sign > 0 ? near[i].nodes.a : near[i].nodes.b;
-      if (!m) {
-        tryVertex(side, leftmostVertex(*side.inner.mesh().tree, node), cell, nullptr);
-      } else {
-        tryVertex(side, extremeVertex(side.inner.mesh(), node, side.sign * *m), cell, m);
-      }
-    }
+// Across what a vertex touches; then once more, across what the best one does.
+void CrossingWitness::trySide(Side& side, const Cell& cell, const std::vector<FrontPair>& near) {
+  Eigen::Vector3d m = inwardsNear(side, cell, near);
+  for (int round = 0; round < kRounds && !m.isZero(0.0); ++round) {
+    tryAlong(side, cell, near, m);
+    if (!best_ || best_->side != &side) return;
+    if (!findTouched(side, sweep(side, best_->vertex, cell))) return;
+    m = acrossTouched(side);
   }
 }
 
-// With normal m, if given, and with one across what is touched; either once.
-void CrossingWitness::tryVertex(Side& side, int vertex, const Cell& cell,
-                                const Eigen::Vector3d* m) {
-  const auto isNew = [&](Tried& tried) {
-    const Tried::value_type one(&side, vertex);
-    if (std::find(tried.begin(), tried.end(), one) != tried.end()) return false;
-    tried.push_back(one);
-    return true;
-  };
-  const bool along = m && isNew(tried_along_);
-  const bool across = isNew(tried_across_);
-  if (!along && !across) return;
+// Across what one of a few vertices touches; 0 if none touches anything.
+Eigen::Vector3d CrossingWitness::inwardsNear(Side& side, const Cell& cell,
+                                             const std::vector<FrontPair>& near) {
+  if (side.last_found >= 0 && findTouched(side, sweep(side, side.last_found, cell))) {
+    return acrossTouched(side);
+  }
+  const std::size_t step = std::max<std::size_t>(near.size() / kTriedForPlane, 1);
+  for (std::size_t i = step / 2; i < near.size(); i += step) {
+    const int node = side.sign > 0 ? near[i].nodes.a : near[i].nodes.b;
+    const int vertex = leftmostVertex(*side.inner.mesh().tree, node);
+    if (findTouched(side, sweep(side, vertex, cell))) return acrossTouched(side);
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+// Vertices about farthest along m: of all, and of some of the nodes.
+std::vector<int> CrossingWitness::farthestAlong(const Side& side,
+                                                const std::vector<FrontPair>& near,
+                                                const Eigen::Vector3d& m) const {
+  const WhitenedTree& mesh = side.inner.mesh();
+  std::vector<int> found{extremeVertex(mesh, 0, side.sign * m)};
+  const std::size_t step = std::max<std::size_t>(near.size() / kTriedForPlane, 1);
+  for (std::size_t i = step / 2; i < near.size(); i += step) {
+    const int node = side.sign > 0 ? near[i].nodes.a : near[i].nodes.b;
+    const int vertex = extremeVertex(mesh, node, side.sign * m);
+    if (std::find(found.begin(), found.end(), vertex) == found.end()) found.push_back(vertex);
+  }
+  return found;
+}
+
+// Between the first level above which a vertex is inside, and the last one below which another one
+// of its component is outside.
+void CrossingWitness::tryAlong(Side& side, const Cell& cell, const std::vector<FrontPair>& near,
+                               Eigen::Vector3d m) {
+  for (int k = cell.rank; k < 3; ++k) m[k] = 0.0;
+  const double length = m.norm();
+  if (!(length > 0.0)) return;
+  m /= length;
+  const double least = m.dot(cell.lowestCorner(m));
+  const double most = m.dot(cell.lowestCorner(-m));
+  double known_from = most;
+  for (const int vertex : farthestAlong(side, near, m)) {
+    const double from = insideFrom(side, vertex, cell, m, true, known_from);
+    if (!(from < known_from)) continue;
+    known_from = from;
+    const int component = side.inner.mesh().tree->caps->components.of_vertex[vertex];
+    double to = kInfinity;
+    if (!solid_) {
+      if (!avoidsCaps(side, cell)) return;
+      if (!leaves(side, component, cell)) to = outsideTo(side, component, cell, m, from);
+    }
+    const double share = (std::min(to, most) - from) / (most - least);
+    if (!(share > (best_ ? best_->share : kLeastShareOfLayer))) continue;
+    // A plane that only touches the cell is none.
+    best_ = Attempt{
+        &side, vertex, {m, from > least ? from : -kInfinity, to < most ? to : kInfinity}, share};
+  }
+}
+
+// The least m·y above which the vertex touches nothing within the cell and is on that side of the
+// outer mesh; infinite if that is above `most`.
+double CrossingWitness::insideFrom(Side& side, int vertex, const Cell& cell,
+                                   const Eigen::Vector3d& m, bool inside, double most) {
   const SweptVertex swept = sweep(side, vertex, cell);
-  if (!findTouched(side, swept)) return;
-  if (along) tryPlane(side, vertex, swept, cell, *m);
-  if (across) tryPlane(side, vertex, swept, cell, acrossTouched(side));
+  const NodeBox& bounds = side.outer.mesh().boxOf(0);
+  double from = m.dot(cell.lowestCorner(m));
+  if (isClearOf(bounds, swept.lo, swept.hi)) return inside ? kInfinity : from;
+  if (findTouched(side, swept)) {
+    from = std::max(from, highestTouched(side, vertex, swept, touched_, m, most));
+  } else if (!touched_.empty()) {
+    return kInfinity;
+  }
+  if (!(from < most) || !isBeyond(side, vertex, {m, from}, inside, cell)) return kInfinity;
+  return from;
+}
+
+// The highest m·y below which some vertex of the component touches nothing and is outside; -inf if
+// that is not above `from`.
+double CrossingWitness::outsideTo(Side& side, int component, const Cell& cell,
+                                  const Eigen::Vector3d& m, double from) {
+  double to = -kInfinity;
+  const auto ask = [&](int vertex) {
+    to = std::max(to, -insideFrom(side, vertex, cell, -m, false, -std::max(from, to)));
+  };
+  const std::vector<int>& of_vertex = side.inner.mesh().tree->caps->components.of_vertex;
+  const int farthest = extremeVertex(side.inner.mesh(), 0, -side.sign * m);
+  if (of_vertex[farthest] == component) ask(farthest);
+  for (const int vertex : side.extremes[component]) {
+    if (vertex != farthest) ask(vertex);
+  }
+  return to;
 }
 
 // Whether the swept vertex touches some triangles, and not too many.
@@ -341,35 +418,14 @@ bool CrossingWitness::findTouched(Side& side, const SweptVertex& swept) {
   return side.outer.visitTriangles(swept.lo, swept.hi, collect) && !touched_.empty();
 }
 
-// Beyond the highest point along m of all that the swept vertex touches nothing is touched.
-void CrossingWitness::tryPlane(Side& side, int vertex, const SweptVertex& swept, const Cell& cell,
-                               Eigen::Vector3d m) {
-  for (int k = cell.rank; k < 3; ++k) m[k] = 0.0;
-  const double length = m.norm();
-  if (!(length > 0.0)) return;
-  m /= length;
-  const double least = m.dot(cell.lowestCorner(m));
-  const double most = m.dot(cell.lowestCorner(-m));
-  const double least_depth = best_ ? best_->depth : kLeastPlaneDepth;
-  const double useful = least + 0.5 * (least_depth + 1) * (most - least);
-  const double s = std::max(least, highestTouched(side, vertex, swept, touched_, m, useful));
-  const double depth = 2 * (s - least) / (most - least) - 1;
-  if (!(depth < least_depth)) return;
-  const Attempt attempt{&side, vertex, {m, s}, depth};
-  if (!certify(side, vertex, {{attempt.plane}, 1}, m, depth, cell)) return;
-  best_ = attempt;
-}
-
+// The inner mesh moves into the outer one against its outward normals.
 Eigen::Vector3d CrossingWitness::acrossTouched(const Side& side) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3i& t : touched_) sum += across(side, t);
-  return sum;
-}
-
-// The inner mesh moves into the outer one against its outward normals.
-Eigen::Vector3d CrossingWitness::across(const Side& side, const Eigen::Vector3i& t) {
   const auto& vertices = side.outer.mesh().vertices;
-  return -side.sign * (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
+  for (const Eigen::Vector3i& t : touched_) {
+    sum += (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
+  }
+  return -side.sign * sum;
 }
 
 // Upper bound of m·y over the displacements y at which the vertex touches one of the triangles, of
@@ -406,31 +462,20 @@ double CrossingWitness::highestTouched(const Side& side, int vertex, const Swept
          m.cwiseAbs().dot(rounding) + 64 * kEpsilon * (kReach + m.cwiseAbs().dot(p.cwiseAbs()));
 }
 
-Eigen::Vector3d CrossingWitness::pointBeyond(const Cell& cell, const Eigen::Vector3d& m,
-                                             double depth, int trial) {
-  const Eigen::Vector3d corner = cell.lowestCorner(-m);
+// Whether the vertex is on that side of the outer mesh wherever in the cell it is beyond the plane,
+// where it touches nothing: that part is convex, so that one point of it tells of all. Points near
+// the corner that lies farthest along m are tried.
+bool CrossingWitness::isBeyond(Side& side, int vertex, const CellPlane& plane, bool inside,
+                               const Cell& cell) {
+  const Eigen::Vector3d corner = cell.lowestCorner(-plane.m);
   const Eigen::Vector3d middle = 0.5 * (cell.lo + cell.hi);
-  const double share = 0.02 + 0.05 * trial;
-  return corner + share * (1 - depth) * (middle - corner);
-}
-
-bool CrossingWitness::isWithin(const CoveredPart& part, const Eigen::Vector3d& y) {
-  for (int i = 0; i < part.count; ++i) {
-    if (!(part.planes[i].m.dot(y) > part.planes[i].s)) return false;
-  }
-  return true;
-}
-
-// The part is convex and free of the outer mesh, so that one point of it tells of all.
-bool CrossingWitness::certify(Side& side, int vertex, const CoveredPart& part,
-                              const Eigen::Vector3d& m, double depth, const Cell& cell) {
+  const double room = (plane.m.dot(corner) - plane.s) / plane.m.dot(corner - middle);
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Eigen::Vector3d y = pointBeyond(cell, m, depth, trial);
-    if (!isWithin(part, y)) continue;
+    const double share = std::min(1.0, (0.02 + 0.05 * trial) * room);
+    const Eigen::Vector3d y = corner + share * (middle - corner);
+    if (!(plane.m.dot(y) > plane.s)) continue;
     const Eigen::Vector3d point = side.inner.mesh().vertices[vertex] + side.sign * y;
-    if (const auto inside = side.outer.isInside(point, trial % 3)) {
-      return *inside && crosses(side, vertex, cell);
-    }
+    if (const auto found = side.outer.isInside(point, trial % 3)) return *found == inside;
   }
   return false;
 }

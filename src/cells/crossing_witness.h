@@ -13,6 +13,14 @@
 
 namespace fcl_prob::detail {
 
+/// What lies between two parallel planes, { from <= m·y <= to }, m a unit vector. Either level is
+/// infinite where its plane does not cut the cell.
+struct CrossingLayer {
+  Eigen::Vector3d m;
+  double from;
+  double to;
+};
+
 /// If a vertex of one mesh stays inside the other, capped, for every displacement of a cell, while
 /// another vertex of the same component of it stays outside, then the surfaces meet throughout the
 /// cell, unless it is at a cap. Where triangles are much smaller than the cell no single pair of
@@ -36,9 +44,10 @@ class CrossingWitness {
   /// True only if all of `cell` collides.
   bool covers(const Cell& cell);
 
-  /// A plane beyond which all of `cell` collides, as far out as a few vertices near the pairs of
-  /// nodes `near` can show; nothing if they show none.
-  std::optional<CellPlane> plane(const Cell& cell, const std::vector<FrontPair>& near);
+  /// A layer of which all that `cell` has collides: from where a vertex is inside to where, if they
+  /// are surfaces, another one is not outside any more. As thick as the vertices that lie farthest
+  /// out, or near the pairs of nodes `near`, can show; nothing if they show none.
+  std::optional<CrossingLayer> layer(const Cell& cell, const std::vector<FrontPair>& near);
 
  private:
   /// Points and rays tried until one of them tells inside from outside for certain.
@@ -69,14 +78,11 @@ class CrossingWitness {
     int last_found = -1;
   };
 
-  /// Vertices that were tried, each of the inner mesh of a side.
-  using Tried = std::vector<std::pair<const Side*, int>>;
-
   struct Attempt {
     Side* side;
     int vertex;
-    CellPlane plane;
-    double depth;  ///< of the plane in the cell, -1 to 1: the lower the more is covered
+    CrossingLayer layer;
+    double share;  ///< of the cell's extent along m
   };
 
   static SweptVertex sweep(const Side& side, int vertex, const Cell& cell);
@@ -84,33 +90,30 @@ class CrossingWitness {
   std::optional<bool> isInside(Side& side, const SweptVertex& swept);
   bool crosses(Side& side, int vertex, const Cell& cell);
   bool leaves(const Side& side, int component, const Cell& cell) const;
+  bool staysOutside(Side& side, int component, const Cell& cell);
   bool avoidsCaps(Side& side, const Cell& cell);
 
-  void tryNear(const Cell& cell, const std::vector<FrontPair>& near, const Eigen::Vector3d* m);
-  void tryVertex(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d* m);
-  bool findTouched(Side& side, const SweptVertex& swept);
-  void tryPlane(Side& side, int vertex, const SweptVertex& swept, const Cell& cell,
+  void trySide(Side& side, const Cell& cell, const std::vector<FrontPair>& near);
+  Eigen::Vector3d inwardsNear(Side& side, const Cell& cell, const std::vector<FrontPair>& near);
+  void tryAlong(Side& side, const Cell& cell, const std::vector<FrontPair>& near,
                 Eigen::Vector3d m);
-  static Eigen::Vector3d across(const Side& side, const Eigen::Vector3i& triangle);
+  std::vector<int> farthestAlong(const Side& side, const std::vector<FrontPair>& near,
+                                 const Eigen::Vector3d& m) const;
+  double insideFrom(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d& m, bool inside,
+                    double most);
+  double outsideTo(Side& side, int component, const Cell& cell, const Eigen::Vector3d& m,
+                   double from);
+  bool findTouched(Side& side, const SweptVertex& swept);
   Eigen::Vector3d acrossTouched(const Side& side) const;
   double highestTouched(const Side& side, int vertex, const SweptVertex& swept,
                         const std::vector<Eigen::Vector3i>& touched, const Eigen::Vector3d& m,
                         double most) const;
-  static bool isWithin(const CoveredPart& part, const Eigen::Vector3d& y);
-  bool certify(Side& side, int vertex, const CoveredPart& part, const Eigen::Vector3d& m,
-               double depth, const Cell& cell);
-
-  /// Points of a cell near its corner that lies farthest along m, some way into what a plane of
-  /// this depth leaves.
-  static Eigen::Vector3d pointBeyond(const Cell& cell, const Eigen::Vector3d& m, double depth,
-                                     int trial);
+  bool isBeyond(Side& side, int vertex, const CellPlane& plane, bool inside, const Cell& cell);
 
   bool solid_;
   bool moves_;  ///< the shapes, other than by the displacement
   std::shared_ptr<const BandMargin> band_;
   std::vector<Side> sides_;
-  Tried tried_along_;                     ///< the normal asked for last
-  Tried tried_across_;                    ///< what they touch, in this cell
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
 };

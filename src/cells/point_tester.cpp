@@ -110,7 +110,7 @@ void PointTester::removeDecided(const std::vector<TestedPoint>& points) {
 void PointTester::testPair(const FrontPair& pair, std::vector<TestedPoint>& points) {
   const Range chosen = choose(pair);
   if (chosen.begin == chosen.end) return;
-  if (pair.isHalfSpace() || areLeaves(pair_, pair.nodes)) {
+  if (pair.isLayer() || areLeaves(pair_, pair.nodes)) {
     testLeaves(pair, chosen, points);
   } else {
     testParts(pair, chosen, points);
@@ -122,7 +122,7 @@ void PointTester::testPair(const FrontPair& pair, std::vector<TestedPoint>& poin
 PointTester::Range PointTester::choose(const FrontPair& pair) {
   const std::size_t all = undecided_.size();
   chosen_.resize(std::max(chosen_.size(), all));
-  if (pair.isHalfSpace()) {
+  if (pair.isLayer()) {
     std::copy(undecided_.begin(), undecided_.end(), chosen_.begin());
     return {0, all};
   }

@@ -31,7 +31,7 @@ PossibleParts::Reach PossibleParts::reachOf(const OpenCell& open, const FrontPai
     const CellPlane& plane = part.planes[i];
     double lowest = front_.lowestOfBox(pair, plane.m);
     if (lowest < plane.s && pair.hasObstacle()) {
-      if (!pair.isHalfSpace()) {
+      if (!pair.isLayer()) {
         lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, plane.m));
       }
       if (lowest < plane.s) lowest = std::max(lowest, front_.lowestOfSlabs(pair, plane.m));

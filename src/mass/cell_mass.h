@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 
+#include "base/constants.h"
 #include "convex/slab_kernels.h"
 #include "fcl_prob/bounds.h"
 #include "gaussian/density_series.h"
@@ -37,6 +38,13 @@ struct Cell {
   double largestWidth() const {
     double width = 0.0;
     for (int i = 0; i < rank; ++i) width = std::max(width, hi[i] - lo[i]);
+    return width;
+  }
+
+  /// Along the axes that move; infinite if none does.
+  double leastWidth() const {
+    double width = kInfinity;
+    for (int i = 0; i < rank; ++i) width = std::min(width, hi[i] - lo[i]);
     return width;
   }
 

@@ -8,15 +8,16 @@
 namespace fcl_prob::detail {
 
 /// What may meet a cell: the C-obstacle of two nodes, one of them inner; that of two leaves; or a
-/// half-space of which the part within the cell is known to collide, whatever pairs cause that.
+/// layer between two planes, one of them perhaps at infinity, of which the part within the cell is
+/// known to collide, whatever pairs cause that.
 struct FrontPair {
   static FrontPair ofNodes(NodePair nodes) { return {nodes, kNone}; }
   static FrontPair ofLeaves(NodePair leaves, int obstacle) { return {leaves, obstacle}; }
-  static FrontPair ofHalfSpace(int obstacle) { return {{kNone, kNone}, obstacle}; }
+  static FrontPair ofLayer(int obstacle) { return {{kNone, kNone}, obstacle}; }
 
   /// Whether it has planes in the ObstacleTable: all have but pairs with an inner node.
   bool hasObstacle() const { return obstacle != kNone; }
-  bool isHalfSpace() const { return nodes.a == kNone; }
+  bool isLayer() const { return nodes.a == kNone; }
 
   static constexpr int kNone = -1;
   NodePair nodes;

@@ -130,7 +130,7 @@ bool ObstacleTable::areTriangles(NodePair leaves) const {
   return isTriangle(pair_.a, leaves.a) && isTriangle(pair_.b, leaves.b);
 }
 
-int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
+int ObstacleTable::addLayer(const Eigen::Vector3d& m, double from, double to) {
   constexpr int kLanes = 4;
   const double padding = 32 * kEpsilon * kReach;
   double* data = allocate(kLanes);
@@ -140,7 +140,8 @@ int ObstacleTable::addHalfSpace(const Eigen::Vector3d& m, double s) {
     data[3 * kLanes + lane] = -kUnbounded;
     data[4 * kLanes + lane] = kUnbounded;
   }
-  data[3 * kLanes] = s - padding;
+  if (from > -kUnbounded) data[3 * kLanes] = from - padding;
+  if (to < kUnbounded) data[4 * kLanes] = to + padding;
   data[5 * kLanes] = 2 * padding;
   return add({data, kLanes});
 }

@@ -64,8 +64,9 @@ class ObstacleTable {
   /// Of two triangles; quicker than all of their slabs.
   FaceSlabs faceSlabs(NodePair leaves) const;
 
-  /// A half-space {m·y >= s} as an obstacle of its own: index of a new one.
-  int addHalfSpace(const Eigen::Vector3d& m, double s);
+  /// A layer {from <= m·y <= to}, where one of them is infinite a half-space, as an obstacle of its
+  /// own: index of a new one.
+  int addLayer(const Eigen::Vector3d& m, double from, double to);
 
   const SlabArrays& slabs(int obstacle) const { return obstacles_[obstacle]; }
 

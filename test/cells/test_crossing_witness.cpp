@@ -79,9 +79,24 @@ class WitnessCase {
   CrossingWitness witness_;
 };
 
+/// By the sum of the solid angles of all triangles (Van Oosterom and Strackee 1983).
+bool isWithin(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
+  double angle = 0.0;
+  for (const fcl::Triangle& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]] - point;
+    const Eigen::Vector3d b = mesh.vertices[t[1]] - point;
+    const Eigen::Vector3d c = mesh.vertices[t[2]] - point;
+    angle +=
+        2 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                              b.dot(c) * a.norm() + c.dot(a) * b.norm());
+  }
+  return std::fabs(angle) > 2 * M_PI;
+}
+
 struct Tally {
   int covered = 0;
-  int planes = 0;
+  int layers = 0;
+  int behind = 0;             ///< layers with a plane behind which surfaces may have parted
   int uncovered_contact = 0;  ///< cells in contact at their middle, without proof
   int samples = 0;
 };
@@ -105,14 +120,16 @@ Tally checkClaims(const TriangleMesh& a, const TriangleMesh& b, double reach, un
       return y;
     };
     const bool covers = pair.witness().covers(cell);
-    const auto plane = pair.witness().plane(cell, pair.near(cell));
+    const auto layer = pair.witness().layer(cell, pair.near(cell));
     tally.covered += covers;
-    tally.planes += plane.has_value();
-    tally.uncovered_contact += !covers && !plane && pair.collides(middle);
-    if (!covers && !plane) continue;
+    tally.layers += layer.has_value();
+    tally.behind += layer && layer->to < 1e9;
+    tally.uncovered_contact += !covers && !layer && pair.collides(middle);
+    if (!covers && !layer) continue;
     for (int j = 0; j < 20; ++j) {
       const Eigen::Vector3d y = pointOf();
-      if (!covers && plane->m.dot(y) < plane->s) continue;
+      const double height = covers ? 0.0 : layer->m.dot(y);
+      if (!covers && !(height >= layer->from && height <= layer->to)) continue;
       ++tally.samples;
       if (!pair.collides(y)) {
         CAPTURE(cell.lo.transpose(), cell.hi.transpose(), y.transpose(), covers);
@@ -128,13 +145,14 @@ Tally checkClaims(const TriangleMesh& a, const TriangleMesh& b, double reach, un
 TEST_CASE("where a witness says so, closed surfaces meet", "[partition]") {
   const Tally tally = checkClaims(bumpyMesh(1.0, 24, 32, 5), torusMesh(1.2, 0.5, 40, 20), 2.5, 301);
   CHECK(tally.covered > 100);
-  CHECK(tally.planes > 200);
+  CHECK(tally.layers > 200);
   CHECK(tally.samples > 3000);
 }
 
 TEST_CASE("a mesh that may be inside another one is no witness", "[partition]") {
   const Tally tally = checkClaims(sphereMesh(0.5, 20, 30), bumpyMesh(1.6, 24, 32, 7), 1.5, 302);
   CHECK(tally.samples > 300);
+  CHECK(tally.behind > 30);
 }
 
 TEST_CASE("a witness does not take a hole for a surface", "[partition]") {
@@ -200,4 +218,41 @@ TEST_CASE("the interval of a bowl and a ball holds a Monte Carlo estimate", "[pa
   CHECK(*result.upper >= estimate - 5 * standard_error);
   CHECK(estimate > 0.2);
   CHECK(estimate < 0.9);
+}
+
+TEST_CASE(
+    "a small body beside a large one: the interval holds a Monte Carlo estimate, in few cells",
+    "[partition]") {
+  const TriangleMesh large = bumpyMesh(1.0, 48, 64, 21);
+  const GaussianDisplacement displacement(Eigen::Vector3d(0.9, 0.3, 0.1),
+                                          Eigen::Vector3d(0.04, 0.02, 0.01).asDiagonal() * 1.0);
+  for (const double size : {0.05, 0.2}) {
+    const TriangleMesh small = bumpyMesh(size, 24, 32, 23);
+    for (const bool solid : {false, true}) {
+      CAPTURE(size, solid);
+      PartitionQuery query(small, large);
+      if (solid) query.makeSolid();
+      const auto request = intervalRequest(0.2);
+      const auto result = query.run(displacement, request);
+      CHECK(result.status == fcl_prob::ProbabilityStatus::converged);
+      CHECK(result.statistics.cells < (size < 0.1 ? 50'000 : 5'000));
+      RandomBodies random(307);
+      const Eigen::Matrix3d root = displacement.covariance().llt().matrixL();
+      constexpr int kSamples = 20'000;
+      int hits = 0;
+      for (int i = 0; i < kSamples; ++i) {
+        fcl::Transform3d pose = query.pose_a;
+        pose.translation() += displacement.mean() + root * random.normalVector();
+        fcl::CollisionRequestd once;
+        fcl::CollisionResultd contact;
+        const bool touches = fcl::collide(query.model_a.get(), pose, query.model_b.get(),
+                                          query.pose_b, once, contact) > 0;
+        hits += touches || (solid && isWithin(large, pose.translation()));
+      }
+      const double estimate = static_cast<double>(hits) / kSamples;
+      const double standard_error = std::sqrt(estimate * (1 - estimate) / kSamples);
+      CHECK(*result.lower <= estimate + 5 * standard_error);
+      CHECK(*result.upper >= estimate - 5 * standard_error);
+    }
+  }
 }
