@@ -122,6 +122,8 @@ void FatObstacles::buildTriangle(int piece, Details& into) {
   if (!(into.loss < kNever)) failed_ = true;
 }
 
+// The pad is what an offset is rounded by (WhitenedFan). The outer plane has it added; the margin
+// takes that off again and one pad more for each of the obstacle and the point that is compared.
 ObstaclePlane FatObstacles::planeAcross(double extent, const Eigen::Vector3d& n,
                                         double of_p) const {
   const double pad = padding(n);
@@ -132,6 +134,8 @@ void FatObstacles::addTriangleNormal(const Eigen::Matrix3d& corners, Details& in
   const Eigen::Vector3d first = corners.col(1) - corners.col(0);
   const Eigen::Vector3d second = corners.col(2) - corners.col(0);
   const Eigen::Vector3d across = first.cross(second);
+  // Each component of a cross product is rounded by less than 8 ε of |first| |second|: that turns
+  // the normal, and moves a plane within reach by so much of it.
   const double turned = 8 * kEpsilon * first.norm() * second.norm() / across.norm();
   if (!(turned < kPoorNormal)) {
     into.loss = kNever;
@@ -217,6 +221,8 @@ void FatObstacles::addArcCrossings(const Eigen::Vector3d& along, double length, 
     const Eigen::Vector3d n = crossing / size;
     ObstaclePlane plane = planeAcross(extentAlong(n), n, of_p);
     const double gap = (normals()[f] - normals()[g]).norm();
+    // Rounded weights leave the crossing on its arc, but not quite across the edge: it is off by a
+    // few ε of length / size along the arc, along which the normals differ by the gap.
     plane.margin += 64 * kEpsilon * gap * (length / size) * reach();
     into.planes.push_back(plane);
   }

@@ -51,6 +51,8 @@ NodeReach::Places NodeReach::widthsOf(const Eigen::Vector3d& half) const {
          normals_.col(2).array().abs() * half[2];
 }
 
+// The padding of all three axes pays for the heights of the cell, as that in the constructor for
+// the planes; what floats round goes outwards.
 NodeReach::Heights NodeReach::lowestOf(const Eigen::Vector3d& middle,
                                        const Eigen::Vector3d& half) const {
   return floatsBelow(along(middle) - widthsOf(half) - rounding_);

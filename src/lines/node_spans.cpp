@@ -12,7 +12,8 @@
 namespace fcl_prob::detail {
 namespace {
 
-// Of the reach.
+// Of the reach: some hundred times what an offset and the products of its plane with the corners of
+// a column are rounded by.
 constexpr double kRoundedPlaneEnds = 1e-13;
 
 // Half of what neighbouring floats differ by: a difference of two.

@@ -47,6 +47,9 @@ Attempt attempt(const WhitenedDisc& disc, double digits) {
       result.rounding = kInfinity;
       break;
     }
+    // Of a term: what its ends make of the mass of the chord (chordMass()), the share that cos is
+    // wrong by, |y| times the error of y for the density, and an ε for each factor and each term of
+    // the sum.
     const double share = chord.cos_error / chord.cos;
     const ChordMass inner = chordMass(disc.x_centre, chord.half, disc.x_error,
                                       chord.half * (share + disc.radius_error + 0.5 * kEpsilon));

@@ -33,6 +33,7 @@ void MassTree::tightenByParts(std::size_t cell) {
     sum.lower += nodes_[part].mass.lower;
     sum.upper += nodes_[part].mass.upper;
   }
+  // An ε for each addition, and two for the factor below.
   const double rounding = kEpsilon * static_cast<double>(nodes_[cell].parts.size() + 2);
   Bounds& mass = nodes_[cell].mass;
   mass.lower = std::max(mass.lower, sum.lower * (1.0 - rounding));

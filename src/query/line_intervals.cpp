@@ -29,6 +29,8 @@ DisplacementAlong::DisplacementAlong(const GaussianDisplacement& displacement,
     : mean_(direction.dot(displacement.mean())) {
   const Eigen::Vector3d& deviations = displacement.standardDeviations();
   deviation_ = deviations.cwiseProduct(displacement.axes().transpose() * direction).stableNorm();
+  // Three components, each a sum of three products that is scaled and squared: the deviation is off
+  // by less than 16 ε of the largest one, the mean by less than 8 ε of its terms.
   deviation_error_ = 16 * kEpsilon * deviations.maxCoeff();
   mean_error_ = 8 * kEpsilon * direction.cwiseAbs().dot(displacement.mean().cwiseAbs());
 }

@@ -33,6 +33,8 @@ Unbounded placed(const Shape& shape, const fcl::Transform3d& pose, const Eigen::
                  bool surface) {
   const Eigen::Vector3d normal = pose.linear() * shape.n;
   const long double along = normal.cast<long double>().dot(moved.cast<long double>());
+  // The normal is a sum of three products, whose rounding counts by the distance; the rest is
+  // summed in long double and rounded once.
   const double error = 8 * kEpsilon * (std::fabs(shape.d) + moved.norm());
   return {normal, static_cast<double>(shape.d + along), error, surface};
 }
@@ -77,6 +79,8 @@ std::vector<LineInterval> extents(const PieceTree& tree, const fcl::Transform3d&
 }
 
 double errorOfExtents(const PieceTree& tree, const LongVector& origin, const Unbounded& plane) {
+  // A height is a product of the normal, turned twice, with a vertex, and two sums: 16 ε of the
+  // lengths.
   return plane.error + 2 * tree.error() +
          16 * kEpsilon *
              (tree.radius() + static_cast<double>(origin.norm()) + std::fabs(plane.offset));

@@ -166,6 +166,12 @@ class PolygonFit {
     return (at(vertex) - origin_ - axes_ * x).norm() + rounding;
   }
 
+  // With every vertex moved into the polygon H, those of the loop to their side of it, the
+  // triangles have the boundary of H modulo 2. In a plane only H has that boundary, so that they
+  // cover each of its points an odd number of times: every point of H is within farthest() of a
+  // triangle, every triangle of H. The corners, too, are off H by that, which is why `off` is twice
+  // as much.
+  //
   // How far a vertex has to be moved, at the most: those of the loop to their side of the polygon,
   // the others into it.
   double farthest() const {

@@ -68,6 +68,8 @@ class ReachSearch {
   bool tryPlane(const Eigen::Vector3d& n, double height) {
     if (!(height > 0.0)) return false;
     const double lowest = std::min({n.dot(corners_[0]), n.dot(corners_[1]), n.dot(corners_[2])});
+    // Both heights are sums of three products of coordinates within size_, relative to a centre
+    // that is rounded: less than 32 ε of the size.
     best_ = std::min(best_, 1.0 - (lowest - 32 * kEpsilon * size_) / height);
     return 1.0 - lowest / height <= kLittleReach;
   }

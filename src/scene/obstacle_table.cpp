@@ -222,6 +222,8 @@ Eigen::Vector3d ObstacleTable::errorOf(NodePair leaves) const {
   return paddingOf(leaves, slabError(pair_, leaves));
 }
 
+// Four errors: of the two points of a support value and of two differences of vertices in a normal.
+// The sums themselves are rounded by less than 32 ε of the reach. All of it axis by axis.
 Eigen::Vector3d ObstacleTable::paddingOf(NodePair leaves, const Eigen::Vector3d& error) const {
   const Eigen::Vector3d reach = largestCoordinates(pair_.a.boxOf(leaves.a)) +
                                 largestCoordinates(pair_.b.boxOf(leaves.b)) +

@@ -10,6 +10,7 @@
 namespace fcl_prob::detail {
 namespace {
 
+// More than a hundred times what sums of a few dozen products are rounded by.
 constexpr double kRoundedTurns = 1e-12;
 
 }  // namespace

@@ -39,6 +39,8 @@ WhitenedFan::WhitenedFan(const WhitenedPair& pair, const PieceTree::Part& part,
     }
   }
   reach_ = 2 * largest.norm();
+  // Four errors of a vertex of either object: of the corner, the support point and the two ends of
+  // an edge. Sums of products of a normal and points within reach: 64 ε.
   pad_ = 4 * (body.error + mesh_.error) + 64 * kEpsilon * largest;
   moveFan(body, part, fan, linear);
 }

@@ -171,6 +171,9 @@ void whitenOne(const PartitionObject& object, const Whitening& whitening,
   }
   const Eigen::Vector3d stretch = whitening.matrix().cwiseAbs().rowwise().sum();
   const Eigen::Vector3d size = 1.8 * object.tree->radius() * stretch;
+  // A whitened coordinate is a sum of products with the pose and the matrix: 16 ε of the magnitudes
+  // of all terms is more than two such sums in turn round. Axis by axis, since whitening may
+  // stretch one axis by 1e12 of another.
   result.error = 16 * kEpsilon * (2 * size + farthest) +
                  (object.tree->error() + kLostInProducts + moved) * stretch;
   result.error.array() += std::numeric_limits<double>::min();

@@ -27,6 +27,7 @@ void widenSlabs(double* data, int count, const ShiftAlong& shiftAlong) {
     const Eigen::Vector3d n(data[i], data[count + i], data[2 * count + i]);
     if (hi >= kUnbounded || n.isZero(0.0)) continue;
     const SlabShift shift = shiftAlong(n);
+    // Two sums for each end and two for the margin: an ε of its terms for each.
     const double rounding = 4 * kEpsilon * (std::fabs(lo) + std::fabs(hi) + shift.outward);
     const double out = shift.outward + rounding;
     lo -= out;
