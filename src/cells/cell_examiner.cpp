@@ -71,8 +71,7 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
       with_moments_(with_moments),
       sampled_(sampled),
       relative_tolerance_(relative_tolerance),
-      statistics_(statistics),
-      possible_(front_, cutter_) {}
+      statistics_(statistics) {}
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
