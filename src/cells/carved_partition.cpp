@@ -82,13 +82,13 @@ std::string convexNote(const PartitionObject& body, const FatMembers& obstacles,
 bool mayBeCarved(const QueryScene& scene, const ProbabilityRequest& request) {
   if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
   if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
-  return !request.hasBand() && scene.nearlyConvexBody();
+  return !request.hasBand() && scene.wholeBody();
 }
 
 bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& budget,
            ProbabilityResult& result) {
-  if (!scene.nearlyConvexBody()) return false;
-  const WholeBody& whole = *scene.nearlyConvexBody();
+  if (!scene.wholeBody()) return false;
+  const WholeBody& whole = *scene.wholeBody();
   const auto& [body, mesh, fan_is_a] = whole;
   if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
   FatMembers obstacles(scene.pair(), body, mesh, fan_is_a, scene.whitening().matrix(),

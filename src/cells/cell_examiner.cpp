@@ -95,7 +95,6 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
       sampled_(sampled),
       relative_tolerance_(relative_tolerance),
       statistics_(statistics),
-      possible_(front_, cutter_),
       leaf_size_(meanLeafSize(pair.a).cwiseMin(meanLeafSize(pair.b))) {}
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {

@@ -7,8 +7,8 @@
 
 #include "cells/cell_front.h"
 #include "cells/claim_observer.h"
+#include "cells/covered_part.h"
 #include "cells/crossing_witness.h"
-#include "cells/possible_parts.h"
 #include "scene/containment.h"
 
 namespace fcl_prob::detail {
@@ -77,7 +77,7 @@ class CellExaminer {
   ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
   std::optional<double> massOfPart(const OpenCell& open, const PartMeasure& measure,
                                    const CoveredPart& part);
-  double lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const;
+  double lowestOfFront(const OpenCell& open, const CellPlane& level);
   void addPart(OpenCell& open);
   void addPossible(OpenCell& open);
   void weigh(OpenCell& open);
@@ -97,7 +97,6 @@ class CellExaminer {
   ProbabilityStatistics& statistics_;
   ClaimObserver* const observer_ = claim_observer;
   CubeCutter cutter_;
-  PossibleParts possible_;
   Eigen::Vector3d leaf_size_;  ///< mean of the boxes of triangles, of the mesh of smaller ones
   Examination result_;
   std::vector<FrontPair> near_;

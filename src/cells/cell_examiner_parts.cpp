@@ -3,9 +3,8 @@
 // Of open cells: which parts collide, and what the rest may hold.
 #include <algorithm>
 #include <array>
-#include <limits>
 
-#include "base/left_out.h"
+#include "base/constants.h"
 #include "cells/cell_examiner.h"
 #include "mass/cell_layer.h"
 
@@ -65,15 +64,17 @@ std::optional<double> CellExaminer::massOfPart(const OpenCell& open, const PartM
   return covered;
 }
 
-// Lower bound of m·y over all that may collide in an open cell.
-double CellExaminer::lowestOfFront(const OpenCell& open, const Eigen::Vector3d& m) const {
+// Lower bound of m·y over all that may collide in an open cell, or the level, if that is lower.
+double CellExaminer::lowestOfFront(const OpenCell& open, const CellPlane& level) {
+  const Eigen::Vector3d& m = level.m;
   const double least = lowestIn(open.cell, m);
-  double result = std::numeric_limits<double>::infinity();
+  double result = level.s;
   for (const FrontPair& pair : open.front) {
     if (result <= least) return result;
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < result && pair.hasObstacle()) {
-      lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+      if (!pair.isHalfSpace()) lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, m));
+      if (lowest < result) lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
     }
     result = std::min(result, lowest);
   }
@@ -90,8 +91,10 @@ void CellExaminer::addPart(OpenCell& open) {
     return;
   }
   // What may collide, along the normals of all planes of the part.
-  possible_.start(open, best.part);
-  const CoveredPart possible = possible_.whole();
+  CoveredPart possible = best.part;
+  for (int i = 0; i < possible.count; ++i) {
+    possible.planes[i].s = lowestOfFront(open, possible.planes[i]);
+  }
   const Eigen::Vector3d& m = possible.planes[0].m;
   open.possible_from = possible.planes[0].s;
   open.tells = OpenCell::PlaneTells::possible;
@@ -107,8 +110,6 @@ void CellExaminer::addPart(OpenCell& open) {
     open.upper = std::min(open.upper, PartMeasure(open.cell).massAtMost(possible, cutter_));
   open.upper = std::max(mass, open.upper);
   open.drawn = open.upper;
-  if (isLeftOut("possible parts")) return;
-  open.upper = std::max(mass, possible_.massAtMost(open, open.upper));
 }
 
 // Where turns leave no part of the cell covered a plane may still tell what is free of it: across
@@ -118,7 +119,7 @@ void CellExaminer::addPossible(OpenCell& open) {
   for (int k = open.cell.rank; k < 3; ++k) m[k] = 0.0;
   if (m.isZero(0.0)) return;
   m.normalize();
-  const double possible_from = lowestOfFront(open, m);
+  const double possible_from = lowestOfFront(open, {m, kInfinity});
   if (!(possible_from > lowestIn(open.cell, m))) return;
   open.possible_from = possible_from;
   open.tells = OpenCell::PlaneTells::possible;
@@ -143,12 +144,6 @@ void CellExaminer::weigh(OpenCell& open) {
   if (open.part.count == 0) return;
   claim("part below a plane", true, open.cell, open.part);
   open.lower = std::min(open.upper, open.lower + mass);
-  if (isLeftOut("possible parts")) return;
-  CoveredPart leading;
-  leading.planes[0] = open.plane;
-  leading.count = 1;
-  possible_.start(open, leading);
-  open.upper = std::max(open.lower, possible_.massAtMost(open, open.upper));
 }
 
 SettledMass CellExaminer::coveredPart(const OpenCell& open) const {

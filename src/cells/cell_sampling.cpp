@@ -139,7 +139,6 @@ void CellSampler::draw(const OpenCell& cell, std::uint64_t index, const SampleCo
 CellSampler::CellMeans CellSampler::sampleCell(const OpenCell& cell, std::uint64_t index,
                                                const SampleCount& count, Worker& worker) const {
   draw(cell, index, count, worker);
-  worker.tester->forget();
   worker.tester->test(cell.front, worker.points);
   return meansOf(worker, count);
 }

@@ -199,34 +199,6 @@ ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most) {
   return result;
 }
 
-CoveredPart outerPart(const SlabArrays& slabs, const Cell& cell, int most) {
-  CoveredPart part;
-  std::array<double, CoveredPart::kMostPlanes> cut_off;  // of the planes, in descending order
-  const Eigen::Vector3d center = 0.5 * (cell.lo + cell.hi);
-  const Eigen::Vector3d half = 0.5 * (cell.hi - cell.lo);
-  for (int i = 0; i < slabs.count; ++i) {
-    const Eigen::Vector3d n(slabs.nx()[i], slabs.ny()[i], slabs.nz()[i]);
-    const double middle = n.dot(center);
-    const double radius = n.cwiseAbs().dot(half);
-    for (const double sign : {1.0, -1.0}) {
-      const double outer = sign > 0 ? slabs.hi()[i] : -slabs.lo()[i];
-      const double excess = sign * middle + radius - outer;
-      if (!(excess > 0.0)) continue;
-      const double share = excess / radius;
-      int at = part.count < most ? part.count++ : most;
-      for (; at > 0 && cut_off[at - 1] < share; --at) {
-        if (at == most) continue;
-        cut_off[at] = cut_off[at - 1];
-        part.planes[at] = part.planes[at - 1];
-      }
-      if (at == most) continue;
-      cut_off[at] = share;
-      part.planes[at] = {-sign * n, -outer};
-    }
-  }
-  return part;
-}
-
 CellPlane farthestPlane(const SlabArrays& slabs, const Eigen::Vector3d& point) {
   CellPlane farthest;
   double beyond = -kInfinity;

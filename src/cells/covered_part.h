@@ -82,10 +82,6 @@ struct ObstaclePart {
 
 ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most);
 
-/// Half-spaces that contain the obstacle: of those whose planes cut the cell the `most` that leave
-/// least of it.
-CoveredPart outerPart(const SlabArrays& slabs, const Cell& cell, int most);
-
 /// Of the obstacle's inner planes the one beyond which a point is farthest; m = 0 if it has none.
 CellPlane farthestPlane(const SlabArrays& slabs, const Eigen::Vector3d& point);
 

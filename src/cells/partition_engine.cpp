@@ -21,11 +21,6 @@ namespace {
 // takes half the time that it takes with the least number; from 15 to 40 it hardly matters.
 constexpr double kSamplesPerCell = 25;
 
-// The same for samples that are tested against convex objects taken whole, which takes a third of
-// the time. Measured on robot parts beside an arm: 25, 50, 100 and 200 take 9.9, 8.8, 9.4 and 11
-// ms.
-constexpr double kQuickSamplesPerCell = 50;
-
 // The standard deviation of samples, which lie evenly in their cells, over the bound on that of
 // samples drawn anywhere in them. Measured on the benchmark scenes: 0.4 to 0.7. Where it turns out
 // larger more samples are drawn, so that a little more than half is quickest.
@@ -209,7 +204,7 @@ double PartitionEngine::samplesNeeded(double target) const {
 }
 
 double PartitionEngine::samplesAffordable(std::size_t cells) const {
-  return (quick_samples_ ? kQuickSamplesPerCell : kSamplesPerCell) * static_cast<double>(cells);
+  return kSamplesPerCell * static_cast<double>(cells);
 }
 
 double PartitionEngine::samplesToDraw(ProbabilityStatus status) const {

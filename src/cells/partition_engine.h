@@ -56,9 +56,6 @@ class PartitionEngine {
   /// the cells examined; none beyond the least if there is no time left.
   double samplesToDraw(ProbabilityStatus status) const;
 
-  /// Samples will take less time, so that fewer cells are to be divided for them.
-  void expectQuickSamples() { quick_samples_ = true; }
-
   /// Samples turned out to deviate `factor` times as much as expected so far.
   void expectDeviation(double factor) { deviation_share_ *= factor; }
 
@@ -143,7 +140,6 @@ class PartitionEngine {
   SettledMass settled_;
   bool estimate_ = false;
   double deviation_share_ = 1.0;
-  bool quick_samples_ = false;
   bool indivisible_ = false;
   std::shared_ptr<const BandMargin> band_;
   double left_by_band_ = 0.0;  ///< of the width of the interval: what bands or motions leave open

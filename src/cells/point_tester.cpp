@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "convex/cell_section.h"
 
@@ -20,10 +19,6 @@ bool isInBox(const NodeBox& box, const Eigen::Vector3d& y) {
 }
 
 }  // namespace
-
-PointTester::PointTester(const WhitenedPair& pair, ObstacleTable& obstacles,
-                         const SolidContact* solids, std::unique_ptr<WholeBodyTester> whole)
-    : pair_(pair), obstacles_(obstacles), solids_(solids), whole_(std::move(whole)) {}
 
 void PointTester::test(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
   if (!observer_) return decide(front, points);
@@ -43,10 +38,6 @@ void PointTester::claim(const std::vector<TestedPoint>& before,
 
 void PointTester::decide(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points) {
   collectUndecided(points);
-  if (whole_) {
-    testWhole(points);
-    return decideContainment(points);
-  }
   // The leaves first: they are the cheapest to test.
   for (const bool leaves : {true, false}) {
     for (const FrontPair& pair : front) {
@@ -55,15 +46,6 @@ void PointTester::decide(const std::vector<FrontPair>& front, std::vector<Tested
     }
   }
   decideContainment(points);
-}
-
-void PointTester::testWhole(std::vector<TestedPoint>& points) {
-  for (int i : undecided_) {
-    const PointContact contact = whole_->at(points[i].y);
-    points[i].collides = contact == PointContact::touching;
-    points[i].doubtful = contact == PointContact::unknown;
-  }
-  removeDecided(points);
 }
 
 void PointTester::decideContainment(std::vector<TestedPoint>& points) const {

@@ -4,12 +4,10 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <vector>
 
 #include "cells/claim_observer.h"
 #include "cells/open_cell.h"
-#include "cells/whole_body_tester.h"
 #include "scene/containment.h"
 #include "scene/obstacle_table.h"
 
@@ -25,17 +23,8 @@ class PointTester {
  public:
   /// Keeps references to its arguments.
   /// \param solids  null: surfaces only
-  /// \param whole   null: triangle by triangle
-  PointTester(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids,
-              std::unique_ptr<WholeBodyTester> whole);
-
-  /// Whether a sample takes a microsecond or two, whatever the front.
-  bool isQuick() const { return whole_ != nullptr; }
-
-  /// Points that are tested from here on do not depend on those before, to the last bit.
-  void forget() {
-    if (whole_) whole_->forget();
-  }
+  PointTester(const WhitenedPair& pair, ObstacleTable& obstacles, const SolidContact* solids)
+      : pair_(pair), obstacles_(obstacles), solids_(solids) {}
 
   /// Sets `collides` of every point; one that has it set already is left alone. A point that may
   /// touch but, within rounding, may as well not, collides and is doubtful. All of them must be
@@ -57,7 +46,6 @@ class PointTester {
 
   void decide(const std::vector<FrontPair>& front, std::vector<TestedPoint>& points);
   void claim(const std::vector<TestedPoint>& before, const std::vector<TestedPoint>& points) const;
-  void testWhole(std::vector<TestedPoint>& points);
   void decideContainment(std::vector<TestedPoint>& points) const;
   void collectUndecided(const std::vector<TestedPoint>& points);
   void padUndecided();
@@ -72,7 +60,6 @@ class PointTester {
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
   const SolidContact* solids_;
-  std::unique_ptr<WholeBodyTester> whole_;
   ClaimObserver* const observer_ = claim_observer;
   std::vector<int> undecided_;                      ///< indices of points
   std::array<std::vector<double>, 3> coordinates_;  ///< of the undecided, padded with NaN

@@ -18,7 +18,6 @@ constexpr std::size_t kMoreCells = 2;
 
 // Samples of a look for every cell so far, and of its first batch.
 constexpr std::size_t kSamplesOfCell = 24;
-constexpr std::size_t kQuickSamplesOfCell = 128;
 constexpr std::size_t kFirstBatch = 64;
 
 // Σ 1/k² = π²/6
@@ -74,8 +73,7 @@ ProbablePartition::ProbablePartition(const PartitionObject& a, const PartitionOb
                              true,
                              request_.relative_tolerance};
   engine_ = std::make_unique<PartitionEngine>(boxes, request_, budget_, statistics_);
-  tester_ = std::make_unique<PointTester>(scene_.pair(), engine_->obstacles(), scene_.solids(),
-                                          WholeBodyTester::of(scene_));
+  tester_ = std::make_unique<PointTester>(scene_.pair(), engine_->obstacles(), scene_.solids());
 }
 
 std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<bool()>& enough) {
@@ -83,8 +81,7 @@ std::optional<ProbabilityStatus> ProbablePartition::improve(const std::function<
   if (enough()) return std::nullopt;
   if (engine_->openCells().empty()) return stopped ? stopped : ProbabilityStatus::exact;
   beginLook();
-  const std::size_t of_cell = tester_->isQuick() ? kQuickSamplesOfCell : kSamplesOfCell;
-  const std::size_t most = of_cell * statistics_.cells;
+  const std::size_t most = kSamplesOfCell * statistics_.cells;
   std::size_t batch = std::min(kFirstBatch, most);
   while (batch > 0) {
     draw(batch);

@@ -105,7 +105,7 @@ LineSpan InnerMass::on(const Eigen::Vector2d& u, const Eigen::Vector3d& point) c
 }
 
 // P put to a point has the y with n·(y - point) <= offset; what is below all faces by their margins
-// is certainly within (see FanContact). On a line that is `from` the point at y_0 = 0, so much is
+// is certainly within (see WhitenedFan). On a line that is `from` the point at y_0 = 0, so much is
 // left for n_0 y_0, ...
 double InnerMass::leftOf(int face, const Eigen::Vector3d& from) const {
   const double inner = fan_.faceMargin(face) - fan_.facePad(face) + kInnerRounding * fan_.reach();

@@ -53,7 +53,7 @@ double LineBets::Source::meanOf(int column) {
 std::unique_ptr<LineBets> LineBets::of(const PartitionObject& a, const PartitionObject& b,
                                        const GaussianDisplacement& displacement,
                                        const ProbabilityRequest& request, double error) {
-  if (!wholeBodyOf(a, b, displacement, Convexity::nearly)) return nullptr;
+  if (!wholeBodyOf(a, b, displacement)) return nullptr;
   std::unique_ptr<LineBets> made(new LineBets(
       std::make_unique<const QueryScene>(a, b, displacement, request), request, error));
   LineBets& bets = *made;

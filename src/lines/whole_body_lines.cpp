@@ -38,7 +38,7 @@ double nearness(const LineSpan& span) { return std::max({span.lo, -span.hi, 0.0}
 }  // namespace
 
 std::unique_ptr<WholeBodyLines> WholeBodyLines::of(const QueryScene& scene) {
-  const auto& whole = scene.nearlyConvexBody();
+  const auto& whole = scene.wholeBody();
   if (!whole) return nullptr;
   return of(*whole, scene.pair(), scene.whitening().matrix(), scene.solids());
 }

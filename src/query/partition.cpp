@@ -101,7 +101,6 @@ class PartitionQuery {
   bool may_use_polytopes_;
   bool near_threshold_ = false;
   std::optional<PartitionEngine> engine_;
-  std::unique_ptr<PointTester> tester_;
   ProbabilityResult result_;
 };
 
@@ -191,8 +190,7 @@ PartitionEngine& PartitionQuery::engine() {
 }
 
 std::unique_ptr<PointTester> PartitionQuery::makeTester() {
-  return std::make_unique<PointTester>(scene_.pair(), engine().obstacles(), scene_.solids(),
-                                       WholeBodyTester::of(scene_));
+  return std::make_unique<PointTester>(scene_.pair(), engine().obstacles(), scene_.solids());
 }
 
 // A limit on the first boxes is none of the request.
@@ -208,10 +206,6 @@ bool PartitionQuery::divideFirstBoxes() {
 }
 
 bool PartitionQuery::divideBoxes() {
-  if (isEstimate()) {
-    tester_ = makeTester();
-    if (tester_->isQuick()) engine().expectQuickSamples();
-  }
   result_.status = engine().run(isEstimate(), request_.max_cells);
   known_.narrow(engine().interval());
   if (isEstimate()) return false;
@@ -223,13 +217,9 @@ bool PartitionQuery::divideBoxes() {
 }
 
 bool PartitionQuery::sampleBoxes() {
-  if (tester_->isQuick()) {
-    result_.plan.push_back(
-        "samples tested against convex meshes taken whole, not triangle by triangle");
-  }
   if (request_.threads > 1) engine().obstacles().share();
   CellSampler sampler(
-      std::move(tester_), [this] { return makeTester(); }, request_.seed,
+      makeTester(), [this] { return makeTester(); }, request_.seed,
       claim_observer ? 1 : request_.threads);
   const SampledMass sampled =
       sampleOpenCells(engine(), sampler, request_, result_.statistics, result_.status);

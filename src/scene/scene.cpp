@@ -80,7 +80,7 @@ class BandedPair {
 Care careFor(const PartitionObject& a, const PartitionObject& b,
              const GaussianDisplacement& displacement, const ProbabilityRequest& request) {
   const bool is_quick = request.method == ProbabilityMethod::estimate || request.threshold;
-  if (!is_quick || !wholeBodyOf(a, b, displacement, Convexity::nearly)) return Care::full;
+  if (!is_quick || !wholeBodyOf(a, b, displacement)) return Care::full;
   return Care::rough;
 }
 
@@ -94,12 +94,7 @@ QueryScene::QueryScene(const PartitionObject& a, const PartitionObject& b,
   if (a.hasSolid() || b.hasSolid()) {
     solids_ = std::make_unique<const SolidContact>(a, b, whitening_, pair_);
   }
-  if (const auto whole = wholeBodyOf(a, b, displacement_, Convexity::exact)) {
-    convex_body_.emplace(*whole);
-  }
-  if (const auto whole = wholeBodyOf(a, b, displacement_, Convexity::nearly)) {
-    nearly_convex_body_.emplace(*whole);
-  }
+  if (const auto whole = wholeBodyOf(a, b, displacement_)) whole_body_.emplace(*whole);
 }
 
 void QueryScene::placeFrame(const ProbabilityRequest& request, bool all_axes) {

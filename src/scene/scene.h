@@ -48,9 +48,8 @@ class QueryScene {
   /// Null: surfaces.
   const SolidContact* solids() const { return solids_.get(); }
 
-  /// An object that is convex, and one that is nearly so; nothing where all triangles matter.
-  const std::optional<WholeBody>& convexBody() const { return convex_body_; }
-  const std::optional<WholeBody>& nearlyConvexBody() const { return nearly_convex_body_; }
+  /// An object that is convex, or nearly so; nothing where all triangles matter.
+  const std::optional<WholeBody>& wholeBody() const { return whole_body_; }
 
  private:
   void placeFrame(const ProbabilityRequest& request, bool all_axes);
@@ -61,8 +60,7 @@ class QueryScene {
   Whitening whitening_{GaussianDisplacement()};
   WhitenedPair pair_;
   std::unique_ptr<const SolidContact> solids_;
-  std::optional<WholeBody> convex_body_;
-  std::optional<WholeBody> nearly_convex_body_;
+  std::optional<WholeBody> whole_body_;
 };
 
 }  // namespace fcl_prob::detail

@@ -67,8 +67,7 @@ class WhitenedFan {
   Eigen::Matrix3d corners(int triangle) const;
   Eigen::Vector3d corner(int vertex) const { return sign_ * (mesh_.vertices[vertex] - centre_); }
 
-  /// Box of the corners of a node of the tree of the mesh.
-  NodeBox cornerBox(int node) const { return cornerBox(mesh_.boxOf(node)); }
+  /// Box of the corners of what is in a box of the tree of the mesh.
   NodeBox cornerBox(const NodeBox& of_mesh) const;
 
   /// The other way: in the coordinates of the mesh's vertices.

@@ -17,27 +17,26 @@ bool isMesh(const PartitionObject& object) {
 }
 
 /// Whether it can be the body beside that mesh.
-bool isBodyBeside(const PartitionObject& mesh, const PartitionObject& object, Convexity convexity) {
+bool isBodyBeside(const PartitionObject& mesh, const PartitionObject& object, bool may_be_nearly) {
   const auto& parts = object.tree->parts;
-  return isMesh(mesh) && std::all_of(parts.begin(), parts.end(), [convexity](const auto& part) {
-           return part.fan || (part.nearly && convexity == Convexity::nearly);
+  return isMesh(mesh) && std::all_of(parts.begin(), parts.end(), [may_be_nearly](const auto& part) {
+           return part.fan || (part.nearly && may_be_nearly);
          });
 }
 
 }  // namespace
 
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
-                                     const GaussianDisplacement& displacement,
-                                     Convexity convexity) {
+                                     const GaussianDisplacement& displacement) {
   if (a.tree->isEmpty() || b.tree->isEmpty()) return std::nullopt;
   if (a.motion || b.motion || a.isSwept() || b.isSwept()) return std::nullopt;
   const Eigen::Vector3d& sigma = displacement.standardDeviations();
   if (displacement.rank() != 3 || sigma[0] > kMostAnisotropic * sigma[2]) return std::nullopt;
-  const auto which = [&](Convexity how) {
-    return std::pair(isBodyBeside(b, a, how), isBodyBeside(a, b, how));
+  const auto which = [&](bool may_be_nearly) {
+    return std::pair(isBodyBeside(b, a, may_be_nearly), isBodyBeside(a, b, may_be_nearly));
   };
-  auto [a_is_convex, b_is_convex] = which(Convexity::exact);
-  if (!a_is_convex && !b_is_convex) std::tie(a_is_convex, b_is_convex) = which(convexity);
+  auto [a_is_convex, b_is_convex] = which(false);
+  if (!a_is_convex && !b_is_convex) std::tie(a_is_convex, b_is_convex) = which(true);
   if (!a_is_convex && !b_is_convex) return std::nullopt;
   const bool a_is_larger = a.tree->triangles.size() >= b.tree->triangles.size();
   if (a_is_convex && (!b_is_convex || a_is_larger)) return WholeBody{a, b, true};

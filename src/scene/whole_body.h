@@ -19,14 +19,12 @@ struct WholeBody {
   bool body_is_a;
 };
 
-enum class Convexity { exact, nearly };
-
 /// Nothing unless both hold still, one is a mesh, the other one convex (or nearly), and the
 /// displacement has rank 3 and is not so stretched that planes across its edges would be known
 /// poorly. Of two that are convex the one with more triangles is taken whole; one that is nearly
 /// convex only if there is no other. Refers to the arguments.
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
-                                     const GaussianDisplacement& displacement, Convexity convexity);
+                                     const GaussianDisplacement& displacement);
 
 /// Whether part of the mesh may be within a member and not touch it, where its surface counts.
 /// \param fan  the member, or a body around it

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Estimates by lines: their lengths against points tested one by one, the estimates against
+// Estimates by lines: their lengths against points that FCL tests one by one, the estimates against
 // intervals.
+#include <fcl/narrowphase/collision.h>
+
 #include <cmath>
 
 #include "catch.h"
-#include "cells/whole_body_tester.h"
 #include "fcl_prob/normal_mass.h"
 #include "lines/whole_body_lines.h"
 #include "partition_query.h"
@@ -31,29 +32,31 @@ using fcl_prob_test::WhitenedMeshes;
 
 const GaussianDisplacement kUnit(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
 
-template <typename Contacts>
-std::unique_ptr<Contacts> contactsOf(const WhitenedMeshes& meshes) {
-  const PartitionObject a{meshes.tree_a.get(), {{fcl::Transform3d::Identity(), nullptr}}};
-  const PartitionObject b{meshes.tree_b.get(), {{fcl::Transform3d::Identity(), nullptr}}};
-  const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
-  if constexpr (std::is_same_v<Contacts, WholeBodyLines>) {
-    const auto whole = wholeBodyOf(a, b, kUnit, Convexity::nearly);
-    return whole ? WholeBodyLines::of(*whole, meshes.pair, matrix, nullptr) : nullptr;
-  } else {
-    const auto whole = wholeBodyOf(a, b, kUnit, Convexity::exact);
-    return whole ? WholeBodyTester::of(*whole, meshes.pair, matrix) : nullptr;
-  }
+std::unique_ptr<WholeBodyLines> linesOf(const WhitenedMeshes& meshes) {
+  const PartitionObject a = meshes.objectOf(true);
+  const PartitionObject b = meshes.objectOf(false);
+  const auto whole = wholeBodyOf(a, b, kUnit);
+  if (!whole) return nullptr;
+  return WholeBodyLines::of(*whole, meshes.pair, meshes.whitening.matrix(), nullptr);
+}
+
+bool collides(const WhitenedMeshes& meshes, const Eigen::Vector3d& y) {
+  fcl::Transform3d moved = fcl::Transform3d::Identity();
+  moved.translation() = y;
+  fcl::CollisionResultd result;
+  return fcl::collide(meshes.model_a.get(), moved, meshes.model_b.get(),
+                      fcl::Transform3d::Identity(), fcl::CollisionRequestd(), result) > 0;
 }
 
 /// By points, in the middle of steps.
-double massByPoints(WholeBodyTester& tester, const Eigen::Vector2d& u, int steps) {
+double massByPoints(const WhitenedMeshes& meshes, const Eigen::Vector2d& u, int steps) {
   constexpr double kEnd = 6.0;
   const double step = 2 * kEnd / steps;
   double mass = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double from = -kEnd + i * step;
     const Eigen::Vector3d y(from + 0.5 * step, u[0], u[1]);
-    if (tester.at(y) != PointContact::none) mass += normalIntervalMass(from, from + step);
+    if (collides(meshes, y)) mass += normalIntervalMass(from, from + step);
   }
   return mass;
 }
@@ -141,7 +144,7 @@ TEST_CASE("lines along faces of boxes have what the boxes tell", "[lines]") {
       return fcl_prob_test::transformed(boxMesh(2 * box), turn * Eigen::Translation3d(to));
     };
     const WhitenedMeshes meshes(turned(half, Eigen::Vector3d::Zero()), turned(of_mesh, at));
-    const auto lines = contactsOf<WholeBodyLines>(meshes);
+    const auto lines = linesOf(meshes);
     REQUIRE(lines);
     const auto all = lines->everything();
     for (int i = 0; i < 100; ++i) {
@@ -179,7 +182,7 @@ TEST_CASE("lines along faces of turned boxes have what the boxes tell", "[lines]
                                         rounding * turn * Eigen::Translation3d(to));
     };
     const WhitenedMeshes meshes(turned(half, Eigen::Vector3d::Zero()), turned(other, at));
-    const auto lines = contactsOf<WholeBodyLines>(meshes);
+    const auto lines = linesOf(meshes);
     if (!lines) continue;  // the mesh may be within the body
     const auto all = lines->everything();
     const Eigen::Rotation2Dd about_lines(angle);
@@ -198,6 +201,11 @@ TEST_CASE("lines along faces of turned boxes have what the boxes tell", "[lines]
   CHECK(wrong == 0);
 }
 
+TEST_CASE("what is small enough to be inside a surface is not taken whole", "[lines]") {
+  const WhitenedMeshes meshes(fcl_prob_test::sphereMesh(1.0, 20, 30), boxMesh({0.2, 0.2, 0.2}));
+  CHECK_FALSE(linesOf(meshes));
+}
+
 TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]") {
   RandomBodies random(1);
   int met = 0;
@@ -209,8 +217,7 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
     const TriangleMesh other = bumpyMesh(1.0, 12, 16, static_cast<std::uint64_t>(scene));
     const bool body_is_a = scene % 2 == 0;
     const WhitenedMeshes meshes(body_is_a ? body : other, body_is_a ? other : body);
-    const auto lines = contactsOf<WholeBodyLines>(meshes);
-    const auto tester = contactsOf<WholeBodyTester>(meshes);
+    const auto lines = linesOf(meshes);
     REQUIRE(lines);
     const auto all = lines->everything();
     for (int i = 0; i < 30; ++i) {
@@ -218,7 +225,7 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       constexpr int kSteps = 600;
       const double mass = lines->massOn(u, all, {0.0, 1e-12});
       // At most some ends, each within half a step.
-      CHECK(std::fabs(mass - massByPoints(*tester, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
+      CHECK(std::fabs(mass - massByPoints(meshes, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
       const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
       CHECK(lines->mostOn(lines->meet({u - width, u + width}, all)) >= mass);
       const Column around{u - 0.2 * width, u + 0.2 * width};
@@ -258,7 +265,7 @@ TEST_CASE("bounds by columns hold at the rims of thin plates", "[lines]") {
     const TriangleMesh body = hullMesh(random.onSphere(30, random.logUniform(1e-3, 0.05)));
     const double x = random.uniform(0.2, 2.0);
     const WhitenedMeshes meshes(body, joined(plateAt(x), plateAt(x + random.uniform(0.2, 1.0))));
-    const auto lines = contactsOf<WholeBodyLines>(meshes);
+    const auto lines = linesOf(meshes);
     REQUIRE(lines);
     for (int i = 0; i < 40; ++i) {
       const Eigen::Vector2d u(random.uniform(-2, 2), random.uniform(-2, 2));
