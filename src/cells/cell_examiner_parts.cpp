@@ -73,7 +73,7 @@ double CellExaminer::lowestOfFront(const OpenCell& open, const CellPlane& level)
     if (result <= least) return result;
     double lowest = front_.lowestOfBox(pair, m);
     if (lowest < result && pair.hasObstacle()) {
-      if (!pair.isHalfSpace()) lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, m));
+      if (!pair.isLayer()) lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, m));
       if (lowest < result) lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
     }
     result = std::min(result, lowest);

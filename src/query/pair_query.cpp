@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/pair_query.h"
 
+#include <utility>
+
 #include "base/until_no.h"
 #include "base/wings.h"
 #include "cells/without_contact.h"
@@ -11,6 +13,7 @@
 #include "geometry/validation.h"
 #include "query/mixture_query.h"
 #include "query/pair_answer.h"
+#include "query/size_note.h"
 #include "query/tolerance_note.h"
 
 namespace fcl_prob::detail {
@@ -65,6 +68,7 @@ ProbabilityResult PairQuery::answerOfGaussian(const fcl::Transform3d& pose_a,
   }
   ProbabilityResult result = pairAnswer(plan, {*a_, pose_a, *b_, pose_b}, displacement, request);
   result.plan.insert(result.plan.begin(), plan.notes.begin(), plan.notes.end());
+  if (auto note = sizeNote(*a_, *b_, displacement)) result.plan.push_back(std::move(*note));
   return result;
 }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Whether lengths are so far from each other that their units may be wrong.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "fcl_prob/gaussian_displacement.h"
+#include "query/prepared_geometry.h"
+
+namespace fcl_prob::detail {
+
+/// Words for the plan where a mesh is a thousand times longer than the other one, where the
+/// deviations are a thousand times longer than both, or where they are 1e-4 of a mesh (1 mm beside
+/// 1 m is usual). Nothing for shapes that are no meshes: their lengths are written by hand.
+std::optional<std::string> sizeNote(const PreparedGeometry& a, const PreparedGeometry& b,
+                                    const GaussianDisplacement& displacement);
+
+}  // namespace fcl_prob::detail
