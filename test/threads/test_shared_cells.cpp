@@ -57,7 +57,7 @@ std::vector<double> divided(const PartitionScene& scene, ObstacleTable& obstacle
     divider.divide(cell, 1000, division);
     collect(division);
   }
-  PointTester tester(scene.pair, obstacles, scene.solids, nullptr);
+  PointTester tester(scene.pair, obstacles, scene.solids);
   for (const OpenCell& cell : open) {
     std::vector<TestedPoint> points;
     for (const double share : {0.2, 0.5, 0.7}) {
