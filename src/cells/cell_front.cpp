@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "mass/cell_layer.h"
 #include "scene/band_margin.h"
 #include "scene/turning_margin.h"
 
@@ -55,6 +56,7 @@ CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
       kernels_(slabKernels()),
       cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
       box_{},
+      layers_(pair),
       support_a_(pair.a),
       support_b_(pair.b) {}
 
@@ -260,7 +262,7 @@ void CellFront::expand(const BoxedPair& boxed) {
   std::array<NodeBox, 2> boxes{obstacleBox(pair_, children[0]), obstacleBox(pair_, children[1])};
   const int last = eccentricity(boxes[0]) < eccentricity(boxes[1]) ? 0 : 1;
   for (const int i : {1 - last, last}) {
-    if (!meetsCell(boxes[i])) continue;
+    if (!meetsCell(boxes[i]) || !meetsLayer(children[i])) continue;
     stack_.push_back({obstacles_.frontPair(children[i]), boxes[i]});
   }
 }
@@ -328,6 +330,22 @@ bool CellFront::meetsCell(const NodeBox& box) const {
   return !isClearOf(box, cell_.lo.data(), cell_.hi.data());
 }
 
+bool CellFront::meetsCell(const NodeLayer& layer) const {
+  double middle = 0.0;
+  double radius = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    middle += layer.n[k] * box_.center[k];
+    radius += std::fabs(layer.n[k]) * box_.half[k];
+  }
+  return !(middle + radius < layer.lo || middle - radius > layer.hi);
+}
+
+// Whether the layer of two nodes, if they have one, meets the cell.
+bool CellFront::meetsLayer(NodePair nodes) {
+  const std::optional<NodeLayer> layer = layers_.of(nodes);
+  return !layer || meetsCell(*layer);
+}
+
 // How far the middle of the cell is from that of the C-obstacle's box.
 double CellFront::eccentricity(const NodeBox& box) const {
   double off = 0.0;
@@ -371,6 +389,18 @@ double CellFront::lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) con
   return lowest;
 }
 
+// The side of the layer that is below.
+double CellFront::lowestInLayer(const NodeLayer& layer, const NodeBox& box,
+                                const Eigen::Vector3d& m) const {
+  Eigen::Vector3d lo, hi;
+  for (int k = 0; k < 3; ++k) {
+    lo[k] = std::max(box.lo[k], cell_.lo[k]);
+    hi[k] = std::min(box.hi[k], cell_.hi[k]);
+  }
+  if (layer.n.dot(m) > 0.0) return lowestBeyond(lo, hi, m, layer.n, layer.lo);
+  return lowestBeyond(lo, hi, m, -layer.n, -layer.hi);
+}
+
 double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
   return lowestInCell(obstacleBoxOf(pair), m);
 }
@@ -400,6 +430,11 @@ double CellFront::lowestOfParts(const BoxedPair& boxed, const CellPlane& level) 
   const NodePair nodes = boxed.pair.nodes;
   double lowest = lowestInCell(boxed.box, level.m);
   if (lowest >= level.s) return lowest;
+  if (const auto layer = layers_.of(nodes)) {
+    if (!meetsCell(*layer)) return kInfinity;
+    lowest = std::max(lowest, lowestInLayer(*layer, boxed.box, level.m));
+    if (lowest >= level.s) return lowest;
+  }
   lowest = std::max(lowest, lowestOfVertices(nodes, level.m));
   if (lowest >= level.s || !areLeaves(pair_, nodes) || !obstacles_.areTriangles(nodes)) {
     return lowest;

@@ -8,6 +8,7 @@
 #include "cells/open_cell.h"
 #include "convex/cell_section.h"
 #include "fcl_prob/probability_result.h"
+#include "scene/node_layers.h"
 #include "scene/node_support.h"
 #include "scene/obstacle_table.h"
 
@@ -113,9 +114,12 @@ class CellFront {
   void classifyAgain();
   NodeBox obstacleBoxOf(const FrontPair& pair) const;
   bool meetsCell(const NodeBox& box) const;
+  bool meetsCell(const NodeLayer& layer) const;
+  bool meetsLayer(NodePair nodes);
   double eccentricity(const NodeBox& box) const;
   bool largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const;
   double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
+  double lowestInLayer(const NodeLayer& layer, const NodeBox& box, const Eigen::Vector3d& m) const;
   void rankPair(double rank, const BoxedPair& boxed);
   double lowestOfParts(const BoxedPair& boxed, const CellPlane& level);
   void addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below);
@@ -132,6 +136,7 @@ class CellFront {
   double least_depth_ = 1.0;  ///< among the pairs with sections
   CellPlane deepest_;         ///< inner plane of the cutting pair of least depth
   std::vector<FrontPair> coarse_;
+  NodeLayers layers_;
   NodeSupport support_a_;  ///< along m
   NodeSupport support_b_;  ///< along -m
   std::vector<BoxedPair> stack_;

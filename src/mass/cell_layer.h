@@ -19,4 +19,10 @@ Cell layerBox(const Cell& cell, const Eigen::Vector3d& m, double from, double to
 /// = 1, wherever it is.
 double massNear(const Cell& cell, const Eigen::Vector3d& m, double width);
 
+/// A lower bound of m·y over the points of the box [lo, hi], within kReach, with n·y >= s; infinite
+/// if there are none. |m| <= 1; what n·y and s are rounded by within such a box has to be taken off
+/// s.
+double lowestBeyond(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, const Eigen::Vector3d& m,
+                    const Eigen::Vector3d& n, double s);
+
 }  // namespace fcl_prob::detail

@@ -13,6 +13,7 @@
 #include "geometry/mesh_visitor.h"
 #include "geometry/surface_caps.h"
 #include "scene/leaf_order.h"
+#include "scene/node_slabs.h"
 #include "scene/octree_pieces.h"
 
 namespace fcl_prob::detail {
@@ -159,6 +160,7 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     part.spans =
         spansOf(view, tree->caps ? tree->caps->components : componentsOf(view, weldVertices(view)));
     part.patches = std::make_shared<const PatchesOfMesh>();
+    part.slabs = std::make_shared<const SlabsOfNodes>();
     orderByLeaves(*tree);
   } else if (kindOf(geometry) == GeometryKind::convex) {
     fillFanOfShape(*tree);

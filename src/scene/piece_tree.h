@@ -19,6 +19,8 @@
 
 namespace fcl_prob::detail {
 
+class SlabsOfNodes;
+
 /// What closes a mesh, for the question which points are inside: caps over its open boundaries.
 struct MeshCaps {
   struct Cap {
@@ -96,6 +98,8 @@ struct PieceTree {
     std::vector<std::pair<int, int>> spans;
     /// Of a mesh; null of what is none. See patchesOf().
     std::shared_ptr<const PatchesOfMesh> patches;
+    /// Of a mesh; null of what is none.
+    std::shared_ptr<const SlabsOfNodes> slabs;
   };
 
   std::vector<Node> nodes;               ///< nodes[0] is the root

@@ -15,6 +15,7 @@ using namespace fcl_prob_test;
 using fcl_prob::detail::Cell;
 using fcl_prob::detail::cellHalfSpaceMass;
 using fcl_prob::detail::layerBox;
+using fcl_prob::detail::lowestBeyond;
 using fcl_prob::detail::massNear;
 
 /// A point of the cell, most often on its sides.
@@ -53,6 +54,69 @@ TEST_CASE("the box around a layer of a cell holds all of it, however the planes 
     }
   }
   REQUIRE(cut_back > 1000);
+}
+
+// Least m·y over the corners of the box beyond the plane, and where its edges cross it, in long
+// double: a linear program's optimum is at one of those.
+long double lowestOfCorners(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi,
+                            const Eigen::Vector3d& m, const Eigen::Vector3d& n, double s) {
+  using LongVector = Eigen::Matrix<long double, 3, 1>;
+  const LongVector direction = m.cast<long double>(), normal = n.cast<long double>();
+  long double lowest = std::numeric_limits<long double>::infinity();
+  const auto cornerOf = [&](int index) {
+    LongVector corner;
+    for (int k = 0; k < 3; ++k) corner[k] = (index >> k) % 2 == 0 ? lo[k] : hi[k];
+    return corner;
+  };
+  for (int i = 0; i < 8; ++i) {
+    const LongVector from = cornerOf(i);
+    const long double above = normal.dot(from) - s;
+    if (above >= 0) lowest = std::min(lowest, direction.dot(from));
+    for (int k = 0; k < 3; ++k) {
+      const LongVector to = cornerOf(i ^ (1 << k));
+      const long double other = normal.dot(to) - s;
+      if ((above < 0) == (other < 0)) continue;
+      const LongVector crossing = from + above / (above - other) * (to - from);
+      lowest = std::min(lowest, direction.dot(crossing));
+    }
+  }
+  return lowest;
+}
+
+TEST_CASE("what of a box is beyond a plane reaches no lower than it is said to") {
+  RandomBodies random(78);
+  int beyond = 0, empty = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    Eigen::Vector3d lo, hi, m = random.normalVector(), n = random.normalVector();
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = random.uniform(-9.0, 9.0);
+      hi[k] = lo[k] + random.integer(0, 9) * random.logUniform(1e-9, 1.0);
+      if (random.integer(0, 4) == 0) m[k] *= random.integer(0, 1) * random.logUniform(1e-12, 1.0);
+      if (random.integer(0, 4) == 0) n[k] *= random.integer(0, 1) * random.logUniform(1e-12, 1.0);
+    }
+    if (m.isZero(0.0)) continue;
+    m.normalize();
+    n *= random.logUniform(0.01, 100.0);
+    const Eigen::Vector3d share(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0),
+                                random.uniform(0.0, 1.0));
+    const double extent = n.cwiseAbs().dot(hi - lo);
+    const double s = n.dot(lo + share.cwiseProduct(hi - lo)) + random.uniform(-0.3, 0.6) * extent;
+    // What its users take off for rounding.
+    const double rounding = 64 * fcl_prob::detail::kEpsilon * 38.6 * n.cwiseAbs().sum();
+    const double lowest = lowestBeyond(lo, hi, m, n, s - rounding);
+    const long double truth = lowestOfCorners(lo, hi, m, n, s);
+    CAPTURE(i, lo.transpose(), hi.transpose(), m.transpose(), n.transpose(), s);
+    REQUIRE(lowest <= truth);
+    if (!std::isfinite(truth)) {
+      ++empty;
+      continue;
+    }
+    const long double relaxed = lowestOfCorners(lo, hi, m, n, s - 2 * rounding);
+    REQUIRE(lowest >= relaxed - 1e-12L);
+    beyond += lowest > m.dot((m.array() > 0).select(lo, hi)) + 1e-9;
+  }
+  CHECK(beyond > 10'000);
+  CHECK(empty > 3'000);
 }
 
 TEST_CASE("the mass near a plane is no less than that between two") {
