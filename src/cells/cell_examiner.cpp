@@ -34,14 +34,10 @@ constexpr double kCutBack = 0.8;
 // of dense meshes, 3,000 save a tenth of them but no time.
 constexpr int kMostOpened = 300;
 
-// Only with longer fronts than this a proof by topology is tried. It settles deep cells that no
-// pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the time with it.
+// Beside large triangles a proof by topology is tried with longer fronts than this only. It settles
+// deep cells that no pair of triangles covers: the bunnies of 69,451 triangles take a 25th of the
+// time with it.
 constexpr std::size_t kLongFront = 70;
-
-// Topology is asked before pairs of triangles in cells that are this many times larger than the
-// triangles of one of the meshes: 1 and 4 take the same time on statues, 16 opens more pairs beside
-// bodies of a hundredth of the size.
-constexpr double kLargeBesideTriangles = 4.0;
 
 // A layer deeper in the cell than this is worth less than a look at its pairs of triangles.
 constexpr double kWorthwhileDepth = 0.9;
@@ -49,17 +45,8 @@ constexpr double kWorthwhileDepth = 0.9;
 // In a cell thinner than this, the slivers below known layers may be all there is.
 constexpr double kThinBesideSlivers = 16 * kSliver;
 
-Eigen::Vector3d meanLeafSize(const WhitenedTree& tree) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (std::size_t i = 0; i < tree.tree->nodes.size(); ++i) {
-    if (!tree.tree->nodes[i].isLeaf()) continue;
-    const NodeBox box = tree.boxOf(static_cast<int>(i));
-    for (int k = 0; k < 3; ++k) sum[k] += box.hi[k] - box.lo[k];
-    ++count;
-  }
-  return sum / std::max(count, 1);
-}
+// Whether masses under a plane may be used in the cell.
+bool mayIntegrate(const Cell& cell) { return cell.largestWidth() <= kWidestIntegrated; }
 
 void include(const Cell& part, Cell& box) {
   box.lo = box.lo.cwiseMin(part.lo);
@@ -94,8 +81,7 @@ CellExaminer::CellExaminer(const WhitenedPair& pair, ObstacleTable& obstacles,
       with_moments_(with_moments),
       sampled_(sampled),
       relative_tolerance_(relative_tolerance),
-      statistics_(statistics),
-      leaf_size_(meanLeafSize(pair.a).cwiseMin(meanLeafSize(pair.b))) {}
+      statistics_(statistics) {}
 
 Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>& inherited) {
   result_ = Examination{};
@@ -123,30 +109,27 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
 // The pair, or the layer that topology proves, that covers most of the cell under a single plane.
 // The one that is likely to serve is asked first, and the other one only where it is needed.
 std::optional<CuttingPair> CellExaminer::findLeader() {
-  const bool topology_first = isLargeBesideTriangles() && !front_.coarse().empty();
   std::optional<CuttingPair> leader;
+  const bool topology_first = asksTopologyFirst();
   if (topology_first) improveByTopology(leader);
   if (leader && leader->depth < kWorthwhileDepth) return leader;
   front_.open();
-  if (front_.cell().largestWidth() > kWidestIntegrated) return std::nullopt;
+  if (!mayIntegrate(front_.cell())) return std::nullopt;
   leader = champion();
   const bool is_long = front_.coarse().size() + front_.cutting().size() > kLongFront;
   if (!topology_first && is_long) improveByTopology(leader);
   return leader;
 }
 
-// Then hardly any pair of them covers much of it.
-bool CellExaminer::isLargeBesideTriangles() const {
-  const Cell& cell = front_.cell();
-  for (int k = 0; k < cell.rank; ++k) {
-    if (cell.hi[k] - cell.lo[k] > kLargeBesideTriangles * leaf_size_[k]) return true;
-  }
-  return false;
+// Where hardly any pair of triangles covers much of the cell.
+bool CellExaminer::asksTopologyFirst() {
+  if (front_.coarse().empty() || !mayIntegrate(front_.cell())) return false;
+  return witness() && witness()->isBesideSmallTriangles(front_.cell());
 }
 
 void CellExaminer::improveByTopology(std::optional<CuttingPair>& best) {
   const Cell& cell = front_.cell();
-  if (cell.empty() || cell.largestWidth() > kWidestIntegrated || !witness()) return;
+  if (cell.empty() || !witness()) return;
   near_ = front_.coarse();
   for (const CuttingPair& cutting : front_.cutting()) {
     if (!cutting.pair.isLayer()) near_.push_back(cutting.pair);
@@ -250,10 +233,10 @@ void CellExaminer::settleAround(const Cell& box) {
   visitAround(front_.cell(), box, [this](const Cell& part) { settleFree(part); });
 }
 
-// Whether masses under a plane may be used in the cell: not where one object may be inside the
-// other, since what lies below the plane is then not simply free.
+// Whether what a plane leaves of the cell is free for certain: not where one object may be inside
+// the other, since what lies below the plane is then not simply free.
 bool CellExaminer::maySkim(const Cell& cell) const {
-  return cell.largestWidth() <= kWidestIntegrated && !(solids_ && solids_->possible(cell));
+  return mayIntegrate(cell) && !(solids_ && solids_->possible(cell));
 }
 
 // The pair that covers most of the cell under a single plane.

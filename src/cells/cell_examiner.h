@@ -68,7 +68,7 @@ class CellExaminer {
   void claimBelow(const char* method, const Cell& cell, const CellPlane& plane) const;
   std::optional<CuttingPair> champion() const;
   std::optional<CuttingPair> findLeader();
-  bool isLargeBesideTriangles() const;
+  bool asksTopologyFirst();
   void improveByTopology(std::optional<CuttingPair>& best);
   CrossingWitness* witness();
   void openWithoutPlane();
@@ -97,7 +97,6 @@ class CellExaminer {
   ProbabilityStatistics& statistics_;
   ClaimObserver* const observer_ = claim_observer;
   CubeCutter cutter_;
-  Eigen::Vector3d leaf_size_;  ///< mean of the boxes of triangles, of the mesh of smaller ones
   Examination result_;
   std::vector<FrontPair> near_;
   CellFront::PartsBelow below_;

@@ -70,17 +70,17 @@ void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) 
   stack_.clear();
   gatherLeaves(inherited);
   if (!cell_.empty()) gatherCoarse(inherited);
-  noteFront();
+  noteFront(0);
 }
 
-void CellFront::noteFront() {
+void CellFront::noteFront(std::size_t covered_before) {
   statistics_.peak_front = std::max(statistics_.peak_front, coarse_.size() + cutting_.size());
-  if (!cell_.empty() && !covered_.empty()) classifyAgain();
+  if (!cell_.empty() && covered_.size() > covered_before) classifyAgain();
 }
 
 // Most central pairs first: they are the most likely to cover the cell.
 void CellFront::open() {
-  const std::size_t before = cutting_.size();
+  const std::size_t before = cutting_.size(), covered_before = covered_.size();
   ordered_.clear();
   boxed_.clear();
   const auto isToOpen = [this](const FrontPair& pair) {
@@ -98,7 +98,7 @@ void CellFront::open() {
     if (cell_.empty()) break;
   }
   if (!cell_.empty() && cutting_.size() > before) carve();
-  noteFront();
+  noteFront(covered_before);
 }
 
 void CellFront::gatherLeaves(const std::vector<FrontPair>& inherited) {

@@ -96,7 +96,8 @@ class CellFront {
   };
 
   void gatherLeaves(const std::vector<FrontPair>& inherited);
-  void noteFront();
+  /// Pairs are classified again if slices were cut off the cell since there were so many.
+  void noteFront(std::size_t covered_before);
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
   CellSection sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const;

@@ -38,6 +38,9 @@ class CrossingWitness {
   /// Whether there is anything to try: two meshes with caps.
   bool usable() const { return !sides_.empty(); }
 
+  /// Whether the cell is large beside the triangles of one of the meshes.
+  bool isBesideSmallTriangles(const Cell& cell) const;
+
   Hint hint() const;
   void setHint(const Hint& hint);
 
@@ -89,7 +92,6 @@ class CrossingWitness {
   bool coversBy(Side& side, Candidate& candidate, const Cell& cell);
   std::optional<bool> isInside(Side& side, const SweptVertex& swept);
   bool crosses(Side& side, int vertex, const Cell& cell);
-  bool leaves(const Side& side, int component, const Cell& cell) const;
   bool staysOutside(Side& side, int component, const Cell& cell);
   bool avoidsCaps(Side& side, const Cell& cell);
 
@@ -99,8 +101,8 @@ class CrossingWitness {
                 Eigen::Vector3d m);
   std::vector<int> farthestAlong(const Side& side, const std::vector<FrontPair>& near,
                                  const Eigen::Vector3d& m) const;
-  double insideFrom(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d& m, bool inside,
-                    double most);
+  double sideFrom(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d& m, bool inside,
+                  double most);
   double outsideTo(Side& side, int component, const Cell& cell, const Eigen::Vector3d& m,
                    double from);
   bool findTouched(Side& side, const SweptVertex& swept);
@@ -114,6 +116,7 @@ class CrossingWitness {
   bool moves_;  ///< the shapes, other than by the displacement
   std::shared_ptr<const BandMargin> band_;
   std::vector<Side> sides_;
+  Eigen::Vector3d triangle_size_;         ///< on the average, of the mesh of smaller ones
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
 };

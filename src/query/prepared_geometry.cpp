@@ -90,7 +90,12 @@ const ConvexSolid* PreparedGeometry::convexSolid() const {
   return convex_solid_.get();
 }
 
-Eigen::AlignedBox3d PreparedGeometry::localBox() const {
+const Eigen::AlignedBox3d& PreparedGeometry::localBox() const {
+  std::call_once(local_box_once_, [this] { local_box_ = findLocalBox(); });
+  return local_box_;
+}
+
+Eigen::AlignedBox3d PreparedGeometry::findLocalBox() const {
   switch (kindOf(*geometry_)) {
     case GeometryKind::mesh:
       return boxOfMesh(meshView(*geometry_));

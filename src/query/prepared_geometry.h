@@ -50,17 +50,21 @@ class PreparedGeometry {
   /// A box (frame of the geometry, metres) that contains all of it, up to the rounding of its own
   /// coordinates: infinite for what is unbounded, empty for an octree without occupied cells. It
   /// does not rest on `aabb_local`, which FCL computes when it is told to.
-  Eigen::AlignedBox3d localBox() const;
+  const Eigen::AlignedBox3d& localBox() const;
 
   /// The solid that a mesh encloses; null where surfaces count, and for what is no mesh.
   /// \throws OpenMesh
   const ClosedMesh* solid(ContactMeaning contact) const;
 
  private:
+  Eigen::AlignedBox3d findLocalBox() const;
+
   std::shared_ptr<const fcl::CollisionGeometryd> geometry_;
   std::string name_;
   mutable std::once_flag pieces_once_;
   mutable std::shared_ptr<const PieceTree> pieces_;
+  mutable std::once_flag local_box_once_;
+  mutable Eigen::AlignedBox3d local_box_;
   mutable std::once_flag root_once_;
   mutable std::unique_ptr<const ConvexBody> root_body_;
   mutable std::once_flag hull_once_;

@@ -26,6 +26,11 @@ class CappedTree {
   template <typename Function>
   bool visitTriangles(const double* lo, const double* hi, Function&& function);
 
+  /// Whether the box of no triangle of the mesh and its caps meets [lo, hi].
+  bool isFree(const double* lo, const double* hi) {
+    return visitTriangles(lo, hi, [](const Eigen::Vector3i&) { return false; });
+  }
+
   /// Whether the box of no triangle of the mesh, caps aside, meets [lo, hi].
   bool isFreeOfMesh(const double* lo, const double* hi);
 

@@ -12,6 +12,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "partition_query.h"
 #include "random_bodies.h"
+#include "sampled_contact.h"
 #include "whitened_meshes.h"
 
 namespace {
@@ -78,20 +79,6 @@ class WitnessCase {
   WhitenedMeshes meshes_;
   CrossingWitness witness_;
 };
-
-/// By the sum of the solid angles of all triangles (Van Oosterom and Strackee 1983).
-bool isWithin(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double angle = 0.0;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices[t[0]] - point;
-    const Eigen::Vector3d b = mesh.vertices[t[1]] - point;
-    const Eigen::Vector3d c = mesh.vertices[t[2]] - point;
-    angle +=
-        2 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
-                                              b.dot(c) * a.norm() + c.dot(a) * b.norm());
-  }
-  return std::fabs(angle) > 2 * M_PI;
-}
 
 struct Tally {
   int covered = 0;
@@ -237,22 +224,9 @@ TEST_CASE(
       CHECK(result.status == fcl_prob::ProbabilityStatus::converged);
       CHECK(result.statistics.cells < (size < 0.1 ? 50'000 : 5'000));
       RandomBodies random(307);
-      const Eigen::Matrix3d root = displacement.covariance().llt().matrixL();
       constexpr int kSamples = 20'000;
-      int hits = 0;
-      for (int i = 0; i < kSamples; ++i) {
-        fcl::Transform3d pose = query.pose_a;
-        pose.translation() += displacement.mean() + root * random.normalVector();
-        fcl::CollisionRequestd once;
-        fcl::CollisionResultd contact;
-        const bool touches = fcl::collide(query.model_a.get(), pose, query.model_b.get(),
-                                          query.pose_b, once, contact) > 0;
-        hits += touches || (solid && isWithin(large, pose.translation()));
-      }
-      const double estimate = static_cast<double>(hits) / kSamples;
-      const double standard_error = std::sqrt(estimate * (1 - estimate) / kSamples);
-      CHECK(*result.lower <= estimate + 5 * standard_error);
-      CHECK(*result.upper >= estimate - 5 * standard_error);
+      const double p = sampledContact(query, small, large, displacement, solid, kSamples, random);
+      checkHoldsSampled(result, p, kSamples);
     }
   }
 }

@@ -110,6 +110,25 @@ TEST_CASE("Claims of meshes of hundreds of triangles, closed and open, as surfac
   CHECK(sum.by_method["crossing surfaces"].checked > 20);
 }
 
+// Cells at edges, between what is covered by one pair and what others reach.
+TEST_CASE("Claims where faces of coarse meshes meet") {
+  RandomBodies random(1203);
+  ClaimReport sum;
+  for (int trial = 0; trial < 12; ++trial) {
+    const auto a = makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 6, 8, trial));
+    const auto b = makeModel<fcl::OBBRSSd>(bumpyMesh(0.6, 8, 10, trial + 10));
+    ProbabilityRequest request = interval();
+    request.relative_tolerance = 1e-3;
+    const ClaimReport report = checkClaims({a.get(), fcl::Transform3d(random.pose(0.1))},
+                                           {b.get(), fcl::Transform3d(random.pose(1.2))},
+                                           randomDisplacement(random, 0.05, 0.3), request,
+                                           ClaimBudget{400, 2, 2}, random.integer(0, 1 << 30));
+    checkReport(report);
+    sum += report;
+  }
+  CHECK(sum.by_method["below what is possible"].checked > 60);
+}
+
 TEST_CASE("The checker finds claims that are wrong") {
   // Told of a shape that is a little larger or smaller than the one asked about.
   const auto box = makeModel<fcl::OBBRSSd>(boxMesh({0.5, 0.5, 0.5}));

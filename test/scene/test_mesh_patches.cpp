@@ -35,20 +35,6 @@ using fcl_prob_test::sphereMesh;
 using fcl_prob_test::torusMesh;
 using fcl_prob_test::WhitenedMeshes;
 
-/// How often a mesh winds around a point, by solid angles.
-double windingAround(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double sum = 0.0;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices[t[0]] - point;
-    const Eigen::Vector3d b = mesh.vertices[t[1]] - point;
-    const Eigen::Vector3d c = mesh.vertices[t[2]] - point;
-    const double lengths = a.norm() * b.norm() * c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), lengths + a.dot(b) * c.norm() + b.dot(c) * a.norm() +
-                                                 c.dot(a) * b.norm());
-  }
-  return sum / (4 * 3.14159265358979323846);
-}
-
 TriangleMesh moved(const TriangleMesh& mesh, double scale, const Eigen::Vector3d& by) {
   TriangleMesh result = mesh;
   for (Eigen::Vector3d& v : result.vertices) v = scale * v + by;
@@ -177,7 +163,7 @@ TEST_CASE("hulls by gift wrapping are those of Qhull", "[patches]") {
     }
     const Eigen::Vector3d middle = points[0] + 0.25 * (wrapped.vertices[0] + wrapped.vertices[1] +
                                                        wrapped.vertices[2] + wrapped.vertices[3]);
-    CHECK(std::fabs(windingAround(wrapped, middle - points[0])) > 0.4);
+    CHECK(std::fabs(windingNumber(wrapped, middle - points[0])) > 0.4);
     const auto fan = convexFanAround(points);
     REQUIRE(fan);
     for (std::size_t f = 0; f < fan->normals.size(); ++f) {
@@ -237,7 +223,7 @@ TEST_CASE("hulls of patches are within the solid", "[patches]") {
         }
         point = patch.fan.centre + (1 - 1e-6) * (point / sum - patch.fan.centre);
         CAPTURE(scene, patch.pieces.size());
-        CHECK(std::fabs(windingAround(mesh, point)) > 0.5);
+        CHECK(std::fabs(windingNumber(mesh, point)) > 0.5);
       }
     }
   }
