@@ -24,6 +24,10 @@ std::optional<int> rayCrossing(const std::array<Eigen::Vector3d, 3>& corners, in
                                double margin) {
   const int u = (axis + 1) % 3;
   const int v = (axis + 2) % 3;
+  for (const int k : {u, v}) {
+    const auto [lo, hi] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
+    if (lo > margin || hi < -margin) return 0;
+  }
   double reach = margin;
   for (const Eigen::Vector3d& corner : corners) {
     reach = std::max(reach, corner.cwiseAbs().maxCoeff() + margin);

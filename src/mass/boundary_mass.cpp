@@ -76,9 +76,12 @@ std::optional<MassWithError> boundaryMass(const PolytopeBoundary& boundary,
   addFullAngles(boundary, sum);
   MassWithError mass = massOf(sum, boundary.edges.size());
   // The integral is the mass of the body or, around the origin, minus that of what is outside of
-  // it: its sign says which, unless it is lost in its own error.
+  // it: its sign says which, unless it is lost in its own error. Where nothing says it, it is
+  // either.
   const bool sign_is_certain = std::abs(mass.value) > 4 * mass.error;
-  if (sign_is_certain ? mass.value < 0 : boundary.origin_inside) mass.value += 1;
+  const std::optional<bool> inside = sign_is_certain ? mass.value < 0 : boundary.origin_inside;
+  if (!inside) return MassWithError{mass.value + 0.5, mass.error + 0.5};
+  if (*inside) mass.value += 1;
   return mass;
 }
 

@@ -189,7 +189,7 @@ HeavyPart heavyPart(const LongPolytope& polytope) {
   const LongVector3 extent = polytope.extent();
   if (!(extent.maxCoeff() > kNearExtent)) return {polytope};
   const PolytopeBoundary boundary = polytopeBoundary(polytope.seenFrom(LongVector3::Zero()));
-  const double distance = boundary.origin_inside ? 0.0 : boundary.distance;
+  const double distance = boundary.origin_inside.value_or(false) ? 0.0 : boundary.distance;
   const double reach = std::sqrt(distance * distance + kHeavyRange);
   if (!(extent.maxCoeff() > 1.5L * reach)) return {polytope};
   auto within = withinCube(polytope, reach);

@@ -12,6 +12,7 @@
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/directed_edges.h"
+#include "geometry/ray_crossing.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -178,14 +179,35 @@ void finishFaces(PolytopeBoundary& boundary) {
   }
 }
 
-// Whether no face's plane has the body on one side and the origin on the other. A height below 0 is
-// not enough: the normals of slivers are noise, and their planes cut the body.
-bool isAroundOrigin(const ConvexPolytope& polytope, const std::vector<FaceFrame>& faces) {
-  return std::none_of(faces.begin(), faces.end(), [&](const FaceFrame& face) {
-    return face.height < 0 &&
-           std::all_of(polytope.vertices.begin(), polytope.vertices.end(),
-                       [&](const Eigen::Vector3d& v) { return face.normal.dot(v) < 0; });
-  });
+// Whether a ray from the origin crosses the faces an odd number of times, if it is nowhere too
+// close to an edge to tell. Heights of faces do not tell: the normals of slivers are noise. The
+// rays are along no direction that bodies are symmetric about.
+std::optional<bool> isAroundOrigin(const ConvexPolytope& polytope) {
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond(0.83, 0.31, -0.37, 0.28).normalized().toRotationMatrix();
+  std::vector<Eigen::Vector3d> turned;
+  double reach = 0.0;
+  for (const Eigen::Vector3d& v : polytope.vertices) {
+    turned.emplace_back(turn * v);
+    reach = std::max(reach, v.lpNorm<1>());
+  }
+  const double margin = 8 * kEpsilon * reach;  // of three products and the entries of the turn
+  const auto alongAxis = [&](int axis) -> std::optional<bool> {
+    bool odd = false;
+    for (const ConvexPolytope::Face& face : polytope.faces) {
+      const auto corner = [&](std::size_t k) { return turned[face.vertices[k]]; };
+      for (std::size_t k = 2; k < face.vertices.size(); ++k) {
+        const auto crossing = rayCrossing({corner(0), corner(k - 1), corner(k)}, axis, margin);
+        if (!crossing) return std::nullopt;
+        odd = odd != (*crossing != 0);
+      }
+    }
+    return odd;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const auto odd = alongAxis(axis)) return odd;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -224,7 +246,7 @@ PolytopeBoundary polytopeBoundary(const ConvexPolytope& polytope) {
   boundary.edges.reserve(pairing.matches.size());
   for (const EdgeMatch& match : pairing.matches) addSides(polytope, match, boundary);
   finishFaces(boundary);
-  boundary.origin_inside = isAroundOrigin(polytope, boundary.faces);
+  boundary.origin_inside = isAroundOrigin(polytope);
   return boundary;
 }
 

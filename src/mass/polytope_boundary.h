@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "fcl_prob/convex_polytope.h"
@@ -61,8 +62,7 @@ struct PolytopeBoundary {
   std::vector<BoundaryEdge> edges;
   double shift = 0.0;     ///< no vertex is farther from what it stands for, in any direction
   double distance = 0.0;  ///< from the origin to the boundary, up to rounding
-  bool origin_inside =
-      false;  ///< of the convex body; meaningless if `distance` is within rounding of 0
+  std::optional<bool> origin_inside;  ///< of the convex body; nothing if that cannot be told
 };
 
 /// Counts as displacement of faces that each coordinate of a vertex may be off by so much.
