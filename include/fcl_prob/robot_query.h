@@ -22,6 +22,12 @@ struct ObstacleState {
   Displacement displacement = GaussianDisplacement();    ///< as Obstacle::displacement
 };
 
+/// One more body of an obstacle.
+struct ObstacleBody {
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  fcl::Transform3d in_obstacle = fcl::Transform3d::Identity();  ///< metres, obstacle's frame
+};
+
 /// Something that the robot may touch, with the error of where it was perceived.
 struct Obstacle {
   std::string name;
@@ -37,6 +43,24 @@ struct Obstacle {
   /// Of a mesh: as in TriangleMesh. Both are told with answers, and nothing depends on them.
   double coordinate_error = 0.0;  ///< metres
   std::vector<std::string> notes = {};
+
+  /// Further bodies that move with `geometry`, which is in the obstacle's frame as it is: the same
+  /// displacement is that of all of them.
+  std::vector<ObstacleBody> more = {};
+};
+
+/// All bodies of a robot in one state as one obstacle, as a person whose URDF is known.
+/// \param values  of the joints of `robot`, whose base says where it is
+/// \throws InvalidRequest as Robot::requireWithinLimits()
+Obstacle obstacleOf(const std::string& name, const Robot& robot, const Eigen::VectorXd& values,
+                    Displacement displacement);
+
+/// Bodies of the robot that may touch obstacles: their contact counts for nothing, as that of a
+/// base with the floor it stands on. Names, or patterns of a shell (`*`, `?`, `[a-c]`): those of
+/// RobotBody::name() and Obstacle::name.
+struct AllowedContact {
+  std::string body;
+  std::string obstacle;
 };
 
 /// What the errors of an obstacle at one waypoint have to do with those at another one.
@@ -101,14 +125,22 @@ struct RobotResult {
 /// Const and thread-safe after construction.
 class RobotQuery {
  public:
-  /// \throws InvalidRequest without an obstacle; InvalidPose, InvalidGeometry, UnsupportedGeometry
-  RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles);
+  /// \throws InvalidRequest without an obstacle, or for an allowed contact of a body or obstacle
+  ///         that is not there; InvalidPose, InvalidGeometry, UnsupportedGeometry
+  RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
+             std::vector<AllowedContact> allowed = {});
   ~RobotQuery();
   RobotQuery(RobotQuery&&) noexcept;
   RobotQuery& operator=(RobotQuery&&) noexcept;
 
   const Robot& robot() const;
   const std::vector<Obstacle>& obstacles() const;
+  const std::vector<AllowedContact>& allowed() const;
+
+  /// The same robot among other obstacles. What was prepared is shared, that of obstacles of the
+  /// same name and geometries (by pointer), too: one that has only moved costs microseconds.
+  /// Allowed contacts stay, whether or not their obstacles are there. \throws as the constructor
+  RobotQuery withObstacles(std::vector<Obstacle> obstacles) const;
 
   /// States and waypoints are refused where a joint is beyond its limits, unless the robot was
   /// loaded to allow that: every member throws InvalidRequest as Robot::requireWithinLimits().
@@ -162,6 +194,7 @@ class RobotQuery {
 
  private:
   struct Implementation;
+  explicit RobotQuery(std::unique_ptr<const Implementation> implementation);
   std::unique_ptr<const Implementation> implementation_;
 };
 

@@ -40,7 +40,9 @@ class MemberGroup {
     std::call_once(tree_once_, [this] {
       std::vector<const PieceTree*> trees;
       for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
-      tree_ = joinPieceTrees(trees);
+      // That of a single one is not copied.
+      tree_ = trees.size() == 1 ? std::shared_ptr<const PieceTree>(members_[bounded_[0]], trees[0])
+                                : joinPieceTrees(trees);
     });
     return *tree_;
   }
@@ -127,9 +129,12 @@ class PlacedGroup {
   const PartitionObject& object() const { return object_; }
 
   /// Adds the unbounded members, as far as `other` can get.
-  void boundBy(const PartitionObject& other, const GaussianDisplacement& displacement) {
+  /// \param besides  metres: how much farther its points may be
+  void boundBy(const PartitionObject& other, const GaussianDisplacement& displacement,
+               double besides = 0.0) {
     if (!group_.anyUnbounded()) return;
-    const ReachedBall ball = reachedBall(other, displacement, kReach);
+    ReachedBall ball = reachedBall(other, displacement, kReach);
+    ball.radius += besides;
     std::vector<const PieceTree*> trees{&group_.tree()};
     for (const std::size_t i : group_.unbounded()) {
       const auto part = boundedPart(group_.members()[i]->geometry(), poses_[i], ball);

@@ -41,6 +41,15 @@ Ball Ball::placed(const fcl::Transform3d& pose) const {
   return {pose * centre, radius * (1.0 + 1e-8) + 1e-8 * centre.norm() + kRounding * moved};
 }
 
+Ball Ball::with(const Ball& other) const {
+  if (radius < 0.0 || std::isinf(other.radius)) return other;
+  if (other.radius < 0.0 || std::isinf(radius)) return *this;
+  const Eigen::Vector3d middle = 0.5 * (centre + other.centre);
+  const double reach =
+      std::max((centre - middle).norm() + radius, (other.centre - middle).norm() + other.radius);
+  return {middle, reach + kRounding * (reach + centre.norm() + other.centre.norm())};
+}
+
 Ball ballAround(const PreparedGeometry& geometry) {
   const Eigen::AlignedBox3d box = geometry.localBox();
   if (box.isEmpty()) return {Eigen::Vector3d::Zero(), -1.0};

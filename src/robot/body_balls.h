@@ -13,6 +13,9 @@ struct Ball {
   double radius = 0.0;  ///< < 0: there is nothing; infinite: it has no end
 
   Ball placed(const fcl::Transform3d& pose) const;
+
+  /// Around this one and another one in the same frame.
+  Ball with(const Ball& other) const;
 };
 
 /// Around all of a geometry, in its own frame; widened by what computing it rounds.

@@ -10,15 +10,30 @@
 
 namespace fcl_prob::detail {
 
+namespace {
+
+double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
+                   const PreparedGeometry& other, const fcl::Transform3d& other_pose,
+                   const GaussianDisplacement& of_bodies) {
+  if (whyNeverInContact(body.geometry(), other.geometry())) return 0.0;
+  if (!body.hasRootBody() || !other.hasRootBody()) return 1.0;
+  return halfSpaceUpper(body.hull(), pose, other.hull(), other_pose, of_bodies);
+}
+
+}  // namespace
+
 BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
-                       const PreparedGeometry& obstacle, const fcl::Transform3d& pose,
+                       const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
                        const GaussianDisplacement& of_bodies) {
+  const std::vector<fcl::Transform3d> poses = obstacle.poses(pose);
   for (const PlacedBody& body : bodies) {
-    const PreparedGeometry& geometry = *geometries[body.body];
-    if (whyNeverInContact(geometry.geometry(), obstacle.geometry())) continue;
-    double upper = 1.0;
-    if (geometry.hasRootBody() && obstacle.hasRootBody()) {
-      upper = halfSpaceUpper(geometry.hull(), body.pose, obstacle.hull(), pose, of_bodies);
+    const auto upperOf = [&](std::size_t i) {
+      return upperOfPair(*geometries[body.body], body.pose, *obstacle.geometries()[i], poses[i],
+                         of_bodies);
+    };
+    double upper = upperOf(0);
+    for (std::size_t i = 1; i < poses.size() && upper < 1.0; ++i) {
+      upper = sumAbove(upper, upperOf(i));
     }
     bounds_.push_back({body, std::min(1.0, upper)});
   }

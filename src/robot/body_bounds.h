@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
-#include "query/prepared_geometry.h"
 #include "robot/placed_body.h"
+#include "robot/prepared_obstacle.h"
 
 namespace fcl_prob::detail {
 
@@ -19,7 +19,7 @@ class BodyBounds {
   /// \param pose        of the obstacle
   /// \param of_bodies   their displacement relative to it
   BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
-             const PreparedGeometry& obstacle, const fcl::Transform3d& pose,
+             const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
              const GaussianDisplacement& of_bodies);
 
   /// Certainly not below P that any of them touches it.

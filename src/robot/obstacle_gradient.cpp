@@ -7,7 +7,7 @@
 
 #include "base/seeds_apart.h"
 #include "fcl_prob/exceptions.h"
-#include "fcl_prob/group.h"
+#include "query/groups_query.h"
 #include "robot/gradient_parts.h"
 #include "robot/reversed.h"
 
@@ -18,10 +18,11 @@ namespace {
 class ObstacleLines {
  public:
   ObstacleLines(const std::vector<WaypointBody>& bodies, const Robot& robot,
-                const std::vector<Eigen::VectorXd>& waypoints,
-                const std::shared_ptr<const fcl::CollisionGeometryd>& obstacle,
+                const std::vector<Eigen::VectorXd>& waypoints, const ObstacleAmongBodies& scene,
                 const fcl::Transform3d& pose, const MotionGradientRequest& request)
-      : query_(geometriesOf(bodies, robot), {obstacle}), poses_b_{pose}, request_(request) {
+      : query_(geometriesOf(bodies, scene), scene.obstacle.geometries()),
+        poses_b_(scene.obstacle.poses(pose)),
+        request_(request) {
     const Eigen::Index joints = waypoints[0].size();
     parameters_ = joints * static_cast<Eigen::Index>(waypoints.size());
     for (const WaypointBody& one : bodies) {
@@ -70,25 +71,22 @@ class ObstacleLines {
   MotionGradient of(const GaussianDisplacement& displacement,
                     const MotionGradientRequest& request) const {
     if (displacement.rank() > 0) {
-      return query_.motionGradient(poses_a_, poses_b_, displacement, velocities_, request);
+      return query_.gradient(poses_a_, poses_b_, displacement, velocities_, request);
     }
     ProbabilityRequest certain;
     certain.contact = request.contact;
-    ProbabilityResult result;
+    const ProbabilityResult result = query_.answer(poses_a_, poses_b_, displacement, certain);
     MotionGradient gradient;
-    gradient.probability =
-        query_.collisionProbability(poses_a_, poses_b_, displacement, certain, result);
+    gradient.probability = result.probability();
     gradient.status = result.status;
     gradient.gradient = gradient.gradient_standard_error = Eigen::VectorXd::Zero(parameters_);
     return gradient;
   }
 
-  static GroupQuery::Geometries geometriesOf(const std::vector<WaypointBody>& bodies,
-                                             const Robot& robot) {
-    GroupQuery::Geometries geometries;
-    for (const WaypointBody& one : bodies) {
-      geometries.push_back(robot.bodies()[one.body].geometry);
-    }
+  static PreparedGeometries geometriesOf(const std::vector<WaypointBody>& bodies,
+                                         const ObstacleAmongBodies& scene) {
+    PreparedGeometries geometries;
+    for (const WaypointBody& one : bodies) geometries.push_back(scene.bodies[one.body]);
     return geometries;
   }
 
@@ -104,7 +102,7 @@ class ObstacleLines {
     return velocity;
   }
 
-  GroupQuery query_;
+  GroupsQuery query_;
   std::vector<fcl::Transform3d> poses_a_;
   std::vector<fcl::Transform3d> poses_b_;
   MemberVelocities velocities_;
@@ -132,9 +130,9 @@ Eigen::ArrayXd sizeOf(const MotionGradient& part) {
 
 MotionGradient obstacleGradient(const Robot& robot, const std::vector<Eigen::VectorXd>& waypoints,
                                 const std::vector<WaypointBody>& bodies,
-                                const std::shared_ptr<const fcl::CollisionGeometryd>& obstacle,
-                                const ObstacleState& state, const MotionGradientRequest& request) {
-  const ObstacleLines lines(bodies, robot, waypoints, obstacle, state.pose, request);
+                                const ObstacleAmongBodies& scene, const ObstacleState& state,
+                                const MotionGradientRequest& request) {
+  const ObstacleLines lines(bodies, robot, waypoints, scene, state.pose, request);
   return std::visit([&lines](const auto& displacement) { return lines(reversed(displacement)); },
                     state.displacement);
 }

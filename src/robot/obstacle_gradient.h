@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fcl_prob/joint_gradient.h"
-#include "fcl_prob/robot_query.h"
+#include "robot/placed_query.h"
 
 namespace fcl_prob::detail {
 
@@ -22,8 +22,8 @@ struct WaypointBody {
 /// \throws InvalidRequest for a truncated displacement
 MotionGradient obstacleGradient(const Robot& robot, const std::vector<Eigen::VectorXd>& waypoints,
                                 const std::vector<WaypointBody>& bodies,
-                                const std::shared_ptr<const fcl::CollisionGeometryd>& obstacle,
-                                const ObstacleState& state, const MotionGradientRequest& request);
+                                const ObstacleAmongBodies& scene, const ObstacleState& state,
+                                const MotionGradientRequest& request);
 
 /// Of obstacles whose errors are independent.
 JointGradient anyOfGradients(const std::vector<MotionGradient>& parts, Eigen::Index joints,

@@ -19,7 +19,7 @@ GaussianDisplacement displacementOfBodies(const ProbableScene& scene) {
 ObstacleSampling::ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
                                    const std::vector<Ball>& balls, double most_far)
     : scene_(scene), geometries_(geometries), displacement_(displacementOfBodies(scene)) {
-  far_ = leaveOutFar(balls, *scene.around, scene.state, most_far, scene_.bodies);
+  far_ = leaveOutFar(balls, scene.obstacle->around(), scene.state, most_far, scene_.bodies);
   certified_ = {0.0, scene_.bodies.empty() ? far_ : 1.0};
   probable_ = certified_;
 }
@@ -93,8 +93,8 @@ void ObstacleSampling::place(const ProbabilityRequest& request) {
   }
   tree_ = joinPieceTrees(trees);
   bodies_.tree = tree_.get();
-  const PreparedGeometry& obstacle = *scene_.obstacle;
-  obstacle_ = {&obstacle.pieces(), {{scene_.state.pose, obstacle.solid(request.contact)}}};
+  const PreparedObstacle& obstacle = *scene_.obstacle;
+  obstacle_ = obstacle.group().placed(obstacle.poses(scene_.state.pose), request.contact);
 }
 
 /// What is far is besides.

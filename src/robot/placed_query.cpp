@@ -45,10 +45,11 @@ ProbabilityResult ofGroup(const ObstacleAmongBodies& scene, const ObstacleState&
     geometries.push_back(scene.bodies[body.body]);
     poses.push_back(body.pose);
   }
-  const GroupsQuery query(std::move(geometries), {scene.obstacle});
+  const GroupsQuery query(std::move(geometries), scene.obstacle.geometries());
   return std::visit(
       [&](const auto& displacement) {
-        return query.answer(poses, {state.pose}, reversed(displacement), request);
+        return query.answer(poses, scene.obstacle.poses(state.pose), reversed(displacement),
+                            request);
       },
       state.displacement);
 }
@@ -93,7 +94,7 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
     return std::nullopt;
   }
   Budget budget(request);
-  const BodyBounds bounds(scene.bodies, bodies, *scene.obstacle, state.pose, gaussian->reversed());
+  const BodyBounds bounds(scene.bodies, bodies, scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
   if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
   double left_out = 0.0;
@@ -144,8 +145,8 @@ double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& stat
                      std::vector<PlacedBody> bodies) {
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
   if (!gaussian) return 1.0;
-  const double far = leaveOutFar(scene.balls, scene.around, state, kClearlyFar, bodies);
-  const BodyBounds bounds(scene.bodies, bodies, *scene.obstacle, state.pose, gaussian->reversed());
+  const double far = leaveOutFar(scene.balls, scene.obstacle.around(), state, kClearlyFar, bodies);
+  const BodyBounds bounds(scene.bodies, bodies, scene.obstacle, state.pose, gaussian->reversed());
   return std::min(1.0, sumAbove(bounds.sum(), far));
 }
 
@@ -156,7 +157,7 @@ ProbabilityResult ofNearBodies(const ObstacleAmongBodies& scene, const ObstacleS
                                std::vector<PlacedBody> bodies, double most_far,
                                const ProbabilityRequest& request, FarBodies& left_out) {
   const std::size_t all = bodies.size();
-  const double far = leaveOutFar(scene.balls, scene.around, state, most_far, bodies);
+  const double far = leaveOutFar(scene.balls, scene.obstacle.around(), state, most_far, bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   // What is left out widens the interval, too.

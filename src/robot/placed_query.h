@@ -8,6 +8,7 @@
 #include "fcl_prob/robot_query.h"
 #include "robot/body_balls.h"
 #include "robot/placed_body.h"
+#include "robot/prepared_obstacle.h"
 
 namespace fcl_prob::detail {
 
@@ -32,12 +33,11 @@ struct FarBodies {
 double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const ObstacleState& state,
                    double most, std::vector<PlacedBody>& bodies);
 
-/// An obstacle with what is known of its geometry and of those of the robot's bodies.
+/// An obstacle and the bodies of the robot, prepared.
 struct ObstacleAmongBodies {
   const PreparedGeometries& bodies;  ///< of the robot
   const std::vector<Ball>& balls;    ///< of its bodies, in their frames
-  const std::shared_ptr<const PreparedGeometry>& obstacle;
-  const Ball& around;  ///< the obstacle, in its frame
+  const PreparedObstacle& obstacle;
 };
 
 /// Certainly not below P that any of the placed bodies touches the obstacle, in microseconds a

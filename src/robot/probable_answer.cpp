@@ -231,9 +231,11 @@ class AnyProbably {
 
 }  // namespace
 
-bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state) {
+bool canBeSampled(const PreparedObstacle& obstacle, const ObstacleState& state) {
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
-  return gaussian && gaussian->rank() > 0 && obstacle.hasPieces() && !obstacle.pieces().isEmpty();
+  const MemberGroup& group = obstacle.group();
+  return gaussian && gaussian->rank() > 0 && !group.anyUnbounded() && !group.bounded().empty() &&
+         !group.tree().isEmpty();
 }
 
 // Where P is close to the threshold a proof takes less than samples do: it is tried before more of

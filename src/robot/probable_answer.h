@@ -14,14 +14,13 @@ namespace fcl_prob::detail {
 
 /// Placed bodies against one obstacle whose displacement is Gaussian and not 0.
 struct ProbableScene {
-  const PreparedGeometry* obstacle;  ///< bounded
-  const Ball* around;                ///< in its frame
+  const PreparedObstacle* obstacle;  ///< bounded
   ObstacleState state;
   std::vector<PlacedBody> bodies;
 };
 
 /// Whether that can be sampled; else only the certified way is left.
-bool canBeSampled(const PreparedGeometry& obstacle, const ObstacleState& state);
+bool canBeSampled(const PreparedObstacle& obstacle, const ObstacleState& state);
 
 /// A certain answer to the same question, within limits.
 using Proof = std::function<ProbableResult(const ProbabilityRequest&)>;

@@ -11,24 +11,21 @@
 #include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
-#include "geometry/occupancy.h"
-#include "geometry/validation.h"
 #include "io/import_notes.h"
 #include "query/motion_gradient.h"
-#include "query/prepared_geometry.h"
 #include "robot/gradient_parts.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 #include "robot/obstacle_gradient.h"
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
+#include "robot/robot_among_obstacles.h"
 #include "robot/robot_notes.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {
 namespace {
 
-using detail::Ball;
 using detail::FarBodies;
 using detail::PlacedBody;
 
@@ -109,25 +106,7 @@ void addWaypoints(std::size_t obstacles, RobotResult& result) {
 }  // namespace
 
 struct RobotQuery::Implementation {
-  Implementation(const Robot& the_robot, std::vector<Obstacle> the_obstacles)
-      : robot(the_robot), obstacles(std::move(the_obstacles)) {
-    if (obstacles.empty()) throw InvalidRequest("a robot query needs an obstacle");
-    for (const RobotBody& body : robot.bodies()) {
-      geometries.push_back(std::make_shared<const detail::PreparedGeometry>(
-          body.geometry, "a body of " + body.name()));
-      balls.push_back(detail::ballAround(*geometries.back()));
-    }
-    for (const Obstacle& obstacle : obstacles) {
-      detail::validatePose(obstacle.pose, "obstacle " + obstacle.name);
-      for (const ObstacleState& state : obstacle.over_time) {
-        detail::validatePose(state.pose, "obstacle " + obstacle.name);
-      }
-      obstacle_geometries.push_back(std::make_shared<const detail::PreparedGeometry>(
-          obstacle.geometry, "obstacle " + obstacle.name));
-      obstacle_balls.push_back(detail::ballAround(*obstacle_geometries.back()));
-    }
-    notes = detail::standingNotes(robot, obstacles);
-  }
+  explicit Implementation(detail::RobotAmongObstacles of) : among(std::move(of)) {}
 
   void validate(const std::vector<Eigen::VectorXd>& waypoints,
                 const ProbabilityRequest& request) const {
@@ -137,33 +116,18 @@ struct RobotQuery::Implementation {
       throw InvalidRequest("a gradient was asked for: robots have none");
     }
     if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
-    detail::requireWithinLimits(robot, waypoints);
-    for (const Obstacle& obstacle : obstacles) detail::requireStates(obstacle, waypoints.size());
+    detail::requireWithinLimits(among.robot(), waypoints);
+    for (const Obstacle& obstacle : obstacles()) detail::requireStates(obstacle, waypoints.size());
     // Open meshes are refused wherever they are.
-    for (const auto* all : {&geometries, &obstacle_geometries}) {
-      for (const auto& geometry : *all) geometry->solid(request.contact);
+    for (const auto& geometry : among.geometries()) geometry->solid(request.contact);
+    for (std::size_t i = 0; i < obstacles().size(); ++i) {
+      for (const auto& geometry : among.preparedObstacle(i).geometries()) {
+        geometry->solid(request.contact);
+      }
     }
   }
 
-  /// Not what fcl::collide leaves out.
-  bool meets(std::size_t body, std::size_t obstacle) const {
-    return !detail::whyNeverInContact(geometries[body]->geometry(),
-                                      obstacle_geometries[obstacle]->geometry());
-  }
-
-  std::vector<PlacedBody> placed(const Eigen::VectorXd& values) const {
-    std::vector<PlacedBody> result;
-    for (const fcl::Transform3d& pose : robot.poses(values))
-      result.push_back({result.size(), pose});
-    return result;
-  }
-
-  std::vector<std::vector<PlacedBody>> placedAll(
-      const std::vector<Eigen::VectorXd>& waypoints) const {
-    std::vector<std::vector<PlacedBody>> result;
-    for (const Eigen::VectorXd& values : waypoints) result.push_back(placed(values));
-    return result;
-  }
+  const std::vector<Obstacle>& obstacles() const { return among.obstacles(); }
 
   /// What half-spaces say of an event, before any of `count` is asked. (A single one begins with
   /// them itself, and estimates are of what is likely.)
@@ -171,38 +135,14 @@ struct RobotQuery::Implementation {
                      std::vector<PlacedBody> bodies, std::size_t count,
                      const ProbabilityRequest& request) const {
     if (count == 1 || request.method == ProbabilityMethod::estimate) return {0.0, 1.0};
-    return {0.0, detail::unlikelyUpper(sceneOf(obstacle), state, std::move(bodies))};
+    return {0.0, detail::unlikelyUpper(among.sceneOf(obstacle), state, std::move(bodies))};
   }
 
   ProbabilityResult askObstacle(std::size_t index, const ObstacleState& state,
                                 std::vector<PlacedBody> bodies, const ProbabilityRequest& request,
                                 FarBodies& left_out) const {
-    return detail::placedProbability(sceneOf(index), state, std::move(bodies), request, left_out);
-  }
-
-  detail::ObstacleAmongBodies sceneOf(std::size_t obstacle) const {
-    return {geometries, balls, obstacle_geometries[obstacle], obstacle_balls[obstacle]};
-  }
-
-  /// Errors that are the same all along: an obstacle that has shifted is where it was at first, and
-  /// the bodies have shifted the other way.
-  /// \param body  the only one that counts, or -1
-  std::vector<std::vector<PlacedBody>> relativeTo(const std::vector<Eigen::VectorXd>& waypoints,
-                                                  int body) const {
-    const auto all = placedAll(waypoints);
-    std::vector<std::vector<PlacedBody>> relative;
-    for (const Obstacle& obstacle : obstacles) {
-      const auto offsets = detail::offsetsSinceFirst(obstacle, waypoints.size());
-      relative.emplace_back();
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        for (PlacedBody one : all[k]) {
-          if (body >= 0 && one.body != static_cast<std::size_t>(body)) continue;
-          one.pose.translation() -= offsets[k];
-          relative.back().push_back(one);
-        }
-      }
-    }
-    return relative;
+    return detail::placedProbability(among.sceneOf(index), state, std::move(bodies), request,
+                                     left_out);
   }
 
   /// One obstacle, whose error is the same at all waypoints. \param body  < 0: all of them
@@ -210,7 +150,7 @@ struct RobotQuery::Implementation {
                              int body, const std::vector<PlacedBody>& relative,
                              const ProbabilityRequest& request, FarBodies& far) const {
     if (relative.size() <= kMostTogether || request.method == ProbabilityMethod::estimate) {
-      return askObstacle(index, detail::stateAt(obstacles[index], 0), relative, request, far);
+      return askObstacle(index, detail::stateAt(obstacles()[index], 0), relative, request, far);
     }
     detail::SweptAnswer answer = askSwept(
         index, sweptPath(index, waypoints, body, BetweenWaypoints::ignored), {0.0, 1.0}, request);
@@ -221,30 +161,29 @@ struct RobotQuery::Implementation {
   detail::SweptPath sweptPath(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
                               int body, BetweenWaypoints between) const {
     std::vector<std::size_t> bodies;
-    for (std::size_t i = 0; i < geometries.size(); ++i) {
-      const bool wanted = body < 0 || i == static_cast<std::size_t>(body);
-      if (wanted && meets(i, index)) bodies.push_back(i);
+    for (const std::size_t i : among.bodiesOf(index)) {
+      if (body < 0 || i == static_cast<std::size_t>(body)) bodies.push_back(i);
     }
-    return {robot, balls, waypoints, std::move(bodies), obstacles[index], between};
+    return {among.robot(),     among.balls(),      waypoints,
+            std::move(bodies), obstacles()[index], between};
   }
 
   detail::SweptAnswer askSwept(std::size_t index, const detail::SweptPath& path,
                                const Bounds& known, const ProbabilityRequest& request) const {
-    const ObstacleState state = detail::stateAt(obstacles[index], 0);
-    return detail::sweptMotion(path, geometries,
-                               {*obstacle_geometries[index], state.pose, state.displacement},
-                               obstacle_balls[index].placed(state.pose),
+    const ObstacleState state = detail::stateAt(obstacles()[index], 0);
+    return detail::sweptMotion(path, among.geometries(),
+                               {among.preparedObstacle(index), state.pose, state.displacement},
                                detail::kShareOfFar * request.absolute_tolerance, known, request);
   }
 
   RobotResult ofUnion(const std::vector<Eigen::VectorXd>& waypoints, int body,
                       const ProbabilityRequest& request) const {
-    const auto relative = relativeTo(waypoints, body);
-    std::vector<FarBodies> far(obstacles.size());
+    const auto relative = among.relativeTo(waypoints, body);
+    std::vector<FarBodies> far(obstacles().size());
     std::vector<Bounds> known;
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      known.push_back(
-          cheapBounds(i, detail::stateAt(obstacles[i], 0), relative[i], obstacles.size(), request));
+    for (std::size_t i = 0; i < obstacles().size(); ++i) {
+      known.push_back(cheapBounds(i, detail::stateAt(obstacles()[i], 0), relative[i],
+                                  obstacles().size(), request));
     }
     RobotResult result = detail::anyOfAsked(
         std::move(known), request, [&](std::size_t i, const ProbabilityRequest& of_one) {
@@ -258,20 +197,16 @@ struct RobotQuery::Implementation {
   /// cannot be sampled, a body without pieces, or nothing that could meet.
   std::vector<detail::ProbableScene> probableScenes(
       const std::vector<Eigen::VectorXd>& waypoints) const {
-    const auto relative = relativeTo(waypoints, -1);
+    const auto relative = among.relativeTo(waypoints, -1);
     std::vector<detail::ProbableScene> scenes;
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      const ObstacleState state = detail::stateAt(obstacles[i], 0);
-      if (!detail::canBeSampled(*obstacle_geometries[i], state)) return {};
-      std::vector<PlacedBody> bodies;
+    for (std::size_t i = 0; i < obstacles().size(); ++i) {
+      const ObstacleState state = detail::stateAt(obstacles()[i], 0);
+      if (!detail::canBeSampled(among.preparedObstacle(i), state)) return {};
       for (const PlacedBody& one : relative[i]) {
-        if (!meets(one.body, i)) continue;
-        if (!geometries[one.body]->hasPieces()) return {};
-        bodies.push_back(one);
+        if (!among.geometries()[one.body]->hasPieces()) return {};
       }
-      if (bodies.empty()) continue;
-      scenes.push_back(
-          {obstacle_geometries[i].get(), &obstacle_balls[i], state, std::move(bodies)});
+      if (relative[i].empty()) continue;
+      scenes.push_back({&among.preparedObstacle(i), state, relative[i]});
     }
     return scenes;
   }
@@ -283,43 +218,24 @@ struct RobotQuery::Implementation {
       return certainly(ofUnion(waypoints, -1, withThreshold(part, threshold)));
     };
     if (scenes.empty()) return prove(request);
-    return detail::probablyAny(scenes, geometries, balls, threshold, chance, prove, request);
-  }
-
-  /// The bodies that may touch an obstacle, relative to where that is by then.
-  std::vector<detail::WaypointBody> nearBodies(const std::vector<std::vector<PlacedBody>>& all,
-                                               std::size_t index) const {
-    const Obstacle& obstacle = obstacles[index];
-    const ObstacleState state = detail::stateAt(obstacle, 0);
-    const detail::Ball around = obstacle_balls[index].placed(state.pose);
-    const auto offsets = detail::offsetsSinceFirst(obstacle, all.size());
-    std::vector<detail::WaypointBody> near;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      for (PlacedBody one : all[k]) {
-        if (!meets(one.body, index)) continue;
-        one.pose.translation() -= offsets[k];
-        const detail::Ball ball = balls[one.body].placed(one.pose);
-        if (detail::farContactUpper(ball, around, state.displacement) <= kNoGradient) continue;
-        near.push_back({k, one.body, one.pose, -offsets[k]});
-      }
-    }
-    return near;
+    return detail::probablyAny(scenes, among.geometries(), among.balls(), threshold, chance, prove,
+                               request);
   }
 
   JointGradient gradient(const std::vector<Eigen::VectorXd>& waypoints,
                          const MotionGradientRequest& request) const {
     const Eigen::Index joints = waypoints[0].size();
     const auto count = static_cast<Eigen::Index>(waypoints.size());
-    const auto all = placedAll(waypoints);
+    const auto all = among.posesAt(waypoints);
     std::vector<MotionGradient> parts;
-    detail::GradientParts progress(request, obstacles.size());
-    for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      const auto near = nearBodies(all, i);
+    detail::GradientParts progress(request, obstacles().size());
+    for (std::size_t i = 0; i < obstacles().size(); ++i) {
+      const auto near = among.nearBodies(i, all, kNoGradient);
       if (near.empty()) continue;
       MotionGradientRequest of_one = progress.requestOf(i);
       of_one.seed += i * detail::kSeedsApart;
-      parts.push_back(detail::obstacleGradient(robot, waypoints, near, obstacles[i].geometry,
-                                               detail::stateAt(obstacles[i], 0), of_one));
+      parts.push_back(detail::obstacleGradient(among.robot(), waypoints, near, among.sceneOf(i),
+                                               detail::stateAt(obstacles()[i], 0), of_one));
     }
     return detail::anyOfGradients(parts, joints, count);
   }
@@ -327,18 +243,21 @@ struct RobotQuery::Implementation {
   /// Errors that are not: each obstacle at each waypoint.
   RobotResult ofWaypoints(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
                           const ProbabilityRequest& request) const {
-    const std::size_t count = obstacles.size();
+    const std::size_t count = obstacles().size();
     std::vector<FarBodies> far(waypoints.size() * count);
     const auto stateOf = [&](std::size_t i) {
-      return detail::stateAt(obstacles[i % count], i / count);
+      return detail::stateAt(obstacles()[i % count], i / count);
     };
     const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one) {
-      return askObstacle(i % count, stateOf(i), placed(waypoints[i / count]), of_one, far[i]);
+      return askObstacle(i % count, stateOf(i),
+                         among.placed(i % count, among.robot().poses(waypoints[i / count])), of_one,
+                         far[i]);
     };
     std::vector<Bounds> known;
     for (std::size_t i = 0; i < far.size(); ++i) {
-      known.push_back(
-          cheapBounds(i % count, stateOf(i), placed(waypoints[i / count]), far.size(), request));
+      known.push_back(cheapBounds(
+          i % count, stateOf(i), among.placed(i % count, among.robot().poses(waypoints[i / count])),
+          far.size(), request));
     }
     RobotResult result = errors == ErrorsOverTime::independent
                              ? detail::anyOfAsked(std::move(known), request, ask)
@@ -373,11 +292,11 @@ struct RobotQuery::Implementation {
   /// At any time: what the bodies sweep between the waypoints, too.
   RobotResult ofAllTimes(const std::vector<Eigen::VectorXd>& waypoints,
                          const ProbabilityRequest& request) const {
-    const auto relative = relativeTo(waypoints, -1);
-    std::vector<detail::SweptAnswer> answers(obstacles.size());
-    std::vector<std::optional<Bounds>> known(obstacles.size());
+    const auto relative = among.relativeTo(waypoints, -1);
+    std::vector<detail::SweptAnswer> answers(obstacles().size());
+    std::vector<std::optional<Bounds>> known(obstacles().size());
     RobotResult result = detail::anyOfAsked(
-        std::vector<Bounds>(obstacles.size(), Bounds{0.0, 1.0}), request,
+        std::vector<Bounds>(obstacles().size(), Bounds{0.0, 1.0}), request,
         [&](std::size_t i, const ProbabilityRequest& of_one) {
           detail::Budget budget(of_one);
           ProbabilityStatistics statistics;
@@ -406,23 +325,31 @@ struct RobotQuery::Implementation {
     return result;
   }
 
-  Robot robot;
-  std::vector<Obstacle> obstacles;
-  detail::PreparedGeometries geometries;  ///< of the robot's bodies
-  detail::PreparedGeometries obstacle_geometries;
-  std::vector<Ball> balls;           ///< of the robot's bodies, in their frames
-  std::vector<Ball> obstacle_balls;  ///< in their frames
-  std::vector<std::string> notes;    ///< that are told with every answer
+  detail::RobotAmongObstacles among;
 };
 
-RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles)
-    : implementation_(std::make_unique<const Implementation>(robot, std::move(obstacles))) {}
+RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
+                       std::vector<AllowedContact> allowed)
+    : implementation_(std::make_unique<const Implementation>(
+          detail::RobotAmongObstacles(std::make_shared<const detail::PreparedRobot>(robot),
+                                      std::move(obstacles), std::move(allowed), nullptr))) {}
+RobotQuery::RobotQuery(std::unique_ptr<const Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
 RobotQuery::~RobotQuery() = default;
 RobotQuery::RobotQuery(RobotQuery&&) noexcept = default;
 RobotQuery& RobotQuery::operator=(RobotQuery&&) noexcept = default;
 
-const Robot& RobotQuery::robot() const { return implementation_->robot; }
-const std::vector<Obstacle>& RobotQuery::obstacles() const { return implementation_->obstacles; }
+const Robot& RobotQuery::robot() const { return implementation_->among.robot(); }
+const std::vector<Obstacle>& RobotQuery::obstacles() const { return implementation_->obstacles(); }
+const std::vector<AllowedContact>& RobotQuery::allowed() const {
+  return implementation_->among.allowed();
+}
+
+RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
+  const detail::RobotAmongObstacles& among = implementation_->among;
+  return RobotQuery(std::make_unique<const Implementation>(detail::RobotAmongObstacles(
+      among.prepared(), std::move(obstacles), among.allowed(), &among)));
+}
 
 RobotResult RobotQuery::state(const Eigen::VectorXd& values,
                               const ProbabilityRequest& request) const {
@@ -443,7 +370,7 @@ RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, Er
                        : errors == ErrorsOverTime::persistent
                            ? implementation_->ofUnion(waypoints, -1, request)
                            : implementation_->ofWaypoints(waypoints, errors, request);
-  result.plan = implementation_->notes;
+  result.plan = implementation_->among.notes();
   const double tolerance = request.toleranceAt(result.estimate.value_or(result.any.upper));
   detail::addNotes(detail::precisionNotes(robot(), obstacles(), tolerance), result.plan);
   return result;

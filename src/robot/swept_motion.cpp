@@ -53,12 +53,12 @@ double deviationOf(const GaussianMixture& displacement) {
 class SweptMotion {
  public:
   SweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
-              const PlacedObstacle& obstacle, const Ball& around_obstacle, double most_far,
-              const Bounds& known, const ProbabilityRequest& request)
+              const PlacedObstacle& obstacle, double most_far, const Bounds& known,
+              const ProbabilityRequest& request)
       : path_(path),
         geometries_(geometries),
         obstacle_(obstacle),
-        around_obstacle_(around_obstacle),
+        around_obstacle_(obstacle.prepared.around().placed(obstacle.pose)),
         most_far_(most_far),
         request_(request),
         budget_(request),
@@ -229,7 +229,7 @@ class SweptMotion {
   const SweptPath& path_;
   const PreparedGeometries& geometries_;
   const PlacedObstacle& obstacle_;
-  const Ball& around_obstacle_;
+  Ball around_obstacle_;
   double most_far_;
   const ProbabilityRequest& request_;
   Budget budget_;
@@ -247,9 +247,9 @@ class SweptMotion {
 }  // namespace
 
 SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
-                        const PlacedObstacle& obstacle, const Ball& around_obstacle,
-                        double most_far, const Bounds& known, const ProbabilityRequest& request) {
-  return SweptMotion(path, geometries, obstacle, around_obstacle, most_far, known, request).run();
+                        const PlacedObstacle& obstacle, double most_far, const Bounds& known,
+                        const ProbabilityRequest& request) {
+  return SweptMotion(path, geometries, obstacle, most_far, known, request).run();
 }
 
 }  // namespace fcl_prob::detail

@@ -24,7 +24,7 @@ struct SweptAnswer {
 /// \param most_far  what may be left out
 /// \param known     what is certain before
 SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
-                        const PlacedObstacle& obstacle, const Ball& around_obstacle,
-                        double most_far, const Bounds& known, const ProbabilityRequest& request);
+                        const PlacedObstacle& obstacle, double most_far, const Bounds& known,
+                        const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

@@ -6,7 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "query/bounded_part.h"
 #include "query/mixture_query.h"
 #include "query/partition.h"
 #include "query/single_collide.h"
@@ -25,7 +24,11 @@ class SweptBodies {
  public:
   SweptBodies(const std::vector<SweptBody>& bodies, const PreparedGeometries& geometries,
               const PlacedObstacle& obstacle, ContactMeaning contact)
-      : bodies_(bodies), geometries_(geometries), obstacle_(obstacle), contact_(contact) {
+      : bodies_(bodies),
+        geometries_(geometries),
+        obstacle_(obstacle),
+        poses_(obstacle.prepared.poses(obstacle.pose)),
+        contact_(contact) {
     std::vector<const PieceTree*> trees;
     for (const SweptBody& body : bodies) {
       const PreparedGeometry& geometry = *geometries[body.body];
@@ -45,11 +48,14 @@ class SweptBodies {
     ProbabilityResult result = inPartition(of_bodies, request, ball);
     if (of_bodies.rank() > 0 || !(*result.lower < *result.upper)) return result;
     // A partition of a single point may not tell what fcl::collide does.
+    const PreparedGeometries& others = obstacle_.prepared.geometries();
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      ProbabilityResult one =
-          singleCollide(geometries_[bodies_[i].body]->geometry(), object_.parts[i].pose,
-                        obstacle_.geometry.geometry(), obstacle_.pose, of_bodies.mean(), request);
-      if (*one.lower > 0.0) return one;
+      for (std::size_t j = 0; j < others.size(); ++j) {
+        ProbabilityResult one =
+            singleCollide(geometries_[bodies_[i].body]->geometry(), object_.parts[i].pose,
+                          others[j]->geometry(), poses_[j], of_bodies.mean(), request);
+        if (*one.lower > 0.0) return one;
+      }
     }
     return result;
   }
@@ -58,23 +64,15 @@ class SweptBodies {
   ProbabilityResult inPartition(const GaussianDisplacement& of_bodies,
                                 const ProbabilityRequest& request,
                                 const BallTruncation* ball) const {
-    const PreparedGeometry& geometry = obstacle_.geometry;
-    if (geometry.hasPieces()) {
-      const PartitionObject obstacle{&geometry.pieces(),
-                                     {{obstacle_.pose, geometry.solid(contact_)}}};
-      return partitionProbability(object_, obstacle, of_bodies, request, ball);
-    }
-    ReachedBall reached = reachedBall(object_, of_bodies, kReach);
-    reached.radius += reach_;
-    const BoundedPart part = boundedPart(geometry.geometry(), obstacle_.pose, reached);
-    const auto stand_in = buildPieceTree(*part.geometry);
-    return partitionProbability(object_, {stand_in.get(), {{part.pose, nullptr}}}, of_bodies,
-                                request, ball);
+    PlacedGroup obstacle(obstacle_.prepared.group(), poses_, contact_);
+    obstacle.boundBy(object_, of_bodies, reach_);
+    return partitionProbability(object_, obstacle.object(), of_bodies, request, ball);
   }
 
   const std::vector<SweptBody>& bodies_;
   const PreparedGeometries& geometries_;
   const PlacedObstacle& obstacle_;
+  std::vector<fcl::Transform3d> poses_;  ///< of its bodies
   ContactMeaning contact_;
   std::shared_ptr<const PieceTree> tree_;
   PartitionObject object_{};

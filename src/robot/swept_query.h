@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "fcl_prob/robot_query.h"
-#include "query/prepared_geometry.h"
+#include "robot/prepared_obstacle.h"
 #include "robot/swept_path.h"
 
 namespace fcl_prob::detail {
 
 /// An obstacle as its perception places it.
 struct PlacedObstacle {
-  const PreparedGeometry& geometry;
+  const PreparedObstacle& prepared;
   const fcl::Transform3d& pose;
   const Displacement& displacement;  ///< of the obstacle
 };
