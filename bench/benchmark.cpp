@@ -44,6 +44,8 @@ const std::vector<Benchmark>& benchmarks() {
       {"pose_pairs",
        "random ellipsoids and superquadrics with errors of the pose, as others draw them", false,
        benchPosePairs},
+      {"random-states", "decisions on random states of a KUKA and a Fetch beside a person", true,
+       benchRandomStates},
       {"robot", "decisions for robot links beside an arm, groups of links, batches of poses", true,
        benchRobot},
       {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,
