@@ -11,7 +11,7 @@
 #include "fcl_prob/part_tree.h"
 #include "fcl_prob/parts_bounds.h"
 #include "geometry/mesh_visitor.h"
-#include "planning/state_screen.h"
+#include "robot/state_screen.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -264,7 +264,7 @@ std::vector<Table2Method> table2Methods(const Table2Scene& scene, double thresho
                                         std::uint64_t seed) {
   const auto parts = std::make_shared<const SceneParts>(scene);
   std::vector<Table2Method> methods;
-  const auto screen = std::make_shared<const detail::StateScreen>(scene.query);
+  const auto screen = std::make_shared<const detail::StateScreen>(scene.query.among());
   methods.push_back(
       {"certified decision", "", CertifiedRow(scene, screen, threshold), Table2Answer::certified});
   methods.push_back({"probable decision", "", ProbableRow(scene, screen, threshold, seed),

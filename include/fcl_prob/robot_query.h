@@ -13,8 +13,13 @@
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/probable_decision.h"
 #include "fcl_prob/robot.h"
+#include "fcl_prob/robot_errors.h"
 
 namespace fcl_prob {
+
+namespace detail {
+class RobotAmongObstacles;
+}
 
 /// Where an obstacle is at one waypoint of a motion, and how well that is known.
 struct ObstacleState {
@@ -87,6 +92,9 @@ struct RobotResult {
   std::optional<double> estimate;
   std::optional<double> standard_error;
 
+  /// Of an estimate over errors of the robot: covers P with ProbabilityRequest::confidence.
+  std::optional<Bounds> confidence_interval;
+
   Decision decision = Decision::none;
   ProbabilityStatus status = ProbabilityStatus::converged;
 
@@ -137,6 +145,8 @@ class RobotQuery {
   const std::vector<Obstacle>& obstacles() const;
   const std::vector<AllowedContact>& allowed() const;
 
+  const detail::RobotAmongObstacles& among() const;
+
   /// The same robot among other obstacles. What was prepared is shared, that of obstacles of the
   /// same name and geometries (by pointer), too: one that has only moved costs microseconds.
   /// Allowed contacts stay, whether or not their obstacles are there. \throws as the constructor
@@ -149,6 +159,18 @@ class RobotQuery {
   /// \param request  method automatic, interval or estimate
   /// \throws InvalidRequest, OpenMesh, UnsupportedGeometry as GroupQuery
   RobotResult state(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
+
+  /// In one state that is known up to errors of the joints and the base: P over these and all
+  /// displacements. An estimate, whose threshold is decided with ProbabilityRequest::confidence;
+  /// `any` is [0, 1] but where the errors turn out to be none. Values that are drawn may be beyond
+  /// the limits of joints. There is no answer by obstacle.
+  /// \param request  method automatic, estimate or monte_carlo
+  /// \throws InvalidDistribution for a covariance that is none, or not of the robot's joints;
+  ///         UnsupportedGeometry for method interval, and where contact with some obstacles only
+  ///         is allowed; InvalidRequest for a displacement that is not Gaussian or an obstacle
+  ///         that moves; as state()
+  RobotResult state(const Eigen::VectorXd& values, const RobotErrors& errors,
+                    const ProbabilityRequest& request) const;
 
   /// At any of the waypoints, or at any time between them, too.
   /// Persistent errors: the mass of the union over time of what the robot sweeps, one group query
@@ -179,6 +201,17 @@ class RobotQuery {
   /// chance that is not in (0, 1), another method, and as motion()
   ProbableResult decideProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
                                 double chance_of_error, const ProbabilityRequest& request) const;
+
+  /// On which side of the request's threshold P is in each of many states, as a planner asks: a
+  /// column a state. Limits are those of a state, but for the time, which is that of the call; its
+  /// threads share the states, and do not change what is answered. Once `on_progress` says no the
+  /// states that are left are undecided; it is called by one thread at a time.
+  /// \param chance_of_error  of every state that is decided otherwise than certainly, as
+  ///         decideProbably(); none: all are certain or undecided
+  /// \throws InvalidRequest without a threshold, or as state() and decideProbably()
+  std::vector<ProbableDecision> decideStates(
+      const Eigen::MatrixXd& states, const ProbabilityRequest& request,
+      std::optional<double> chance_of_error = std::nullopt) const;
 
   /// P at any of the waypoints, with persistent errors, and how it changes with the joint values at
   /// each: estimates. Bodies that are likelier than 1e-12 to touch an obstacle take part.

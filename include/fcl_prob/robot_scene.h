@@ -15,9 +15,18 @@
 namespace fcl_prob {
 
 struct RobotScene {
+  /// A robot that stands still, as an obstacle.
+  struct StandingRobot {
+    std::string urdf;  ///< path
+    RobotOptions options;
+    std::map<std::string, double> joints;
+  };
+
   struct PlacedObstacle {
     std::string name;
-    SceneObject object;                    ///< a mesh still in its file
+    SceneObject object;                    ///< a mesh still in its file; only its pose counts with:
+    std::vector<SceneObject> bodies;       ///< several, in the frame of the obstacle, or
+    std::optional<StandingRobot> robot;    ///< one whose root link is where the obstacle is
     GaussianDisplacement displacement;     ///< of the obstacle, metres, world frame
     std::vector<ObstacleState> over_time;  ///< of one that moves: one a waypoint of the file
   };
@@ -45,6 +54,16 @@ struct RobotScene {
   RobotOptions robot;
   std::vector<CarriedObject> attached;
   std::vector<PlacedObstacle> obstacles;
+  std::vector<AllowedContact> allowed;
+
+  /// Standard deviations by name or, of the joints that are named, a covariance.
+  struct JointError {
+    std::map<std::string, double> sigma;
+    std::vector<std::string> joints;
+    Eigen::MatrixXd covariance;
+  };
+  std::optional<JointError> joint_error;
+  std::optional<PoseError> base_error;
   std::vector<std::map<std::string, double>> waypoints;  ///< one is a state; none with a plan
   std::optional<Plan> plan;
   ErrorsOverTime errors = ErrorsOverTime::persistent;
@@ -69,6 +88,12 @@ Robot loadRobot(const RobotScene& scene);
 /// Reads what the scene names; obstacles that move have a state at each of waypointsOf(). \throws
 /// FileError, InvalidGeometry, InvalidRequest
 RobotQuery loadRobotQuery(const RobotScene& scene);
+
+/// Errors of the robot that the scene names. \throws InvalidRequest, InvalidDistribution
+RobotErrors errorsOf(const RobotScene& scene, const Robot& robot);
+
+/// \param what  begins the message \throws InvalidRequest if the scene names errors of the robot
+void requireExactRobot(const RobotScene& scene, const std::string& what);
 
 /// The scene's robot against itself, with the pairs that its SRDF allows. \throws FileError
 SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot);

@@ -48,6 +48,7 @@ bool isRobotScene(const std::string& path) { return detail::parseJsonFile(path).
 
 int exportMotion(const MotionExportArguments& arguments) {
   const RobotScene scene = drawnSceneOf(arguments);
+  requireExactRobot(scene, "a picture");
   const RobotQuery query = loadRobotQuery(scene);
   const std::vector<Eigen::VectorXd> waypoints = waypointsOf(scene, query.robot());
   const std::vector<MotionState> states = statesOf(query, waypoints, scene.request);

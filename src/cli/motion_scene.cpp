@@ -59,6 +59,23 @@ std::vector<std::size_t> byLikelihood(const std::vector<MotionState>& states) {
   return order;
 }
 
+/// All bodies of an obstacle that have an end; null if none has.
+MeshPointer drawnObstacle(const Obstacle& obstacle) {
+  TriangleMesh all;
+  const auto add = [&all](const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
+    if (detail::kindOf(geometry) == detail::GeometryKind::unbounded) return;
+    const TriangleMesh mesh = drawnGeometry(geometry);
+    const std::size_t first = all.vertices.size();
+    for (const Eigen::Vector3d& vertex : mesh.vertices) all.vertices.push_back(pose * vertex);
+    for (const fcl::Triangle& t : mesh.triangles) {
+      all.triangles.emplace_back(first + t[0], first + t[1], first + t[2]);
+    }
+  };
+  add(*obstacle.geometry, fcl::Transform3d::Identity());
+  for (const ObstacleBody& body : obstacle.more) add(*body.geometry, body.in_obstacle);
+  return all.triangles.empty() ? nullptr : std::make_shared<const TriangleMesh>(std::move(all));
+}
+
 class MotionScene {
  public:
   MotionScene(const RobotQuery& query, const std::vector<Eigen::VectorXd>& waypoints)
@@ -67,10 +84,7 @@ class MotionScene {
       bodies_.push_back(std::make_shared<const TriangleMesh>(drawnGeometry(*body.geometry)));
     }
     for (const Obstacle& obstacle : query.obstacles()) {
-      const bool drawn = detail::kindOf(*obstacle.geometry) != detail::GeometryKind::unbounded;
-      obstacles_.push_back(
-          drawn ? std::make_shared<const TriangleMesh>(drawnGeometry(*obstacle.geometry))
-                : nullptr);
+      obstacles_.push_back(drawnObstacle(obstacle));
     }
   }
 

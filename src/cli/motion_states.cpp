@@ -12,12 +12,14 @@ namespace {
 
 /// The obstacles as they are at a waypoint, if they move.
 RobotQuery standingAt(const RobotQuery& query, std::size_t waypoint) {
-  std::vector<Obstacle> obstacles;
-  for (const Obstacle& obstacle : query.obstacles()) {
+  std::vector<Obstacle> obstacles = query.obstacles();
+  for (Obstacle& obstacle : obstacles) {
     const ObstacleState state = detail::stateAt(obstacle, waypoint);
-    obstacles.push_back({obstacle.name, obstacle.geometry, state.pose, state.displacement});
+    obstacle.pose = state.pose;
+    obstacle.displacement = state.displacement;
+    obstacle.over_time.clear();
   }
-  return {query.robot(), std::move(obstacles)};
+  return query.withObstacles(std::move(obstacles));
 }
 
 std::size_t distanceBetween(std::size_t a, std::size_t b) { return a < b ? b - a : a - b; }

@@ -91,6 +91,19 @@ RobotScene sceneOf(const PathArguments& arguments) {
   return scene;
 }
 
+/// What has no answer where the robot itself has errors.
+void refuseWithErrors(const RobotScene& scene, const PathArguments& arguments,
+                      std::size_t waypoints) {
+  if (waypoints != 1 || scene.between != BetweenWaypoints::ignored) {
+    throw InvalidRequest("errors of joints and base are for one state, not for a motion");
+  }
+  if (arguments.by_body || arguments.gradient) {
+    throw InvalidRequest(
+        "with errors of joints or base there is neither an answer by body nor a "
+        "gradient");
+  }
+}
+
 PathReport answer(RobotScene scene, const PathArguments& arguments) {
   PathReport report;
   const detail::Stopwatch building;
@@ -104,7 +117,13 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   ProgressBar bar("fcl_prob path");
   scene.request.on_progress = std::ref(bar);
   const detail::Stopwatch watch;
-  report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
+  const RobotErrors errors = errorsOf(scene, query.robot());
+  if (errors.none()) {
+    report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
+  } else {
+    refuseWithErrors(scene, arguments, waypoints.size());
+    report.result = query.state(waypoints[0], errors, scene.request);
+  }
   report.time_ms = watch.milliseconds();
   if (arguments.by_body) report.by_body = query.byBody(waypoints, scene.request);
   if (arguments.gradient) {
@@ -171,6 +190,7 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"upper", result.any.upper},
                     {"estimate", orNull(result.estimate)},
                     {"standard_error", orNull(result.standard_error)},
+                    {"confidence_interval", orNull(result.confidence_interval)},
                     {"status", toString(result.status)},
                     {"decision", toString(result.decision)},
                     {"waypoints", report.waypoints},
@@ -270,6 +290,7 @@ std::string textOf(const ProbableReport& report) {
 }
 
 ProbableReport answerProbably(RobotScene scene, double chance) {
+  requireExactRobot(scene, "a probable decision");
   if (!scene.request.threshold) throw InvalidRequest("a probable decision needs a threshold");
   if (scene.errors != ErrorsOverTime::persistent || scene.between != BetweenWaypoints::ignored) {
     throw InvalidRequest("a probable decision is of waypoints with persistent errors");

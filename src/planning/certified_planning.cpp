@@ -12,7 +12,7 @@
 #include "fcl_prob/exceptions.h"
 #include "planning/motion_descent.h"
 #include "planning/moving_joints.h"
-#include "planning/state_screen.h"
+#include "robot/state_screen.h"
 
 namespace fcl_prob {
 namespace {
@@ -48,7 +48,7 @@ class CertifiedPlanner {
  public:
   CertifiedPlanner(const RobotQuery& query, const SelfCollision& self,
                    const CertifiedPlanningRequest& request)
-      : query_(query), self_(self), screen_(query), request_(request) {
+      : query_(query), self_(self), screen_(query.among()), request_(request) {
     request_.state = detail::ofOneCall(request_.state);
     request_.planning = detail::ofOneCall(request_.planning);
     if (!request.state.threshold) throw InvalidRequest("a certified plan needs a threshold");
@@ -212,7 +212,8 @@ LargestProbability largestProbability(const RobotQuery& query,
                                       const std::vector<Eigen::VectorXd>& states,
                                       const ProbabilityRequest& request) {
   const ProbabilityRequest of_call = detail::ofOneCall(request);
-  return largestScreened(query, detail::StateScreen(query), states, [&] { return of_call; });
+  return largestScreened(query, detail::StateScreen(query.among()), states,
+                         [&] { return of_call; });
 }
 
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,

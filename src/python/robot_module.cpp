@@ -193,6 +193,30 @@ void bindResult(py::module_& module) {
       .def("__repr__", &reprOf);
 }
 
+/// One geometry, or a list of tuples (geometry, pose) in the frame of the obstacle.
+void bodiesFrom(py::handle value, const std::string& name, Obstacle& obstacle) {
+  if (!py::isinstance<py::list>(value)) {
+    obstacle.geometry = geometryFrom(value, name);
+    return;
+  }
+  const fcl::Transform3d frame = obstacle.pose;
+  for (const py::handle one : py::reinterpret_borrow<py::list>(value)) {
+    if (!py::isinstance<py::tuple>(one) || py::len(one) != 2) {
+      throw py::type_error(name + ": a body must be a tuple (geometry, pose), not " + textOf(one));
+    }
+    const auto body = py::reinterpret_borrow<py::tuple>(one);
+    const fcl::Transform3d pose = frame * poseFrom(body[1], name + ": pose of a body");
+    const auto geometry = geometryFrom(body[0], name);
+    if (obstacle.geometry) {
+      obstacle.more.push_back({geometry, obstacle.pose.inverse() * pose});
+    } else {
+      obstacle.geometry = geometry;
+      obstacle.pose = pose;
+    }
+  }
+  if (!obstacle.geometry) throw InvalidRequest(name + " has no bodies");
+}
+
 /// (name, geometry, displacement) or (name, geometry, displacement, pose).
 Obstacle obstacleFrom(py::handle value, std::size_t number) {
   const std::string name = "obstacles[" + std::to_string(number) + "]";
@@ -209,9 +233,9 @@ Obstacle obstacleFrom(py::handle value, std::size_t number) {
     throw py::type_error(name + ": an obstacle has a displacement, not a PoseError");
   }
   Obstacle obstacle;
-  obstacle.name = parts[0].cast<std::string>();
-  obstacle.geometry = geometryFrom(parts[1], name);
   if (parts.size() == 4) obstacle.pose = poseFrom(parts[3], name + ": pose");
+  bodiesFrom(parts[1], name, obstacle);
+  obstacle.name = parts[0].cast<std::string>();
   if (const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness)) {
     obstacle.displacement = *gaussian;
   } else if (const auto* mixture = std::get_if<GaussianMixture>(&randomness)) {
@@ -222,11 +246,61 @@ Obstacle obstacleFrom(py::handle value, std::size_t number) {
   return obstacle;
 }
 
-std::shared_ptr<RobotQuery> makeQuery(const Robot& robot, const py::list& obstacles) {
+std::vector<Obstacle> obstaclesFrom(const py::list& obstacles) {
   std::vector<Obstacle> all;
   for (const py::handle one : obstacles) all.push_back(obstacleFrom(one, all.size()));
+  return all;
+}
+
+std::shared_ptr<RobotQuery> makeQuery(
+    const Robot& robot, const py::list& obstacles,
+    const std::vector<std::pair<std::string, std::string>>& allowed) {
+  std::vector<Obstacle> all = obstaclesFrom(obstacles);
+  std::vector<AllowedContact> contacts;
+  for (const auto& [body, obstacle] : allowed) contacts.push_back({body, obstacle});
   const py::gil_scoped_release released;
-  return std::make_shared<RobotQuery>(robot, std::move(all));
+  return std::make_shared<RobotQuery>(robot, std::move(all), std::move(contacts));
+}
+
+std::shared_ptr<RobotQuery> withObstacles(const RobotQuery& query, const py::list& obstacles) {
+  std::vector<Obstacle> all = obstaclesFrom(obstacles);
+  const py::gil_scoped_release released;
+  return std::make_shared<RobotQuery>(query.withObstacles(std::move(all)));
+}
+
+/// (n, k) float64 or a dict of standard deviations by name.
+Eigen::MatrixXd jointErrorFrom(const Robot& robot, const py::object& value) {
+  if (value.is_none()) return {};
+  if (py::isinstance<py::dict>(value)) {
+    return jointCovariance(robot, value.cast<std::map<std::string, double>>());
+  }
+  return value.cast<Eigen::MatrixXd>();
+}
+
+RobotResult state(const RobotQuery& query, const py::object& values, const py::object& joint_error,
+                  const py::object& base_error, const py::kwargs& request) {
+  const Eigen::VectorXd at = jointValues(query.robot(), values, "values");
+  RobotErrors errors;
+  errors.joints = jointErrorFrom(query.robot(), joint_error);
+  if (!base_error.is_none()) errors.base = base_error.cast<PoseError>();
+  return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
+    return errors.none() ? query.state(at, of) : query.state(at, errors, of);
+  });
+}
+
+py::list decideStates(const RobotQuery& query, const py::object& states, double threshold,
+                      const std::optional<double>& chance_of_error, const py::kwargs& request) {
+  const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), states);
+  Eigen::MatrixXd columns(query.robot().joints().size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = all[i];
+  const auto decisions =
+      run<std::vector<ProbableDecision>>(questionFrom(request), [&](ProbabilityRequest of) {
+        of.threshold = threshold;
+        return query.decideStates(columns, of, chance_of_error);
+      });
+  py::list names;
+  for (const ProbableDecision one : decisions) names.append(toString(one));
+  return names;
 }
 
 ErrorsOverTime errorsFrom(const std::string& name) {
@@ -285,6 +359,7 @@ py::tuple loadScene(const py::object& path) {
   {
     const py::gil_scoped_release released;
     const RobotScene scene = loadRobotScene(name);
+    requireExactRobot(scene, "a query without the errors of the robot");
     query = std::make_shared<RobotQuery>(loadRobotQuery(scene));
     waypoints = waypointsOf(scene, query->robot());
   }
@@ -300,18 +375,23 @@ void bindQuery(py::module_& module) {
       "displacement) or (name, geometry, displacement, pose): displacements of the obstacle, "
       "world\n"
       "frame, independent of one another. May be used by several threads.")
-      .def(py::init(&makeQuery), py::arg("robot"), py::arg("obstacles"))
-      .def(
-          "state",
-          [](const RobotQuery& query, const py::object& values, const py::kwargs& request) {
-            const Eigen::VectorXd at = jointValues(query.robot(), values, "values");
-            return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
-              return query.state(at, of);
-            });
-          },
-          py::arg("values"),
-          "In one state: (k,) values of the joints, or a dict of them by name. request: as\n"
-          "collision_probability takes it; method 'auto', 'interval' or 'estimate'.")
+      .def(py::init(&makeQuery), py::arg("robot"), py::arg("obstacles"),
+           py::arg("allowed") = std::vector<std::pair<std::string, std::string>>(),
+           "geometry may be a list of (geometry, pose): bodies that move as one. allowed: (body,\n"
+           "obstacle) names or patterns whose contact counts for nothing.")
+      .def("with_obstacles", &withObstacles, py::arg("obstacles"),
+           "The same robot among other obstacles; what was prepared of those of the same name and\n"
+           "geometries is shared.")
+      .def("state", &state, py::arg("values"), py::kw_only(), py::arg("joint_error") = py::none(),
+           py::arg("base_error") = py::none(),
+           "In one state: (k,) values of the joints, or a dict of them by name. joint_error:\n"
+           "standard deviations by name or a (k, k) covariance, base_error: a PoseError; with\n"
+           "either an estimate. request: as collision_probability takes it; method 'auto',\n"
+           "'interval' or 'estimate'.")
+      .def("decide_states", &decideStates, py::arg("states"), py::arg("threshold"),
+           py::arg("chance_of_error") = py::none(),
+           "Whether P in each state (n, k) is below the threshold: names as of ProbableResult,\n"
+           "certain ones unless a chance of error is given. request: limits and threads.")
       .def(
           "motion", &motion, py::arg("waypoints"), py::arg("errors") = "persistent",
           py::arg("largest_step") = py::none(), py::arg("between") = "ignored",

@@ -14,6 +14,7 @@
 #include "io/import_notes.h"
 #include "query/motion_gradient.h"
 #include "robot/gradient_parts.h"
+#include "robot/many_states.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 #include "robot/obstacle_gradient.h"
@@ -21,6 +22,7 @@
 #include "robot/probable_answer.h"
 #include "robot/robot_among_obstacles.h"
 #include "robot/robot_notes.h"
+#include "robot/state_with_errors.h"
 #include "robot/swept_motion.h"
 
 namespace fcl_prob {
@@ -345,6 +347,8 @@ const std::vector<AllowedContact>& RobotQuery::allowed() const {
   return implementation_->among.allowed();
 }
 
+const detail::RobotAmongObstacles& RobotQuery::among() const { return implementation_->among; }
+
 RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
   const detail::RobotAmongObstacles& among = implementation_->among;
   return RobotQuery(std::make_unique<const Implementation>(detail::RobotAmongObstacles(
@@ -354,6 +358,24 @@ RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
 RobotResult RobotQuery::state(const Eigen::VectorXd& values,
                               const ProbabilityRequest& request) const {
   return motion({values}, ErrorsOverTime::persistent, request);
+}
+
+RobotResult RobotQuery::state(const Eigen::VectorXd& values, const RobotErrors& errors,
+                              const ProbabilityRequest& of_user) const {
+  implementation_->validate({values}, of_user);
+  const ProbabilityRequest request = detail::ofOneCall(of_user);
+  const ProbabilityResult answer =
+      detail::stateWithErrors(implementation_->among, values, errors, request);
+  RobotResult result;
+  result.any = {answer.lower.value_or(0.0), answer.upper.value_or(1.0)};
+  result.estimate = answer.estimate;
+  result.standard_error = answer.standard_error;
+  result.confidence_interval = answer.confidence_interval;
+  result.decision = answer.decision;
+  result.status = answer.status;
+  result.plan = answer.plan;
+  detail::addNotes(implementation_->among.notes(), result.plan);
+  return result;
 }
 
 RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, ErrorsOverTime errors,
@@ -380,15 +402,31 @@ ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& wa
                                           double threshold, double chance_of_error,
                                           const ProbabilityRequest& request) const {
   implementation_->validate(waypoints, withThreshold(request, threshold));
-  if (!(chance_of_error > 0.0 && chance_of_error < 1.0)) {
-    throw InvalidRequest("the chance of a wrong decision must be above 0 and below 1, is " +
-                         detail::numberText(chance_of_error));
-  }
+  detail::requireChance(chance_of_error);
   if (request.method != ProbabilityMethod::automatic) {
     throw InvalidRequest("a probable decision has its own method, not " + toString(request.method));
   }
   return implementation_->ofUnionProbably(waypoints, threshold, chance_of_error,
                                           detail::ofOneCall(request));
+}
+
+std::vector<ProbableDecision> RobotQuery::decideStates(
+    const Eigen::MatrixXd& states, const ProbabilityRequest& request,
+    std::optional<double> chance_of_error) const {
+  if (!request.threshold) throw InvalidRequest("states are decided against a threshold");
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    implementation_->validate({states.col(i)}, request);
+  }
+  if (chance_of_error) detail::requireChance(*chance_of_error);
+  const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
+    if (!chance_of_error) {
+      return certainly(implementation_->ofUnion({values}, -1, of_one)).decision;
+    }
+    of_one.threshold.reset();
+    return implementation_->ofUnionProbably({values}, *request.threshold, *chance_of_error, of_one)
+        .decision;
+  };
+  return detail::manyStates(states, detail::ofOneCall(request), decide);
 }
 
 JointGradient RobotQuery::gradient(const std::vector<Eigen::VectorXd>& waypoints,

@@ -8,6 +8,7 @@
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
 #include "robot/moving_obstacle.h"
+#include "robot/obstacle_scene.h"
 #include "robot/robot_notes.h"
 
 namespace fcl_prob {
@@ -16,10 +17,6 @@ namespace {
 using detail::StrictObject;
 
 constexpr std::size_t kCellsOfPlannedState = 2'000;
-
-std::string besideScene(const std::filesystem::path& folder, const std::string& path) {
-  return (folder / path).lexically_normal().string();
-}
 
 RobotScene::CarriedObject readAttached(StrictObject object, const std::filesystem::path& folder) {
   RobotScene::CarriedObject attached;
@@ -32,17 +29,8 @@ RobotScene::CarriedObject readAttached(StrictObject object, const std::filesyste
 }
 
 void readRobot(StrictObject object, const std::filesystem::path& folder, RobotScene& scene) {
-  scene.urdf = besideScene(folder, object.text("urdf"));
-  if (object.has("srdf")) scene.srdf = besideScene(folder, object.text("srdf"));
-  if (object.has("packages")) {
-    for (const auto& [name, path] : object.object("packages").textsByName()) {
-      scene.robot.packages[name] = besideScene(folder, path);
-    }
-  }
-  if (object.has("links")) scene.robot.links = object.texts("links");
-  if (object.has("allow_outside_limits")) {
-    scene.robot.allow_outside_limits = object.boolean("allow_outside_limits");
-  }
+  scene.urdf = detail::readUrdfOptions(object, folder, scene.robot);
+  if (object.has("srdf")) scene.srdf = detail::besideScene(folder, object.text("srdf"));
   if (object.has("attached")) {
     for (StrictObject& attached : object.objects("attached")) {
       scene.attached.push_back(readAttached(std::move(attached), folder));
@@ -57,39 +45,6 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
     }
   }
   object.finish();
-}
-
-// What a state does not say is as it is for the whole motion.
-std::vector<ObstacleState> readStatesOverTime(StrictObject& object,
-                                              const RobotScene::PlacedObstacle& obstacle) {
-  std::vector<ObstacleState> states;
-  for (StrictObject& entry : object.objects("over_time")) {
-    ObstacleState state{obstacle.object.pose, obstacle.displacement};
-    if (entry.has("pose")) {
-      const std::vector<double> numbers = entry.numbers("pose");
-      try {
-        state.pose = detail::poseFrom(numbers);
-      } catch (const Exception& error) {
-        entry.fail("pose", error.what());
-      }
-    }
-    if (entry.has("displacement")) {
-      state.displacement = detail::readDisplacement(entry.object("displacement"));
-    }
-    entry.finish();
-    states.push_back(std::move(state));
-  }
-  return states;
-}
-
-RobotScene::PlacedObstacle readObstacle(StrictObject object, const std::filesystem::path& folder) {
-  RobotScene::PlacedObstacle obstacle;
-  obstacle.name = object.text("name");
-  obstacle.object = detail::readShapeAndPose(object, folder);
-  obstacle.displacement = detail::readDisplacement(object.object("displacement"));
-  if (object.has("over_time")) obstacle.over_time = readStatesOverTime(object, obstacle);
-  object.finish();
-  return obstacle;
 }
 
 RobotScene::Plan readPlan(StrictObject object) {
@@ -119,6 +74,32 @@ void readStates(StrictObject& root, RobotScene& scene) {
   }
 }
 
+/// The upper triangle row by row, as of a pose.
+RobotScene::JointError readJointError(StrictObject object) {
+  RobotScene::JointError error;
+  if (object.oneOf({"sigma", "covariance"}) == "sigma") {
+    error.sigma = object.object("sigma").numbersByName();
+  } else {
+    error.joints = object.texts("joints");
+    const auto count = static_cast<Eigen::Index>(error.joints.size());
+    const std::vector<double> numbers = object.numbers("covariance");
+    if (static_cast<Eigen::Index>(numbers.size()) != count * (count + 1) / 2) {
+      object.fail("covariance", "has " + std::to_string(numbers.size()) + " numbers, " +
+                                    std::to_string(count) + " joints need " +
+                                    std::to_string(count * (count + 1) / 2));
+    }
+    error.covariance.resize(count, count);
+    auto next = numbers.begin();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = i; j < count; ++j) {
+        error.covariance(i, j) = error.covariance(j, i) = *next++;
+      }
+    }
+  }
+  object.finish();
+  return error;
+}
+
 ErrorsOverTime readErrors(StrictObject& root) {
   const std::string errors = root.text("errors");
   if (errors == "persistent") return ErrorsOverTime::persistent;
@@ -132,21 +113,6 @@ BetweenWaypoints readBetween(StrictObject& root) {
   if (between == "ignored") return BetweenWaypoints::ignored;
   if (between != "swept") root.fail("between", "neither ignored nor swept");
   return BetweenWaypoints::swept;
-}
-
-/// Of an attached object or an obstacle. \returns what a query takes of its shape
-template <class Of>
-Of withShape(Of result, const SceneObject& object) {
-  if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) {
-    result.geometry = *primitive;
-    return result;
-  }
-  const MeshFile& file = std::get<MeshFile>(object.shape);
-  const TriangleMesh mesh = loadMeshIsolated(file.path, file.options);
-  result.geometry = buildModel<fcl::OBBRSSd>(mesh);
-  result.coordinate_error = mesh.coordinate_error;
-  result.notes = mesh.notes;
-  return result;
 }
 
 std::vector<Eigen::VectorXd> valuesOf(const RobotScene& scene, const Robot& robot) {
@@ -167,10 +133,22 @@ RobotScene loadRobotScene(const std::string& path) {
   RobotScene scene;
   readRobot(root.object("robot"), folder, scene);
   for (StrictObject& obstacle : root.objects("obstacles")) {
-    scene.obstacles.push_back(readObstacle(std::move(obstacle), folder));
+    scene.obstacles.push_back(detail::readObstacle(std::move(obstacle), folder));
   }
   if (scene.obstacles.empty()) root.fail("obstacles", "there are none");
+  if (root.has("allowed")) {
+    for (StrictObject& allowed : root.objects("allowed")) {
+      scene.allowed.push_back({allowed.text("body"), allowed.text("obstacle")});
+      allowed.finish();
+    }
+  }
   readStates(root, scene);
+  if (root.has("joint_error")) scene.joint_error = readJointError(root.object("joint_error"));
+  if (root.has("base_error")) scene.base_error = detail::readPoseError(root.object("base_error"));
+  if ((scene.joint_error || scene.base_error) && scene.waypoints.size() != 1) {
+    root.fail(scene.joint_error ? "joint_error" : "base_error",
+              "errors of a robot are for one state: its joints");
+  }
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     const std::size_t states = obstacle.over_time.size();
     if (states == 0 || states == scene.waypoints.size()) continue;
@@ -198,7 +176,7 @@ Robot loadRobot(const RobotScene& scene) {
   for (const RobotScene::CarriedObject& attached : scene.attached) {
     const AttachedObject object{attached.name, attached.link, nullptr, attached.object.pose,
                                 attached.touch_links};
-    robot = robot.withAttached(withShape(object, attached.object));
+    robot = robot.withAttached(detail::withShape(object, attached.object));
   }
   return robot;
 }
@@ -212,21 +190,44 @@ RobotQuery loadRobotQuery(const RobotScene& scene) {
   const Robot robot = loadRobot(scene);
   std::vector<Obstacle> obstacles;
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
-    std::vector<ObstacleState> states = obstacle.over_time;
-    if (!states.empty() && states.size() != scene.waypoints.size()) {
+    if (!obstacle.over_time.empty() && obstacle.over_time.size() != scene.waypoints.size()) {
       throw InvalidRequest("obstacle " + obstacle.name + " has states at " +
-                           std::to_string(states.size()) + " waypoints, the motion has " +
-                           std::to_string(scene.waypoints.size()));
+                           std::to_string(obstacle.over_time.size()) +
+                           " waypoints, the motion has " + std::to_string(scene.waypoints.size()));
     }
+    std::vector<ObstacleState> states = obstacle.over_time;
     if (!states.empty() && scene.largest_step) {
       states = detail::statesAt(states,
                                 detail::stepsBetween(valuesOf(scene, robot), *scene.largest_step));
     }
-    const Obstacle placed{obstacle.name, nullptr, obstacle.object.pose, obstacle.displacement,
-                          std::move(states)};
-    obstacles.push_back(withShape(placed, obstacle.object));
+    obstacles.push_back(detail::loadObstacle(obstacle, states));
   }
-  return {robot, std::move(obstacles)};
+  return {robot, std::move(obstacles), scene.allowed};
+}
+
+RobotErrors errorsOf(const RobotScene& scene, const Robot& robot) {
+  RobotErrors errors;
+  errors.base = scene.base_error;
+  if (!scene.joint_error) return errors;
+  errors.joints = jointCovariance(robot, scene.joint_error->sigma);
+  std::vector<Eigen::Index> at;
+  for (const std::string& name : scene.joint_error->joints) {
+    Eigen::Index where = 0;
+    jointCovariance(robot, {{name, 1.0}}).diagonal().maxCoeff(&where);
+    at.push_back(where);
+  }
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      errors.joints(at[i], at[j]) =
+          scene.joint_error->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+  return errors;
+}
+
+void requireExactRobot(const RobotScene& scene, const std::string& what) {
+  if (!scene.joint_error && !scene.base_error) return;
+  throw InvalidRequest(what + " is not to be had with joint_error or base_error");
 }
 
 std::vector<Eigen::VectorXd> waypointsOf(const RobotScene& scene, const Robot& robot) {

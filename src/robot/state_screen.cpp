@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "planning/state_screen.h"
+#include "robot/state_screen.h"
 
 #include <fcl/narrowphase/collision.h>
 
@@ -8,9 +8,8 @@
 #include <limits>
 
 #include "base/random_words.h"
-#include "bounds/convex_bound.h"
 #include "fcl_prob/monte_carlo.h"
-#include "query/prepared_geometry.h"
+#include "robot/body_bounds.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -35,27 +34,20 @@ constexpr double kShareOfPair = 0.05;
 
 }  // namespace
 
-StateScreen::StateScreen(const RobotQuery& query) : query_(query) {
-  for (const RobotBody& body : query.robot().bodies()) add(body.geometry, bodies_);
-  for (const Obstacle& obstacle : query.obstacles()) {
-    add(obstacle.geometry, obstacles_);
-    is_usable_ = is_usable_ && obstacle.over_time.empty();
-    const auto* gaussian = std::get_if<GaussianDisplacement>(&obstacle.displacement);
-    is_usable_ = is_usable_ && gaussian != nullptr;
-    if (gaussian != nullptr) displacements_.push_back(gaussian->reversed());
+StateScreen::StateScreen(const RobotAmongObstacles& among) : among_(among) {
+  const auto have_hulls = [](const PreparedGeometries& geometries) {
+    return std::all_of(geometries.begin(), geometries.end(),
+                       [](const auto& geometry) { return geometry->hasRootBody(); });
+  };
+  is_usable_ = have_hulls(among.geometries());
+  for (std::size_t j = 0; j < among.obstacles().size(); ++j) {
+    const Obstacle& obstacle = among.obstacles()[j];
+    is_usable_ = is_usable_ && have_hulls(among.preparedObstacle(j).geometries()) &&
+                 obstacle.over_time.empty() &&
+                 std::holds_alternative<GaussianDisplacement>(obstacle.displacement);
   }
   if (!is_usable_) return;
-  for (std::size_t j = 0; j < query.obstacles().size(); ++j) draw(query.obstacles()[j], j);
-}
-
-void StateScreen::add(const std::shared_ptr<const fcl::CollisionGeometryd>& geometry,
-                      std::vector<Hull>& to) {
-  const PreparedGeometry prepared(geometry, "a geometry");
-  if (!prepared.hasRootBody()) {
-    is_usable_ = false;
-    return;
-  }
-  to.push_back({prepared.hull(), ballAround(prepared)});
+  for (std::size_t j = 0; j < among.obstacles().size(); ++j) draw(among.obstacles()[j], j);
 }
 
 void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
@@ -71,25 +63,31 @@ void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
 
 bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold) const {
   if (!is_usable_) return false;
-  const std::vector<fcl::Transform3d> poses = query_.robot().poses(values);
+  const std::vector<fcl::Transform3d> poses = among_.robot().poses(values);
   const auto near =
       pairsBelow(poses, kNegligible * threshold, std::numeric_limits<double>::infinity());
   const double enough = kTimesAsOften * threshold * kDraws + kMoreHits;
-  const auto isHit = [&](std::size_t draw) {
-    for (const Pair& pair : *near) {
-      if (pair.upper < kShareOfPair * threshold) continue;
-      const Obstacle& obstacle = query_.obstacles()[pair.obstacle];
-      const auto& body = query_.robot().bodies()[pair.body].geometry;
-      if (!fclSupportsPair(*body, *obstacle.geometry)) continue;
-      fcl::Transform3d moved = obstacle.pose;
-      moved.translation() += moved_[pair.obstacle][draw];
+  const auto touch = [&](const Pair& pair, std::size_t draw) {
+    const fcl::CollisionGeometryd& body = among_.geometries()[pair.body]->geometry();
+    fcl::Transform3d moved = among_.obstacles()[pair.obstacle].pose;
+    moved.translation() += moved_[pair.obstacle][draw];
+    const PreparedObstacle& obstacle = among_.preparedObstacle(pair.obstacle);
+    const std::vector<fcl::Transform3d> at = obstacle.poses(moved);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const fcl::CollisionGeometryd& other = obstacle.geometries()[k]->geometry();
+      if (!fclSupportsPair(body, other)) continue;
       fcl::CollisionResultd result;
-      if (fcl::collide(body.get(), poses[pair.body], obstacle.geometry.get(), moved,
-                       fcl::CollisionRequestd(), result) > 0) {
+      if (fcl::collide(&body, poses[pair.body], &other, at[k], fcl::CollisionRequestd(), result) >
+          0) {
         return true;
       }
     }
     return false;
+  };
+  const auto isHit = [&](std::size_t draw) {
+    return std::any_of(near->begin(), near->end(), [&](const Pair& pair) {
+      return pair.upper >= kShareOfPair * threshold && touch(pair, draw);
+    });
   };
   int hits = 0;
   for (int i = 0; i < kDraws && hits + (kDraws - i) >= enough; ++i) {
@@ -103,15 +101,19 @@ std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
     const std::vector<fcl::Transform3d>& poses, double negligible, double enough) const {
   std::vector<Pair> pairs;
   double sum = 0.0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Ball ball = bodies_[i].ball.placed(poses[i]);
-    for (std::size_t j = 0; j < obstacles_.size(); ++j) {
-      const Obstacle& obstacle = query_.obstacles()[j];
+  for (std::size_t j = 0; j < among_.obstacles().size(); ++j) {
+    const Obstacle& obstacle = among_.obstacles()[j];
+    const PreparedObstacle& prepared = among_.preparedObstacle(j);
+    const GaussianDisplacement of_bodies =
+        std::get<GaussianDisplacement>(obstacle.displacement).reversed();
+    const Ball around = prepared.around().placed(obstacle.pose);
+    for (const std::size_t i : among_.bodiesOf(j)) {
       double upper =
-          farContactUpper(ball, obstacles_[j].ball.placed(obstacle.pose), obstacle.displacement);
+          farContactUpper(among_.balls()[i].placed(poses[i]), around, obstacle.displacement);
       if (upper > negligible) {
-        upper = std::min(upper, halfSpaceUpper(bodies_[i].body, poses[i], obstacles_[j].body,
-                                               obstacle.pose, displacements_[j]));
+        const BodyBounds bound(among_.geometries(), {{i, poses[i]}}, prepared, obstacle.pose,
+                               of_bodies);
+        upper = std::min(upper, bound.sum());
       }
       pairs.push_back({i, j, upper});
       sum += upper;
@@ -123,7 +125,7 @@ std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
 
 bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const {
   if (!is_usable_) return false;
-  const auto poses = query_.robot().poses(values);
+  const auto poses = among_.robot().poses(values);
   return pairsBelow(poses, kNegligible * threshold, threshold).has_value();
 }
 

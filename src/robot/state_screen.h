@@ -6,9 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "fcl_prob/convex_body.h"
-#include "fcl_prob/robot_query.h"
-#include "robot/body_balls.h"
+#include "robot/robot_among_obstacles.h"
 
 namespace fcl_prob::detail {
 
@@ -16,8 +14,8 @@ namespace fcl_prob::detail {
 /// displaced obstacles.
 class StateScreen {
  public:
-  /// \param query  must outlive this
-  explicit StateScreen(const RobotQuery& query);
+  /// \param among  must outlive this
+  explicit StateScreen(const RobotAmongObstacles& among);
 
   /// Whether P(any body touches any obstacle) is certainly below `threshold`; false: not known.
   /// \param values  valid ones
@@ -29,29 +27,18 @@ class StateScreen {
   bool isHardlyBelow(const Eigen::VectorXd& values, double threshold) const;
 
  private:
-  /// What is around one body or obstacle.
-  struct Hull {
-    ConvexBody body;
-    Ball ball;  ///< frame of the geometry
-  };
-
   struct Pair {
     std::size_t body;
     std::size_t obstacle;
     double upper;  ///< certainly not below P that they touch
   };
 
-  void add(const std::shared_ptr<const fcl::CollisionGeometryd>& geometry, std::vector<Hull>& to);
-
   /// All of them, by half-spaces; nothing once their sum is not below `enough`.
   std::optional<std::vector<Pair>> pairsBelow(const std::vector<fcl::Transform3d>& poses,
                                               double negligible, double enough) const;
   void draw(const Obstacle& obstacle, std::uint64_t stream);
 
-  const RobotQuery& query_;
-  std::vector<Hull> bodies_;
-  std::vector<Hull> obstacles_;
-  std::vector<GaussianDisplacement> displacements_;  ///< of the bodies relative to each obstacle
+  const RobotAmongObstacles& among_;
   std::vector<std::vector<Eigen::Vector3d>> moved_;  ///< draws of every obstacle's displacement
 
   /// All have bounded hulls, and all displacements are Gaussian.

@@ -11,7 +11,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
 #include "planning/motion_descent.h"
-#include "planning/state_screen.h"
+#include "robot/state_screen.h"
 #include "temporary_folder.h"
 
 using namespace fcl_prob;
@@ -125,7 +125,7 @@ TEST_CASE("certified plans repeat for a seed") {
 
 TEST_CASE("the screen of states lets none pass that is not below the threshold") {
   const PlanScene scene;
-  const detail::StateScreen screen(scene.query);
+  const detail::StateScreen screen(scene.query.among());
   const auto& joints = scene.query.robot().joints();
   std::mt19937_64 random(6);
   int passed = 0, refused = 0, hardly_below = 0;

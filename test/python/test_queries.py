@@ -316,3 +316,42 @@ def test_attached_objects_and_self_collision():
         robot.with_attached("rod", "foot", rod)
     with pytest.raises(fcl_prob.FileError):
         fcl_prob.SelfCollision(robot, DATA / "arm.urdf.srdf")
+
+
+@needs_robot
+def test_obstacles_of_a_robot_have_bodies_and_may_be_touched():
+    robot = fcl_prob.Robot(DATA / "arm.urdf")
+    error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.03, 0.02, 0.04])
+    lamp = [(fcl_prob.Sphere(0.1), [0, 0, 0]), (fcl_prob.Cylinder(0.03, 0.5), [0, 0, -0.3])]
+    values = robot.values({"turn": 0.35, "shoulder": 0.15, "elbow": 0.3})
+    query = fcl_prob.RobotQuery(robot, [("lamp", lamp, error, [0.55, 0.25, 0.35])])
+    ball = query.with_obstacles([("ball", fcl_prob.Sphere(0.1), error, [0.55, 0.25, 0.35])])
+    assert query.state(values).lower > ball.state(values).upper
+    allowed = fcl_prob.RobotQuery(robot, [("lamp", lamp, error, [0.55, 0.25, 0.35])], allowed=[("*", "l?mp")])
+    assert allowed.state(values).upper == 0
+    with pytest.raises(fcl_prob.InvalidRequest):
+        fcl_prob.RobotQuery(robot, [("lamp", lamp, error)], allowed=[("nobody", "lamp")])
+    with pytest.raises(TypeError):
+        fcl_prob.RobotQuery(robot, [("lamp", [fcl_prob.Sphere(0.1)], error)])
+    states = np.tile(values, (3, 1))
+    states[2, robot.joints.index("turn")] = -1.5
+    assert query.decide_states(states, 0.05, threads=2) == ["certainly-above"] * 2 + ["certainly-below"]
+    assert set(query.decide_states(states, 0.05, 1e-6)) <= {"certainly-above", "probably-above", "certainly-below"}
+
+
+@needs_robot
+def test_errors_of_joints_and_base():
+    robot = fcl_prob.Robot(DATA / "arm.urdf")
+    error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.03, 0.02, 0.04])
+    query = fcl_prob.RobotQuery(robot, [("ball", fcl_prob.Sphere(0.1), error, [0.55, 0.25, 0.35])])
+    values = robot.values({"turn": 0.7, "shoulder": 0.15, "elbow": 0.3})
+    exact = query.state(values)
+    by_name = query.state(values, joint_error={"turn": 0.1}, relative_tolerance=0.05)
+    assert by_name.estimate is not None and by_name.estimate != exact.probability
+    covariance = np.zeros((len(robot.joints), len(robot.joints)))
+    covariance[robot.joints.index("turn"), robot.joints.index("turn")] = 0.1**2
+    assert query.state(values, joint_error=covariance, relative_tolerance=0.05).estimate == by_name.estimate
+    base = fcl_prob.PoseError.from_standard_deviations([0.05] * 3, [0.0] * 3)
+    assert query.state(values, base_error=base, relative_tolerance=0.05).probability > 0
+    with pytest.raises(fcl_prob.InvalidRequest):
+        query.state(values, joint_error={"nowhere": 0.1})

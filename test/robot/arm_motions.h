@@ -52,11 +52,21 @@ inline bool touchesAt(const fcl_prob::Robot& robot, const std::vector<fcl::Trans
   return false;
 }
 
+/// All bodies of the obstacle, at a pose of it.
+inline bool touchesAt(const fcl_prob::Robot& robot, const std::vector<fcl::Transform3d>& poses,
+                      const fcl_prob::Obstacle& obstacle, const fcl::Transform3d& pose) {
+  if (touchesAt(robot, poses, *obstacle.geometry, pose)) return true;
+  for (const fcl_prob::ObstacleBody& body : obstacle.more) {
+    if (touchesAt(robot, poses, *body.geometry, pose * body.in_obstacle)) return true;
+  }
+  return false;
+}
+
 inline bool touches(const fcl_prob::Robot& robot, const Eigen::VectorXd& values,
                     const fcl_prob::Obstacle& obstacle, const Eigen::Vector3d& moved) {
   fcl::Transform3d pose = obstacle.pose;
   pose.translation() += moved;
-  return touchesAt(robot, robot.poses(values), *obstacle.geometry, pose);
+  return touchesAt(robot, robot.poses(values), obstacle, pose);
 }
 
 /// How often any of the waypoints touches, errors drawn once, in so many draws.
@@ -76,7 +86,7 @@ inline double counted(const fcl_prob::RobotQuery& query,
       fcl::Transform3d pose = obstacle.pose;
       pose.translation() += displacement.mean() + displacement.axes() * y;
       for (std::size_t k = 0; k < poses.size() && !hit; ++k) {
-        hit = touchesAt(query.robot(), poses[k], *obstacle.geometry, pose);
+        hit = touchesAt(query.robot(), poses[k], obstacle, pose);
       }
     }
     hits += hit;

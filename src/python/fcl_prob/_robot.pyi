@@ -7,6 +7,7 @@ from ._core import (
     GaussianDisplacement,
     GaussianMixture,
     Geometry,
+    PoseError,
     ProbabilityResult,
     QueryProgress,
     TruncatedGaussian,
@@ -15,9 +16,11 @@ from ._types import AnyMesh, FloatArray, Numbers
 
 Values = Union[Numbers, Mapping[str, float]]
 Translation = Union[GaussianDisplacement, GaussianMixture, TruncatedGaussian]
+Body = Union[Geometry, AnyMesh]
+Bodies = Union[Body, list[Tuple[Body, Numbers]]]
 Obstacle = Union[
-    Tuple[str, Union[Geometry, AnyMesh], Translation],
-    Tuple[str, Union[Geometry, AnyMesh], Translation, Numbers],
+    Tuple[str, Bodies, Translation],
+    Tuple[str, Bodies, Translation, Numbers],
 ]
 
 class Robot:
@@ -86,11 +89,33 @@ class RobotResult:
     def __float__(self) -> float: ...
 
 class RobotQuery:
-    def __init__(self, robot: Robot, obstacles: Sequence[Obstacle]) -> None: ...
+    def __init__(
+        self,
+        robot: Robot,
+        obstacles: Sequence[Obstacle],
+        allowed: Sequence[Tuple[str, str]] = ...,
+    ) -> None: ...
+    def with_obstacles(self, obstacles: Sequence[Obstacle]) -> RobotQuery: ...
+    def decide_states(
+        self,
+        states: Union[Numbers, Sequence[Values]],
+        threshold: float,
+        chance_of_error: Optional[float] = None,
+        *,
+        contact: str = "fcl",
+        time_limit: Optional[float] = None,
+        max_cells: int = ...,
+        max_memory: int = ...,
+        seed: int = 1,
+        threads: int = 1,
+        on_progress: Optional[QueryProgress] = None,
+    ) -> list[str]: ...
     def state(
         self,
         values: Values,
         *,
+        joint_error: Union[None, Numbers, Mapping[str, float]] = None,
+        base_error: Optional[PoseError] = None,
         method: str = "auto",
         contact: str = "fcl",
         relative_tolerance: float = 0.01,

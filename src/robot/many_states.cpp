@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "robot/many_states.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "base/number_text.h"
+#include "base/stopwatch.h"
+#include "fcl_prob/exceptions.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+class ManyStates {
+ public:
+  ManyStates(const Eigen::MatrixXd& states, const ProbabilityRequest& request,
+             const StateDecision& decide)
+      : states_(states),
+        request_(request),
+        decide_(decide),
+        decisions_(states.cols(), ProbableDecision::undecided) {}
+
+  std::vector<ProbableDecision> run() {
+    const auto threads =
+        std::min(request_.threads, static_cast<unsigned>(tbb::info::default_concurrency()));
+    if (threads == 1) {
+      for (Eigen::Index i = 0; i < states_.cols(); ++i) answer(i);
+      return std::move(decisions_);
+    }
+    tbb::task_arena arena(static_cast<int>(threads));
+    // Costs differ by orders of magnitude: a state is a task of its own.
+    arena.execute([this] {
+      tbb::parallel_for(
+          tbb::blocked_range<Eigen::Index>(0, states_.cols(), 1),
+          [this](const tbb::blocked_range<Eigen::Index>& range) {
+            for (Eigen::Index i = range.begin(); i < range.end(); ++i) answer(i);
+          },
+          tbb::simple_partitioner());
+    });
+    return std::move(decisions_);
+  }
+
+ private:
+  void answer(Eigen::Index i) {
+    if (cancelled_) return;
+    ProbabilityRequest of_one = request_;
+    of_one.threads = 1;
+    if (request_.time_limit) {
+      const double left = *request_.time_limit - clock_.seconds();
+      if (!(left > 0.0)) return;
+      of_one.time_limit = left;
+    }
+    if (request_.on_progress) {
+      of_one.on_progress = [this](const ProbabilityProgress& progress) { return tell(progress); };
+    }
+    decisions_[static_cast<std::size_t>(i)] = decide_(states_.col(i), of_one);
+    ++done_;
+    if (request_.on_progress) tell({});
+  }
+
+  /// What a state tells of itself says that there is one; how far all are is what counts.
+  bool tell(ProbabilityProgress progress) {
+    const std::lock_guard<std::mutex> lock(progress_);
+    if (cancelled_) return false;
+    progress.interval = {0.0, 1.0};
+    progress.seconds = clock_.seconds();
+    progress.fraction = static_cast<double>(done_) / static_cast<double>(states_.cols());
+    if (!request_.on_progress(progress)) cancelled_ = true;
+    return !cancelled_;
+  }
+
+  const Eigen::MatrixXd& states_;
+  const ProbabilityRequest& request_;
+  const StateDecision& decide_;
+  Stopwatch clock_;
+  std::atomic<bool> cancelled_{false};
+  std::atomic<std::size_t> done_{0};
+  std::mutex progress_;
+  std::vector<ProbableDecision> decisions_;
+};
+
+}  // namespace
+
+void requireChance(double chance_of_error) {
+  if (chance_of_error > 0.0 && chance_of_error < 1.0) return;
+  throw InvalidRequest("the chance of a wrong decision must be above 0 and below 1, is " +
+                       numberText(chance_of_error));
+}
+
+std::vector<ProbableDecision> manyStates(const Eigen::MatrixXd& states,
+                                         const ProbabilityRequest& request,
+                                         const StateDecision& decide) {
+  return ManyStates(states, request, decide).run();
+}
+
+}  // namespace fcl_prob::detail

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A state of a robot whose joints and base have errors of their own.
+#pragma once
+
+#include "robot/robot_among_obstacles.h"
+
+namespace fcl_prob::detail {
+
+/// \throws as RobotQuery::state() with errors
+ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
+                                  const RobotErrors& errors, const ProbabilityRequest& request);
+
+}  // namespace fcl_prob::detail

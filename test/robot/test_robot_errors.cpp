@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Errors of joints and base beside the obstacles' displacements, against counting.
+#include "arm_motions.h"
+#include "fcl_prob/exceptions.h"
+#include "fcl_prob/robot_scene.h"
+#include "temporary_folder.h"
+
+using namespace fcl_prob;
+using namespace fcl_prob_test;
+
+namespace {
+
+/// How often anything is touched where joints, base and obstacles are all drawn.
+double countedWithErrors(const RobotQuery& query, const Eigen::VectorXd& mean,
+                         const Eigen::VectorXd& deviations, double base, int draws) {
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> normal;
+  const auto three = [&] {
+    return Eigen::Vector3d(normal(random), normal(random), normal(random));
+  };
+  int hits = 0;
+  for (int i = 0; i < draws; ++i) {
+    Eigen::VectorXd values = mean;
+    for (Eigen::Index k = 0; k < values.size(); ++k) values[k] += deviations[k] * normal(random);
+    const Eigen::Vector3d shift = base * three();
+    auto poses = query.robot().poses(values);
+    for (fcl::Transform3d& pose : poses) pose.translation() += shift;
+    bool hit = false;
+    for (const Obstacle& obstacle : query.obstacles()) {
+      const auto& error = std::get<GaussianDisplacement>(obstacle.displacement);
+      fcl::Transform3d pose = obstacle.pose;
+      pose.translation() +=
+          error.mean() + error.axes() * error.standardDeviations().cwiseProduct(three());
+      hit = touchesAt(query.robot(), poses, obstacle, pose) || hit;
+    }
+    hits += hit;
+  }
+  return static_cast<double>(hits) / draws;
+}
+
+Eigen::VectorXd deviationsOf(const Eigen::MatrixXd& covariance) {
+  return covariance.diagonal().cwiseSqrt();
+}
+
+}  // namespace
+
+TEST_CASE("errors of joints, base and obstacles together are what counting finds") {
+  constexpr int kDraws = 4'000;
+  for (const std::size_t obstacles : {1, 2}) {
+    std::vector<Obstacle> all = ballAndBox();
+    all.resize(obstacles);
+    const RobotQuery query(shippedArm(), all);
+    const Eigen::VectorXd values =
+        query.robot().values({{"turn", 0.6}, {"shoulder", 0.15}, {"elbow", 0.3}});
+    RobotErrors errors;
+    errors.joints = jointCovariance(query.robot(), {{"turn", 0.08}, {"shoulder", 0.05}});
+    errors.base = PoseError::fromStandardDeviations({0.03, 0.03, 0.03}, {0.0, 0.0, 0.0});
+    ProbabilityRequest request = withTolerance(0.02);
+    request.absolute_tolerance = 1e-3;
+    const RobotResult result = query.state(values, errors, request);
+    CAPTURE(obstacles, result.plan);
+    REQUIRE(result.estimate);
+    REQUIRE(result.standard_error);
+    const double truth =
+        countedWithErrors(query, values, deviationsOf(errors.joints), 0.03, kDraws);
+    const double of_truth = std::sqrt(truth * (1.0 - truth) / kDraws);
+    CHECK(truth > 0.05);
+    CHECK(truth < 0.95);
+    CHECK(std::abs(*result.estimate - truth) <= 5.0 * std::hypot(of_truth, *result.standard_error));
+    ProbabilityRequest decision;
+    decision.threshold = 0.3 * truth;
+    CHECK(query.state(values, errors, decision).decision == Decision::above);
+    decision.threshold = std::min(0.99, 2.0 * truth);
+    CHECK(query.state(values, errors, decision).decision == Decision::below);
+  }
+}
+
+TEST_CASE("a robot whose errors are none is where it is said to be") {
+  const RobotQuery query(shippedArm(), {ballAndBox()[0]});
+  const Eigen::VectorXd values = query.robot().values({{"turn", 0.35}, {"elbow", 0.3}});
+  RobotErrors errors;
+  errors.joints = jointCovariance(query.robot(), {});
+  const RobotResult exact = query.state(values, withTolerance(0.02));
+  const RobotResult same = query.state(values, errors, withTolerance(0.02));
+  CHECK(overlap(same.any, exact.any));
+  CHECK(same.any.width() <= 0.02 * same.any.upper + 1e-6);
+}
+
+TEST_CASE("errors of a robot that cannot be meant are refused") {
+  const RobotQuery query(shippedArm(), ballAndBox());
+  const Eigen::VectorXd values = query.robot().values({});
+  CHECK_THROWS_AS(jointCovariance(query.robot(), {{"elbwo", 0.1}}), InvalidRequest);
+  CHECK_THROWS_AS(jointCovariance(query.robot(), {{"elbow", -0.1}}), InvalidDistribution);
+  RobotErrors errors;
+  errors.joints = Eigen::MatrixXd::Identity(2, 2);
+  CHECK_THROWS_AS(query.state(values, errors, {}), InvalidDistribution);
+  errors.joints = jointCovariance(query.robot(), {{"elbow", 0.1}});
+  ProbabilityRequest interval;
+  interval.method = ProbabilityMethod::interval;
+  CHECK_THROWS_AS(query.state(values, errors, interval), UnsupportedGeometry);
+  const std::string base = query.robot().bodies()[0].name();
+  const RobotQuery partly(shippedArm(), ballAndBox(), {{base, "box"}});
+  CHECK_THROWS_AS(partly.state(values, errors, {}), UnsupportedGeometry);
+  std::vector<Obstacle> moving = ballAndBox();
+  moving[0].over_time = {{moving[0].pose, moving[0].displacement}};
+  CHECK_THROWS_AS(query.withObstacles(moving).state(values, errors, {}), InvalidRequest);
+}
+
+TEST_CASE("scenes have errors of joints and base") {
+  const TemporaryFolder folder;
+  const auto sceneWith = [&](const std::string& errors, const std::string& states) {
+    return loadRobotScene(
+        folder.write("scene.json", R"({"robot": {"urdf": ")" + shippedFile("arm.urdf") + R"("}, )" +
+                                       errors + ", " + states +
+                                       R"(, "obstacles": [{"name": "o", "sphere": 1,)"
+                                       R"( "displacement": {"sigma": [1, 1, 1]}}]})"));
+  };
+  const std::string one = R"("joints": {})";
+  const Robot robot = shippedArm();
+  const RobotErrors sigma =
+      errorsOf(sceneWith(R"("joint_error": {"sigma": {"elbow": 0.1}})", one), robot);
+  CHECK(sigma.joints.trace() == Approx(0.01));
+  CHECK(!sigma.base);
+  const RobotErrors both = errorsOf(
+      sceneWith(R"("joint_error": {"joints": ["elbow", "turn"], "covariance": [0.04, 0.01, 0.09]},)"
+                R"( "base_error": {"sigma": [0.1, 0.1, 0, 0, 0, 0.02]})",
+                one),
+      robot);
+  CHECK(both.joints.trace() == Approx(0.13));
+  CHECK(both.joints.sum() == Approx(0.15));
+  CHECK(both.base);
+  CHECK_THROWS_AS(
+      sceneWith(R"("joint_error": {"sigma": {"elbow": 0.1}})", R"("waypoints": [{}, {}])"),
+      FileError);
+  CHECK_THROWS_AS(sceneWith(R"("joint_error": {"joints": ["elbow"], "covariance": [1, 2]})", one),
+                  FileError);
+  CHECK_THROWS_AS(errorsOf(sceneWith(R"("joint_error": {"sigma": {"elbwo": 0.1}})", one), robot),
+                  InvalidRequest);
+  CHECK_THROWS_AS(requireExactRobot(sceneWith(R"("joint_error": {"sigma": {}})", one), "it"),
+                  InvalidRequest);
+}
