@@ -32,6 +32,8 @@ install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPO
   ${fcl_prob_headers_left_out})
 install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR}
   COMPONENT development)
+install(FILES ${PROJECT_BINARY_DIR}/include/fcl_prob/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fcl_prob COMPONENT development)
 install(FILES package.xml DESTINATION share/fcl_prob COMPONENT development)
 
 configure_package_config_file(cmake/fcl_prob-config.cmake.in

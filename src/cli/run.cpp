@@ -22,6 +22,7 @@
 #include "cli/reconstruct_command.h"
 #endif
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/version.h"
 
 namespace fcl_prob::cli {
 namespace {
