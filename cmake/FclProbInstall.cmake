@@ -34,7 +34,7 @@ install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAK
   COMPONENT development)
 install(FILES ${PROJECT_BINARY_DIR}/include/fcl_prob/version.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fcl_prob COMPONENT development)
-install(FILES package.xml DESTINATION share/fcl_prob COMPONENT development)
+include(FclProbWorkspace)
 
 # For builds without CMake. A static library does not know what it needs, so that its users link it, too.
 file(RELATIVE_PATH fcl_prob_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
