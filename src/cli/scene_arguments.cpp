@@ -12,6 +12,9 @@
 namespace fcl_prob::cli {
 namespace {
 
+constexpr const char* kPoseHelp =
+    "x,y,z in metres; after that qw,qx,qy,qz, or roll,pitch,yaw in radians about fixed axes";
+
 /// Runs `convert` and puts the name of the option before whatever it complains of.
 template <typename Convert>
 auto ofOption(const std::string& option, const Convert& convert) {
@@ -172,8 +175,8 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
                    "Centre each mesh and make its longest side 1 m, before scale and pose");
   command.add_option("--scale-a", arguments.scale_a, "Factor on the coordinates of A");
   command.add_option("--scale-b", arguments.scale_b, "Factor on the coordinates of B");
-  command.add_option("--pose-a", arguments.pose_a, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
-  command.add_option("--pose-b", arguments.pose_b, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
+  command.add_option("--pose-a", arguments.pose_a, kPoseHelp);
+  command.add_option("--pose-b", arguments.pose_b, kPoseHelp);
   command
       .add_option("--unknown-cells", arguments.unknown_cells,
                   "Of OctoMap files: what is made of cells that they say nothing about")
