@@ -287,14 +287,6 @@ TEST_CASE("what a mesh file's reader passed over is told", "[cli]") {
   }
 }
 
-TEST_CASE("--version names the program and its version", "[cli]") {
-  const TemporaryFolder folder;
-  const CommandResult result = runCommand({"--version"}, folder);
-  CHECK(result.exit_code == 0);
-  CHECK(result.out.rfind("fcl_prob 0.", 0) == 0);
-  CHECK(result.err.empty());
-}
-
 TEST_CASE("every bounding volume bounds the probability from above", "[cli]") {
   const Cubes cubes;
   const double expected = fcl_prob::normalTailMass(2.0);
@@ -408,7 +400,6 @@ TEST_CASE("bad input is refused with one line and exit code 2", "[cli]") {
   refusal({"check"});
   refusal({"check", cube, "--sigma", "1,1,1"});
   refusal({"check", cube, cube, cube, "--sigma", "1,1,1"});
-  refusal({});
   refusal({"chekc"});
   CHECK(says(refusal(pair), "needs --covariance or --sigma"));
   CHECK(says(refusal(with({"--covariance", "nan,0,0,1,0,1"})), "--covariance"));
