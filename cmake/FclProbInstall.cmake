@@ -32,7 +32,23 @@ install(DIRECTORY include/fcl_prob DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPO
   ${fcl_prob_headers_left_out})
 install(EXPORT fcl_prob-targets NAMESPACE fcl_prob:: DESTINATION ${FCL_PROB_CMAKE_DIR}
   COMPONENT development)
-install(FILES package.xml DESTINATION share/fcl_prob COMPONENT development)
+install(FILES ${PROJECT_BINARY_DIR}/include/fcl_prob/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fcl_prob COMPONENT development)
+include(FclProbWorkspace)
+
+# For builds without CMake. A static library does not know what it needs, so that its users link it, too.
+file(RELATIVE_PATH fcl_prob_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+set(fcl_prob_pc_libs)
+set(fcl_prob_pc_packages)
+if(NOT BUILD_SHARED_LIBS)
+  set(fcl_prob_pc_libs " -ltbbmalloc")
+  set(fcl_prob_pc_packages " qhullcpp qhull_r tbb")
+endif()
+configure_file(cmake/fcl_prob.pc.in ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob.pc.in @ONLY)
+file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob.pc
+  INPUT ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob.pc.in)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT development)
 
 configure_package_config_file(cmake/fcl_prob-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/fcl_prob-config.cmake INSTALL_DESTINATION ${FCL_PROB_CMAKE_DIR})

@@ -23,3 +23,4 @@
 #include "fcl_prob/probability_result.h"
 #include "fcl_prob/random_configuration.h"
 #include "fcl_prob/triangle_mesh.h"
+#include "fcl_prob/version.h"

@@ -35,6 +35,9 @@ class GaussianDisplacement {
   /// fromStandardDeviations() where it is known better.
   GaussianDisplacement(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance);
 
+  /// The same around a mean of zero. \throws InvalidDistribution
+  explicit GaussianDisplacement(const Eigen::Matrix3d& covariance);
+
   /// Standard deviations (metres) along the columns of `axes`' rotation matrix (normalised first).
   /// Keeps the standard deviations exactly, also where their squares underflow.
   /// \throws InvalidDistribution if a number is not finite, the quaternion is zero, or a standard

@@ -6,6 +6,7 @@
 #include <fcl/common/types.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "fcl_prob/gaussian_displacement.h"
@@ -60,10 +61,12 @@ class PoseError {
       PoseConvention convention = PoseConvention::world_rotation_vector);
 
   /// From the covariance of geometry_msgs/PoseWithCovariance: rows of x, y, z, roll, pitch, yaw
-  /// about the fixed axes of the message's frame, which must be the world frame here. Small angles
-  /// are taken for a rotation vector, which they are up to their squares. \throws
-  /// InvalidDistribution
+  /// about the fixed axes of the message's frame, which must be the world frame here, and through
+  /// the pose's origin: PoseConvention::world_rotation_vector. Small angles are taken for a
+  /// rotation vector, which they are up to their squares. \throws InvalidDistribution
   static PoseError fromRosCovariance(const Matrix6& covariance);
+  /// The message's own array, row by row. \throws InvalidDistribution
+  static PoseError fromRosCovariance(const std::array<double, 36>& covariance);
 
   /// The error of A's pose relative to B, which stays, from independent errors of both: to first
   /// order in the rotations. (RandomPoses gives what is exact.) In the world frame.

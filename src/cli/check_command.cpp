@@ -52,8 +52,10 @@ void addCheckCommand(CLI::App& app, int& exit_code) {
   CLI::App& command = *app.add_subcommand("check", "The collision probability of one scene");
   addSceneOptions(command, arguments->scene);
   addRequestOptions(command, arguments->scene);
-  command.add_flag("--gradient", arguments->scene.gradient,
-                   "Also the derivative of the probability by the mean displacement");
+  command
+      .add_flag("--gradient", arguments->scene.gradient,
+                "Also the derivative of the probability by the mean displacement")
+      ->group("Question");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runCheck(*arguments); });

@@ -22,9 +22,17 @@
 #include "cli/reconstruct_command.h"
 #endif
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/version.h"
 
 namespace fcl_prob::cli {
 namespace {
+
+constexpr const char* kFirstSteps =
+    "fcl_prob tells how likely it is that two shapes collide. What to try next:\n"
+    "  fcl_prob check A.stl B.obj --sigma 0.004,0.003,0.002   two meshes in metres, one answer\n"
+    "  fcl_prob check --scene SCENE.json                      the same from a scene file\n"
+    "  fcl_prob compare --scene SCENE.json                    every method beside the others\n"
+    "  fcl_prob --help, fcl_prob check --help                 all commands; all options of one\n";
 
 int complain(const std::string& message) {
   std::cerr << "fcl_prob: " << onOneLine(message) << std::endl;
@@ -32,6 +40,10 @@ int complain(const std::string& message) {
 }
 
 int parseAndRun(int argc, const char* const* argv, const std::vector<AddCommand>& others) {
+  if (argc < 2) {
+    std::cerr << kFirstSteps;
+    return kBadInput;
+  }
   CLI::App app("Collision probabilities of two shapes under Gaussian position error");
   app.name("fcl_prob");
   app.set_version_flag("--version", "fcl_prob " FCL_PROB_VERSION);

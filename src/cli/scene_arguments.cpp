@@ -12,6 +12,9 @@
 namespace fcl_prob::cli {
 namespace {
 
+constexpr const char* kPoseHelp =
+    "x,y,z in metres; after that qw,qx,qy,qz, or roll,pitch,yaw in radians about fixed axes";
+
 /// Runs `convert` and puts the name of the option before whatever it complains of.
 template <typename Convert>
 auto ofOption(const std::string& option, const Convert& convert) {
@@ -161,6 +164,7 @@ Scene baseScene(const SceneArguments& arguments) {
 }  // namespace
 
 void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
+  command.option_defaults()->group("Objects");
   auto* mesh_a = command.add_option(
       "A", arguments.mesh_a,
       "The displaced object: a mesh, an OctoMap file, or the report of reconstruct");
@@ -172,8 +176,8 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
                    "Centre each mesh and make its longest side 1 m, before scale and pose");
   command.add_option("--scale-a", arguments.scale_a, "Factor on the coordinates of A");
   command.add_option("--scale-b", arguments.scale_b, "Factor on the coordinates of B");
-  command.add_option("--pose-a", arguments.pose_a, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
-  command.add_option("--pose-b", arguments.pose_b, "x,y,z or x,y,z,qw,qx,qy,qz in metres");
+  command.add_option("--pose-a", arguments.pose_a, kPoseHelp);
+  command.add_option("--pose-b", arguments.pose_b, kPoseHelp);
   command
       .add_option("--unknown-cells", arguments.unknown_cells,
                   "Of OctoMap files: what is made of cells that they say nothing about")
@@ -182,6 +186,7 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
                      "How far the true shape of A may be from its model: d or outward,inward in "
                      "metres");
   command.add_option("--band-b", arguments.band_b, "The same of B");
+  command.option_defaults()->group("Error");
   auto* covariance = command.add_option("--covariance", arguments.covariance,
                                         "xx,xy,xz,yy,yz,zz in square metres");
   auto* sigma = command.add_option("--sigma", arguments.sigma,
@@ -203,39 +208,43 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
                   "Their meaning: rotation vectors in the world's or the body's frame, or "
                   "exponentials of SE(3); default world")
       ->check(CLI::IsMember({"world", "body", "world-exponential", "body-exponential"}));
+  command.option_defaults()->group("Output");
 }
 
 void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
+  command.option_defaults()->group("Question");
   std::string methods;
   for (const std::string& name : methodNames()) methods += (methods.empty() ? "" : ", ") + name;
   command.add_option("--method", arguments.method, "One of " + methods + ", " + kPartsBounds);
+  command
+      .add_option("--contact", arguments.contact,
+                  "fcl: meshes are surfaces; solid: closed meshes are solids")
+      ->check(CLI::IsMember({"fcl", "solid"}));
+  command.add_option("--threshold", arguments.threshold,
+                     "Stop as soon as it is certain on which side of this the probability is");
+  command.add_option("--relative-tolerance", arguments.relative_tolerance,
+                     "Width of the interval relative to its upper end");
+  command.add_option("--absolute-tolerance", arguments.absolute_tolerance,
+                     "Width of the interval that is always good enough");
+  command.add_option("--confidence", arguments.confidence,
+                     "delta of general-pcd; coverage of the interval of sampling methods");
+  command.add_option("--seed", arguments.seed, "Fixes all samples")->check(CLI::NonNegativeNumber);
   command.add_option("--bv", arguments.bounding_volume, "Bounding volumes of the meshes' trees")
       ->check(CLI::IsMember(boundingVolumeNames()));
   command
       .add_option("--leaves", arguments.leaves,
                   "What general-pcd's trees end at: triangles, or convex parts of the meshes")
       ->check(CLI::IsMember({"triangles", "parts"}));
-  command.add_option("--relative-tolerance", arguments.relative_tolerance,
-                     "Width of the interval relative to its upper end");
-  command.add_option("--absolute-tolerance", arguments.absolute_tolerance,
-                     "Width of the interval that is always good enough");
-  command.add_option("--threshold", arguments.threshold,
-                     "Stop as soon as it is certain on which side of this the probability is");
+  command.add_flag("--no-patches", arguments.no_patches,
+                   "Prepare no convex patches of meshes: for a single query of a large one");
+  command.option_defaults()->group("Limits");
   command.add_option("--time-limit", arguments.time_limit, "Seconds");
-  command.add_option("--confidence", arguments.confidence,
-                     "delta of general-pcd; coverage of the interval of sampling methods");
   command.add_option("--samples", arguments.samples, "Number of samples at most")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--seed", arguments.seed, "Fixes all samples")->check(CLI::NonNegativeNumber);
   command
       .add_option("--threads", arguments.threads, "Of one query, too; results do not depend on it")
       ->check(CLI::NonNegativeNumber);
-  command
-      .add_option("--contact", arguments.contact,
-                  "fcl: meshes are surfaces; solid: closed meshes are solids")
-      ->check(CLI::IsMember({"fcl", "solid"}));
-  command.add_flag("--no-patches", arguments.no_patches,
-                   "Prepare no convex patches of meshes: for a single query of a large one");
+  command.option_defaults()->group("Output");
 }
 
 Scene sceneFrom(const SceneArguments& arguments) {

@@ -52,7 +52,8 @@ struct SceneArguments {
   bool no_patches = false;
 };
 
-/// Adds the options to `command`; parsing fills `arguments`, which must live as long.
+/// Adds the options to `command`; parsing fills `arguments`, which must live as long. In the help
+/// what a command adds afterwards is in the group Output.
 void addSceneOptions(CLI::App& command, SceneArguments& arguments);
 
 /// Adds the options of the request (method, tolerances, limits).

@@ -125,6 +125,9 @@ GaussianDisplacement::GaussianDisplacement(const Eigen::Vector3d& mean,
                            semidefiniteAxes(symmetricPart(requireSymmetric(covariance))),
                            symmetricPart(covariance)) {}
 
+GaussianDisplacement::GaussianDisplacement(const Eigen::Matrix3d& covariance)
+    : GaussianDisplacement(Eigen::Vector3d::Zero(), covariance) {}
+
 GaussianDisplacement::GaussianDisplacement(const Eigen::Vector3d& mean,
                                            const detail::PrincipalAxes& axes,
                                            const Eigen::Matrix3d& covariance)

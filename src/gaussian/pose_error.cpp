@@ -186,6 +186,11 @@ PoseError PoseError::fromRosCovariance(const Matrix6& covariance) {
   return PoseError(covariance, PoseConvention::world_rotation_vector);
 }
 
+PoseError PoseError::fromRosCovariance(const std::array<double, 36>& covariance) {
+  using RowMajor = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  return fromRosCovariance(Matrix6(Eigen::Map<const RowMajor>(covariance.data())));
+}
+
 PoseError PoseError::mapped(const Matrix6& map, PoseConvention convention) const {
   return PoseError(map * covariance_ * map.transpose(), convention, map * mean_);
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "gaussian/rotation.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -14,6 +15,7 @@ namespace detail {
 namespace {
 
 constexpr double kRotationTolerance = 1e-9;
+constexpr double kTurn = 6.2831853071795872;  // 2 pi, rounded up
 
 // Below it the terms that the series leave out are below 1e-18.
 constexpr double kSmallAngle = 1e-4;
@@ -52,6 +54,19 @@ void requireRotation(const Eigen::Matrix3d& rotation) {
     throw InvalidPose("matrix is a reflection, not a rotation: determinant " +
                       numberText(rotation.determinant()));
   }
+}
+
+Eigen::Matrix3d rotationOfAngles(const Eigen::Vector3d& roll_pitch_yaw, const std::string& name) {
+  for (const double angle : roll_pitch_yaw) {
+    if (!(std::abs(angle) <= kTurn)) {
+      throw InvalidPose(name + ": an angle of " + numberText(angle) +
+                        " radians is more than a turn");
+    }
+  }
+  const auto about = [&](int axis) {
+    return Eigen::AngleAxisd(roll_pitch_yaw[axis], Eigen::Vector3d::Unit(axis));
+  };
+  return (about(2) * about(1) * about(0)).toRotationMatrix();
 }
 
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {

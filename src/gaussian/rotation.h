@@ -4,11 +4,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 namespace fcl_prob::detail {
 
 /// \throws InvalidPose if `rotation` is not a rotation to 1e-9.
 void requireRotation(const Eigen::Matrix3d& rotation);
+
+/// Rz(yaw) Ry(pitch) Rx(roll), radians: turns about fixed axes in URDF's order.
+/// \throws InvalidPose that begins with `name` if an angle is not finite, or is more than a turn,
+/// as
+///         degrees would be.
+Eigen::Matrix3d rotationOfAngles(const Eigen::Vector3d& roll_pitch_yaw, const std::string& name);
 
 /// [v]×, the matrix of the cross product with v.
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v);

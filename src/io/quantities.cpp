@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
+#include "gaussian/rotation.h"
 #include "io/text_reader.h"
 
 namespace fcl_prob::detail {
@@ -47,13 +48,16 @@ Eigen::Quaterniond quaternionFrom(const Numbers& numbers) {
 }
 
 fcl::Transform3d poseFrom(const Numbers& numbers) {
-  if ((numbers.size() != 3 && numbers.size() != 7) || !allFinite(numbers)) {
-    throw InvalidPose("a pose needs 3 or 7 finite numbers x,y,z[,qw,qx,qy,qz], not " +
-                      std::to_string(numbers.size()));
+  const std::size_t count = numbers.size();
+  if ((count != 3 && count != 6 && count != 7) || !allFinite(numbers)) {
+    throw InvalidPose(
+        "a pose needs 3, 6 or 7 finite numbers x,y,z[,roll,pitch,yaw or ,qw,qx,qy,qz], not " +
+        std::to_string(count));
   }
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
-  if (numbers.size() == 7) {
+  if (count == 6) pose.linear() = rotationOfAngles({numbers[3], numbers[4], numbers[5]}, "a pose");
+  if (count == 7) {
     pose.linear() = quaternionFrom({numbers.begin() + 3, numbers.end()}).toRotationMatrix();
   }
   return pose;

@@ -19,8 +19,9 @@ using Numbers = std::vector<double>;
 /// Numbers with commas between them. \throws InvalidRequest naming what is none
 Numbers numberList(const std::string& text);
 
-/// x, y, z or x, y, z, qw, qx, qy, qz in metres; the quaternion is normalised.
-/// \throws InvalidPose if there are not 3 or 7 finite numbers, or the quaternion is zero.
+/// x, y, z in metres, alone or with qw, qx, qy, qz, which is normalised, or roll, pitch, yaw in
+/// radians, turns about fixed axes. \throws InvalidPose if there are not 3, 6 or 7 finite numbers,
+/// the quaternion is zero, or an angle is more than a turn.
 fcl::Transform3d poseFrom(const Numbers& numbers);
 
 /// qw, qx, qy, qz, normalised. \throws InvalidPose

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/rotation.h"
 #include "geometry/validation.h"
 
 namespace fcl_prob::python {
@@ -44,10 +45,13 @@ fcl::Transform3d rigid(const fcl::Transform3d& pose, const std::string& name) {
   return pose;
 }
 
-/// Seven numbers or three.
+/// Three numbers, six or seven.
 fcl::Transform3d poseOfNumbers(const std::vector<double>& numbers, const std::string& name) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   pose.translation() << numbers[0], numbers[1], numbers[2];
+  if (numbers.size() == 6) {
+    pose.linear() = detail::rotationOfAngles({numbers[3], numbers[4], numbers[5]}, name);
+  }
   if (numbers.size() == 7) {
     const Eigen::Quaterniond quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
     const double norm = quaternion.norm();
@@ -78,9 +82,9 @@ fcl::Transform3d poseOfMatrix(const At& at, const std::string& name) {
   return rigid(pose, name);
 }
 
-bool isPoseLength(std::size_t length) { return length == 3 || length == 7; }
+bool isPoseLength(std::size_t length) { return length == 3 || length == 6 || length == 7; }
 
-constexpr const char* kPoseShapes = "(4, 4), (3,) or (7,)";
+constexpr const char* kPoseShapes = "(4, 4), (3,), (6,) or (7,)";
 
 fcl::Transform3d onePose(const Numbers& numbers) {
   if (numbers.hasShape({4, 4})) {
@@ -192,7 +196,7 @@ Poses::Poses(py::handle value, const std::string& name) {
   } else if (numbers.hasShape({4, 4}) || numbers.dimensions() == 1) {
     poses_.push_back(onePose(numbers));
   } else {
-    numbers.refuseShape(std::string(kPoseShapes) + ", or (n, 4, 4), (n, 3) or (n, 7)");
+    numbers.refuseShape(std::string(kPoseShapes) + ", or (n, 4, 4), (n, 3), (n, 6) or (n, 7)");
   }
 }
 

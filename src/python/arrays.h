@@ -67,11 +67,12 @@ class Numbers {
 Eigen::Vector3d vectorFrom(py::handle value, const std::string& name);
 Eigen::Matrix3d matrixFrom(py::handle value, const std::string& name);
 
-/// None: the identity. (4, 4), or (3,) x, y, z, or (7,) x, y, z, qw, qx, qy, qz, metres.
+/// None: the identity. (4, 4), or (3,) x, y, z, or (6,) x, y, z, roll, pitch, yaw about fixed axes,
+/// or (7,) x, y, z, qw, qx, qy, qz; metres, radians.
 /// \throws InvalidPose if it is not rigid, with `name`
 fcl::Transform3d poseFrom(py::handle value, const std::string& name);
 
-/// One pose or several: (4, 4), (3,), (7,) or (n, 4, 4), (n, 3), (n, 7), or a list of poses.
+/// One pose or several: (4, 4), (3,), (6,), (7,) or (n, ...) of these, or a list of poses.
 class Poses {
  public:
   Poses(py::handle value, const std::string& name);

@@ -3,6 +3,7 @@
 // The extension module fcl_prob._core: all but files and robots.
 #include <pybind11/pybind11.h>
 
+#include "fcl_prob/version.h"
 #include "python/displacements.h"
 #include "python/exceptions.h"
 #include "python/geometries.h"

@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
 #include <sstream>
 
 #include "fcl_prob/exceptions.h"
@@ -241,9 +242,19 @@ MadePoseError poseErrorFromIndependent(const MadeGaussian& translation,
           py::make_tuple("independent", translation, kept(rotation_covariance), convention)};
 }
 
+PoseError rosError(const py::object& covariance) {
+  const Numbers numbers(covariance, "covariance");
+  if (numbers.dimensions() == 2) {
+    return PoseError::fromRosCovariance(sixBySixFrom(covariance, "covariance"));
+  }
+  std::array<double, 36> rows{};
+  if (!numbers.hasShape({36})) numbers.refuseShape("(36,) or (6, 6)");
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = numbers.at(i);
+  return PoseError::fromRosCovariance(rows);
+}
+
 MadePoseError poseErrorFromRos(const py::object& covariance) {
-  return {PoseError::fromRosCovariance(sixBySixFrom(covariance, "covariance")),
-          py::make_tuple("ros", kept(covariance))};
+  return {rosError(covariance), py::make_tuple("ros", kept(covariance))};
 }
 
 MadePoseError poseErrorBetween(const MadePoseError& of_a, const py::object& pose_a,
@@ -299,8 +310,11 @@ void bindPoseErrors(py::module_& module) {
                   py::arg("rotation_covariance"), py::arg("convention") = "world",
                   "A GaussianDisplacement and, independent of it, a rotation vector with a "
                   "covariance (3, 3), square radians.")
-      .def_static("from_ros_covariance", &poseErrorFromRos, py::arg("covariance"),
-                  "From geometry_msgs/PoseWithCovariance, reshaped to (6, 6), in the world frame.")
+      .def_static(
+          "from_ros_covariance", &poseErrorFromRos, py::arg("covariance"),
+          "From the covariance of geometry_msgs/PoseWithCovariance, (36,) or (6, 6): x, y, z, "
+          "and rotations about fixed axes of the world frame through the pose's origin, the "
+          "convention \"world\".")
       .def_static("between_bodies", &poseErrorBetween, py::arg("of_a"), py::arg("pose_a"),
                   py::arg("of_b"), py::arg("pose_b"),
                   "That of A relative to B, from independent errors of both; poses (4, 4).")

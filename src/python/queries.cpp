@@ -309,8 +309,9 @@ std::shared_ptr<Groups> preparedGroups(const py::object& a, const py::object& b)
 constexpr const char* kAskDocumentation =
     "The probability that A, displaced at random, collides with B.\n\n"
     "displacement: a GaussianDisplacement, GaussianMixture, TruncatedGaussian or PoseError, of A\n"
-    "relative to B. pose_a, pose_b: (4, 4) float64, or (3,) x, y, z, or (7,) with qw, qx, qy, qz;\n"
-    "metres, world frame; None is the identity.\n\n" FCL_PROB_REQUEST_KEYWORDS
+    "relative to B. pose_a, pose_b: (4, 4) float64, or (3,) x, y, z, or (7,) with qw, qx, qy, qz,\n"
+    "or (6,) with roll, pitch, yaw about fixed axes; metres, radians, world frame; None is the\n"
+    "identity.\n\n" FCL_PROB_REQUEST_KEYWORDS
     "on_progress((lower, upper), fraction, seconds) is called now and then; returning False\n"
     "cancels the query, whose interval is valid all the same. Ctrl-C raises Interrupted, a\n"
     "KeyboardInterrupt whose `result` is what was certain by then. Runs without the GIL.\n\n"
@@ -318,8 +319,9 @@ constexpr const char* kAskDocumentation =
 
 constexpr const char* kAskAllDocumentation =
     "Answers many queries on all cores, without the GIL; the answers are those of single ones.\n\n"
-    "pose_a, pose_b: one pose, or n of them as (n, 4, 4), (n, 3) or (n, 7). displacement: one,\n"
-    "or a list of n; or instead covariances (n, 3, 3), square metres, or (n, 6, 6) of pose errors\n"
+    "pose_a, pose_b: one pose, or n of them as (n, 4, 4), (n, 3), (n, 6) or (n, 7). displacement:\n"
+    "one, or a list of n; or instead covariances (n, 3, 3), square metres, or (n, 6, 6) of pose "
+    "errors\n"
     "(with `convention`), and means (n, 3) or (n, 6). What there is one of serves "
     "all.\n\n" FCL_PROB_REQUEST_KEYWORDS
     "Limits are those of each query. threads: all cores if not given. on_progress(done, total) is\n"

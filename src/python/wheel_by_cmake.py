@@ -54,8 +54,12 @@ def metadata():
     lines = ["Metadata-Version: 2.1", f"Name: {table['name']}", f"Version: {table['version']}"]
     lines += [f"Summary: {table['description']}", f"License: {table['license']['text']}"]
     lines += [f"Requires-Python: {table['requires-python']}"]
+    lines += [f"Author: {one['name']}" for one in table["authors"]]
+    lines += [f"Classifier: {one}" for one in table["classifiers"]]
+    lines += [f"Project-URL: {name}, {address}" for name, address in table["urls"].items()]
     lines += [f"Requires-Dist: {one}" for one in table["dependencies"]]
-    return "\n".join(lines) + "\n"
+    lines += ["Description-Content-Type: text/markdown", "", (SOURCE_DIR / table["readme"]).read_text()]
+    return "\n".join(lines)
 
 
 def tag():

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include "catch.h"
 #include "fcl_prob/exceptions.h"
@@ -103,6 +104,18 @@ TEST_CASE("a displacement is refused with the offending value in the message") {
   CHECK_THROWS_AS(GaussianDisplacement().rotated(2 * one), InvalidPose);
   CHECK_THROWS_WITH(GaussianDisplacement().rotated(-one), mentions("reflection"));
   CHECK_THROWS_AS(GaussianDisplacement().rotated(nan * one), InvalidPose);
+}
+
+TEST_CASE("a covariance by itself has a mean of zero and is checked") {
+  Matrix3d covariance = diagonal(0.04, 0.01, 0);
+  covariance(0, 1) = covariance(1, 0) = 0.005;
+  const GaussianDisplacement by_itself(covariance);
+  CHECK(by_itself.mean() == kZero);
+  CHECK(by_itself.covariance() == covariance);
+  CHECK(by_itself.rank() == 2);
+  CHECK_THROWS_WITH(GaussianDisplacement(diagonal(1, -0.5, 1)), mentions("-0.5"));
+  // A matrix is no displacement by itself, as a mean is not.
+  CHECK_FALSE(std::is_convertible_v<Matrix3d, GaussianDisplacement>);
 }
 
 TEST_CASE("what rounding leaves of a valid covariance is accepted") {

@@ -39,6 +39,20 @@ void checkSame(const fcl::Transform3d& a, const fcl::Transform3d& b) {
 
 }  // namespace
 
+TEST_CASE("the covariance of a ROS message is read row by row, about fixed axes of the world") {
+  RandomBodies random(11);
+  const Matrix6 covariance = randomCovariance(random, 6);
+  std::array<double, 36> message;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) message[6 * row + column] = covariance(row, column);
+  }
+  const PoseError error = PoseError::fromRosCovariance(message);
+  CHECK(error.covariance() == PoseError(covariance).covariance());
+  CHECK(error.convention() == PoseConvention::world_rotation_vector);
+  message[1] += 1.0;
+  CHECK_THROWS_WITH(PoseError::fromRosCovariance(message), Catch::Contains("(x, y)"));
+}
+
 TEST_CASE("a pose error that is no distribution is refused by name") {
   const Matrix6 good = Matrix6::Identity() * 0.01;
   CHECK_NOTHROW(PoseError(good));

@@ -78,6 +78,27 @@ TEST_CASE("a pose error in place of the displacement", "[io]") {
           .find("exactly one") != std::string::npos);
 }
 
+TEST_CASE("six numbers of a pose are x, y, z, roll, pitch, yaw as in URDF", "[io]") {
+  const TemporaryFolder folder;
+  const auto pose = [&](const std::string& numbers) {
+    return loadScene(folder.write("s.json", R"({"a": {"sphere": 1, "pose": [)" + numbers +
+                                                R"(]}, "b": {"sphere": 1}, "displacement":
+ {"sigma": [1, 1, 1]}})"))
+        .a.pose;
+  };
+  const double r = 0.3, p = -1.1, y = 2.4;
+  Eigen::Matrix3d about_x, about_y, about_z;
+  about_x << 1, 0, 0, 0, std::cos(r), -std::sin(r), 0, std::sin(r), std::cos(r);
+  about_y << std::cos(p), 0, std::sin(p), 0, 1, 0, -std::sin(p), 0, std::cos(p);
+  about_z << std::cos(y), -std::sin(y), 0, std::sin(y), std::cos(y), 0, 0, 0, 1;
+  const fcl::Transform3d turned = pose("1, 2, 3, 0.3, -1.1, 2.4");
+  CHECK(turned.translation() == Eigen::Vector3d(1, 2, 3));
+  CHECK((turned.linear() - about_z * about_y * about_x).cwiseAbs().maxCoeff() < 1e-15);
+  CHECK(pose("0, 0, 0, 0, 0, 6.283185307179586").linear().isIdentity(1e-15));
+  CHECK_THROWS_WITH(pose("0, 0, 0, 0, 0, 90"),
+                    Catch::Contains("a: pose: a pose: an angle of 90 radians is more than a turn"));
+}
+
 TEST_CASE("a scene file with everything in it", "[io]") {
   const TemporaryFolder folder;
   const Scene scene = loadScene(folder.write("s.json", R"({
@@ -180,7 +201,7 @@ TEST_CASE("faults of a scene file are named with file and key", "[io]") {
   CHECK(inA(R"("cone": {"radius": 1})") == "a: cone: length: missing");
   CHECK(inA(R"("plane": {"normal": [0, 0, 0], "offset": 1})") ==
         "a: plane: normal: must not be zero");
-  CHECK(inA(R"("sphere": 1, "pose": [1, 2])").find("a: pose: a pose needs 3 or 7") == 0);
+  CHECK(inA(R"("sphere": 1, "pose": [1, 2])").find("a: pose: a pose needs 3, 6 or 7") == 0);
   CHECK(inA(R"("sphere": 1, "pose": [0, 0, 0, 0, 0, 0, 0])").find("a: pose: a quaternion") == 0);
   CHECK(inA(R"("sphere": 1, "pose": ["10mm", 0, 0])") == "a: pose: not a list of numbers");
   CHECK(inA(R"("mesh": "x.stl", "scale": 0)") == "a: scale: must be > 0");

@@ -44,6 +44,26 @@ def test_layouts_of_arrays_do_not_matter():
         assert answer(PART, np.matrix(pose(0.5))) == answer(PART, pose(0.5))
 
 
+def test_six_numbers_of_a_pose_are_angles_about_fixed_axes():
+    (sx, sy, sz), (cx, cy, cz) = np.sin([0.4, -0.7, 1.1]), np.cos([0.4, -0.7, 1.1])
+    turned = pose(0.5)
+    about_z, about_y = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]), np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
+    turned[:3, :3] = about_z @ about_y @ [[1, 0, 0], [0, cx, -sx], [0, sx, cx]]
+    six = [0.5, 0, 0, 0.4, -0.7, 1.1]
+    assert answer(PART, six) == pytest.approx(answer(PART, turned), rel=1e-9)
+    assert answer(PART, six) != pytest.approx(answer(PART, pose(0.5)), rel=1e-3)
+    batch = fcl_prob.collision_probabilities(PART, FIXTURE, ERROR, [six, [0.6, 0, 0, 0, 0, 0]])
+    assert batch.lower.tolist() == [answer(PART, six)[0], answer(PART, pose(0.6))[0]]
+
+
+def test_a_ros_covariance_is_flat_or_square():
+    ros = np.diag([1e-4, 2e-4, 3e-4, 1e-3, 2e-3, 3e-3])
+    ros[0, 5] = ros[5, 0] = 1e-4
+    flat, square = (fcl_prob.PoseError.from_ros_covariance(form) for form in (ros.ravel(), ros))
+    assert np.array_equal(flat.covariance, ros) and np.array_equal(square.covariance, ros)
+    assert flat.convention == "world"
+
+
 def test_memory_is_looked_at_where_it_lies():
     mesh = fcl_prob.Mesh(VERTICES, TRIANGLES)
     assert np.array_equal(mesh.vertices, VERTICES) and np.array_equal(mesh.triangles, TRIANGLES)
@@ -206,6 +226,8 @@ REFUSED = [
     (fcl_prob.InvalidPose, "pose_a", lambda: answer(PART, [np.nan, 0, 0])),
     (fcl_prob.InvalidPose, "quaternion", lambda: answer(PART, [0, 0, 0, 0, 0, 0, 0])),
     (ValueError, r"\(5,\)", lambda: answer(PART, [1, 2, 3, 4, 5])),
+    (fcl_prob.InvalidPose, "pose_a: an angle of 90 radians", lambda: answer(PART, [0, 0, 0, 90, 0, 0])),
+    (ValueError, r"\(35,\)", lambda: fcl_prob.PoseError.from_ros_covariance(np.zeros(35))),
     (TypeError, "pose_a", lambda: answer(PART, {})),
     (ZeroDivisionError, "", lambda: fcl_prob.Mesh(Faulty())),
     (ZeroDivisionError, "", lambda: answer(PART, Faulty())),

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the fcl_prob authors
 """pip installs the package, from what CMake has built, without a network."""
+import email
 import os
 import subprocess
 import sys
+import tomllib
 
 import pytest
 from scenes import SOURCE_DIR
@@ -29,4 +31,9 @@ def test_pip_installs_without_fetching(isolation, tmp_path):
         [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True, cwd=tmp_path
     ).stdout
     assert out.startswith(str(tmp_path)) and f" {fcl_prob.__version__} Box(1, 2, 3)" in out
-    assert (tmp_path / "site" / f"fcl_prob-{fcl_prob.__version__}.dist-info").is_dir()
+    metadata = email.message_from_string(
+        (tmp_path / "site" / f"fcl_prob-{fcl_prob.__version__}.dist-info" / "METADATA").read_text()
+    )
+    project = tomllib.loads((SOURCE_DIR / "pyproject.toml").read_text())["project"]
+    assert metadata.get_all("Classifier") == project["classifiers"]
+    assert metadata.get_payload() == (SOURCE_DIR / "README.md").read_text()
