@@ -46,8 +46,6 @@ const std::vector<Benchmark>& benchmarks() {
        benchPosePairs},
       {"random-states", "decisions on random states of a KUKA and a Fetch beside a person", true,
        benchRandomStates},
-      {"robot", "decisions for robot links beside an arm, groups of links, batches of poses", true,
-       benchRobot},
       {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,
        benchStability},
       {"table1", "the paper's Table I on six scenes, with all of its rows and more", true,

@@ -59,7 +59,6 @@ BenchReport benchParts(const BenchOptions& options, const BenchProgress& progres
 BenchReport benchPose(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchPosePairs(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& progress);
-BenchReport benchRobot(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
 #ifdef FCL_PROB_HAS_PLANNING
