@@ -88,9 +88,8 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
   command.add_option("NAME", arguments->name, "Which; without it they are listed");
   command.add_option("--models", arguments->options.models_folder,
                      "Folder of the benchmark models; default $FCL_PROB_MODELS");
-  command.add_option(
-      "--only", arguments->options.only,
-      "Only scenes whose name contains this; table2: also of a scene, a comma and a row");
+  command.add_option("--only", arguments->options.only,
+                     "Only scenes whose name contains this; table2: or SCENE,ROW, parts of both");
   command.add_option("--task", arguments->options.task,
                      "parts: only tasks whose name contains this (estimate, decision, ...); "
                      "stability: only methods");
@@ -107,9 +106,13 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
                   "pose_pairs, stability: scenes of each family; pose: seeds of the calibration")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command
+      .add_option("--states", arguments->options.states,
+                  "table2: that the planner may ask for, with every row and seed")
+      ->check(CLI::PositiveNumber);
   command.add_flag(
       "--quick", arguments->options.quick,
-      "parts: two scenes of each part; pose_pairs: 2,000 samples; table2: three seeds, 10 s each");
+      "parts: two scenes of each part; pose_pairs: 2,000 samples; table2: two seeds, fewer states");
   auto* csv = command.add_flag("--csv", arguments->csv, "CSV instead of Markdown");
   command.add_flag("--json", arguments->json, "JSON instead of Markdown")->excludes(csv);
   command.add_option("--plot", arguments->plot,

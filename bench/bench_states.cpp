@@ -77,9 +77,10 @@ void addState(const RobotQuery& query, const Eigen::VectorXd& values, std::uint6
 /// States of the paths of several seeds, those that tests of states allow.
 std::vector<Eigen::VectorXd> statesOfPaths(const Table2Scene& scene, std::uint64_t first_seed,
                                            int seeds) {
+  const RobotQuery& query = scene.around.front()->query;
   const StateTest test = [&](const Eigen::VectorXd& values) {
     return !scene.self.collides(values) &&
-           scene.query.state(values, decision()).decision == Decision::below;
+           query.state(values, decision()).decision == Decision::below;
   };
   std::vector<Eigen::VectorXd> states;
   for (int k = 0; k < seeds; ++k) {
@@ -88,8 +89,7 @@ std::vector<Eigen::VectorXd> statesOfPaths(const Table2Scene& scene, std::uint64
     request.largest_step = kStepOfPath;
     request.seed = first_seed + static_cast<std::uint64_t>(k);
     request.max_states = kStatesToPlan;
-    const PlanningResult plan =
-        planMotion(scene.query.robot(), test, scene.start, scene.goal, request);
+    const PlanningResult plan = planMotion(scene.robot(), test, scene.start, scene.goal, request);
     if (plan.status != PlanningStatus::solved) continue;
     for (const Eigen::VectorXd& values : interpolated(plan.waypoints, kStepOfPath)) {
       states.push_back(values);
@@ -151,7 +151,8 @@ BenchReport benchStates(const BenchOptions& options, const BenchProgress& progre
     if (!progress(fraction, scenes[s].name)) break;
     StateTimes times;
     for (const Eigen::VectorXd& values : statesOfPaths(scenes[s], options.seed, seeds)) {
-      addState(scenes[s].query, values, options.seed + times.certified.size(), times);
+      addState(scenes[s].around.front()->query, values, options.seed + times.certified.size(),
+               times);
     }
     if (!times.certified.empty()) addRow(scenes[s].name, times, report);
   }

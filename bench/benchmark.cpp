@@ -10,11 +10,17 @@ namespace fcl_prob::cli {
 
 std::string BenchReport::markdown() const {
   const std::string warning = interrupted ? "**Interrupted: rows are missing.**\n\n" : "";
-  return "## " + title + "\n\n" + warning + table.markdown() + "\n" + notes;
+  std::string text = "## " + title + "\n\n" + warning + table.markdown() + "\n";
+  for (const NamedTable& more : more_tables) {
+    text += "### " + more.title + "\n\n" + more.table.markdown() + "\n";
+  }
+  return text + notes;
 }
 
 std::string BenchReport::csv() const {
-  return table.csv() + (interrupted ? "# interrupted: rows are missing\n" : "");
+  std::string text = table.csv();
+  for (const NamedTable& more : more_tables) text += "\n" + more.table.csv();
+  return text + (interrupted ? "# interrupted: rows are missing\n" : "");
 }
 
 std::string BenchReport::json() const {
@@ -54,7 +60,7 @@ const std::vector<Benchmark>& benchmarks() {
       {"states", "decisions on the states of a Fetch arm along paths past a human arm", true,
        benchStates},
       {"table2",
-       "the paper's Table II: paths of an arm in two scenes, by eleven ways to test a state", true,
+       "the paper's Table II: one trajectory by every method, and a path for every method", true,
        benchTable2, true},
 #endif
   };

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,13 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
   std::size_t cases = 50;    ///< stability: scenes of each family
-  bool quick = false;        ///< a few scenes, seeds or samples only
+  std::optional<std::size_t> states;  ///< table2: that a planner may ask for
+  bool quick = false;                 ///< a few scenes, seeds or samples only
+};
+
+struct NamedTable {
+  std::string title;
+  TextTable table;
 };
 
 /// A table for people and the same numbers, unrounded, for programs.
@@ -27,6 +34,7 @@ struct BenchReport {
   std::string title;
   std::string notes;  ///< Markdown, under the table: what the columns mean
   TextTable table{{}};
+  std::vector<NamedTable> more_tables;  ///< after it
   nlohmann::ordered_json records = nlohmann::ordered_json::array();
   std::string plot;          ///< for writePlot(); empty: there is nothing to draw
   bool interrupted = false;  ///< rows are missing: all that is written says so

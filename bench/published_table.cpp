@@ -3,6 +3,7 @@
 #include "bench/published_table.h"
 
 #include <array>
+#include <map>
 
 namespace fcl_prob::cli {
 namespace {
@@ -76,6 +77,29 @@ std::optional<PublishedRow> publishedRow(const std::string& row, const std::stri
     }
   }
   return std::nullopt;
+}
+
+std::optional<PublishedPath> publishedPath(const std::string& row, const std::string& scene) {
+  using Column = std::map<std::string, PublishedPath>;
+  static const std::map<std::string, Column> columns{{"cans",
+                                                      {{"monte-carlo", {1.00, 20'800}},
+                                                       {"sphere", {3.81, 3'260}},
+                                                       {"aabb", {3.72, 637}},
+                                                       {"obb", {2.50, 819}},
+                                                       {"kdop26", {2.11, 1'280}},
+                                                       {"convex", {1.59, 8'440}}}},
+                                                     {"waving",
+                                                      {{"monte-carlo", {1.00, 15'200}},
+                                                       {"sphere", {4.72, 1'730}},
+                                                       {"aabb", {3.26, 425}},
+                                                       {"obb", {2.80, 433}},
+                                                       {"kdop26", {2.71, 823}},
+                                                       {"convex", {1.39, 4'630}}}}};
+  const auto column = columns.find(scene);
+  if (column == columns.end()) return std::nullopt;
+  const auto found = column->second.find(row);
+  if (found == column->second.end()) return std::nullopt;
+  return found->second;
 }
 
 }  // namespace fcl_prob::cli

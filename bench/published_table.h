@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Table I of the paper, as printed.
+// Tables I and II of the paper, as printed.
 #pragma once
 
 #include <optional>
@@ -18,5 +18,13 @@ struct PublishedRow {
 /// or for Monte Carlo ("monte-carlo") in a benchmark scene ("bunny_1cm", ...); nothing for what it
 /// does not have. Its poses and its machine are not ours.
 std::optional<PublishedRow> publishedRow(const std::string& row, const std::string& scene);
+
+struct PublishedPath {
+  double probability_percent;
+  double time_ms;
+};
+
+/// The same of Table II, for its scenes "cans" and "waving".
+std::optional<PublishedPath> publishedPath(const std::string& row, const std::string& scene);
 
 }  // namespace fcl_prob::cli

@@ -3,15 +3,11 @@
 #include "bench/table2_methods.h"
 
 #include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 
-#include <limits>
-
+#include "bench/table2_bounds.h"
+#include "cli/geometry.h"
 #include "cli/random_frames.h"
-#include "fcl_prob/part_tree.h"
-#include "fcl_prob/parts_bounds.h"
 #include "geometry/mesh_visitor.h"
-#include "robot/state_screen.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -19,9 +15,6 @@ namespace {
 using Poses = std::vector<fcl::Transform3d>;
 
 constexpr int kSamplesOfState = 10'000;
-
-/// Of the paper's models; ours are cut into no more, so that the bounds end.
-constexpr std::size_t kMostPartsOfMesh = 8;
 
 const GaussianDisplacement& gaussianOf(const Obstacle& obstacle) {
   return std::get<GaussianDisplacement>(obstacle.displacement);
@@ -33,176 +26,92 @@ bool doCollide(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
   return fcl::collide(&a, pose_a, &b, pose_b, fcl::CollisionRequestd(), result) > 0;
 }
 
-/// Displaced obstacles, the same samples at every state.
+/// Displaced obstacles, the same standard normal numbers at every state.
 class MonteCarloRow {
  public:
-  MonteCarloRow(const Table2Scene& scene, std::uint64_t seed) : scene_(scene) {
-    for (std::size_t j = 0; j < scene.query.obstacles().size(); ++j) {
-      const Whitening whitening(gaussianOf(scene.query.obstacles()[j]));
-      std::vector<Eigen::Vector3d> moved;
+  MonteCarloRow(const Table2Scene& scene, std::uint64_t seed) {
+    const Whitening unit(GaussianDisplacement::fromStandardDeviations({1.0, 1.0, 1.0}));
+    for (std::size_t j = 0; j < scene.obstacles().size(); ++j) {
+      normals_.emplace_back();
       for (std::uint64_t i = 0; i < kSamplesOfState; ++i) {
-        moved.push_back(randomDisplacement(whitening, seed + 1000 * j, i));
+        normals_.back().push_back(randomDisplacement(unit, seed + 1000 * j, i));
       }
-      moved_.push_back(std::move(moved));
     }
   }
 
-  double operator()(const Eigen::VectorXd& values, double enough) const {
-    const Poses poses = scene_.query.robot().poses(values);
+  double operator()(const Table2State& state, double enough) const {
+    const Poses poses = state.query.robot().poses(state.values);
     int hits = 0;
     for (std::size_t i = 0; i < kSamplesOfState; ++i) {
-      hits += isHit(poses, i);
+      hits += isHit(state.query, poses, i);
       if (hits >= enough * kSamplesOfState) break;
     }
     return static_cast<double>(hits) / kSamplesOfState;
   }
 
  private:
-  bool isHit(const Poses& poses, std::size_t sample) const {
-    const auto& obstacles = scene_.query.obstacles();
-    const auto& bodies = scene_.query.robot().bodies();
-    for (std::size_t j = 0; j < obstacles.size(); ++j) {
-      fcl::Transform3d pose = obstacles[j].pose;
-      pose.translation() += moved_[j][sample];
+  bool isHit(const RobotQuery& query, const Poses& poses, std::size_t sample) const {
+    const auto& bodies = query.robot().bodies();
+    for (std::size_t j = 0; j < query.obstacles().size(); ++j) {
+      const Obstacle& obstacle = query.obstacles()[j];
+      const GaussianDisplacement& error = gaussianOf(obstacle);
+      const Eigen::Vector3d scaled = error.standardDeviations().cwiseProduct(normals_[j][sample]);
+      fcl::Transform3d pose = obstacle.pose;
+      pose.translation() += error.mean() + error.axes() * scaled;
       for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (doCollide(*bodies[i].geometry, poses[i], *obstacles[j].geometry, pose)) return true;
+        if (doCollide(*bodies[i].geometry, poses[i], *obstacle.geometry, pose)) return true;
       }
     }
     return false;
   }
 
-  const Table2Scene& scene_;
-  std::vector<std::vector<Eigen::Vector3d>> moved_;
+  std::vector<std::vector<Eigen::Vector3d>> normals_;  ///< by obstacle
 };
+
+/// A mesh whose vertices are moved outwards by so much (metres), as motion planners pad: along the
+/// mean of the normals around each.
+std::shared_ptr<const fcl::CollisionGeometryd> padded(const fcl::CollisionGeometryd& geometry,
+                                                      double padding) {
+  TriangleMesh mesh = triangleMesh(detail::meshView(geometry));
+  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (const fcl::Triangle& triangle : mesh.triangles) {
+    const Eigen::Vector3d& corner = mesh.vertices[triangle[0]];
+    const Eigen::Vector3d normal =
+        (mesh.vertices[triangle[1]] - corner).cross(mesh.vertices[triangle[2]] - corner);
+    for (int c = 0; c < 3; ++c) normals[triangle[c]] += normal;
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    mesh.vertices[i] += padding * normals[i].normalized();
+  }
+  return buildTree(mesh, "obbrss");
+}
 
 /// Collision with obstacles that are thicker by so many of their largest standard deviations.
 class PaddingRow {
  public:
-  PaddingRow(const Table2Scene& scene, double deviations) : scene_(scene), deviations_(deviations) {
-    for (const RobotBody& body : scene.query.robot().bodies()) {
-      body_balls_.push_back(detail::ballAround({body.geometry, body.name()}));
-    }
-    for (const Obstacle& obstacle : scene.query.obstacles()) {
-      const detail::Ball ball = detail::ballAround({obstacle.geometry, obstacle.name});
-      obstacle_balls_.push_back(ball.placed(obstacle.pose));
+  PaddingRow(const Table2Scene& scene, double deviations) {
+    for (const auto& around : scene.around) {
+      for (const Obstacle& obstacle : around->query.obstacles()) {
+        const double padding = deviations * gaussianOf(obstacle).standardDeviations().maxCoeff();
+        padded_[&obstacle] = padded(*obstacle.geometry, padding);
+      }
     }
   }
 
-  double operator()(const Eigen::VectorXd& values, double) const {
-    const Poses poses = scene_.query.robot().poses(values);
-    const auto& bodies = scene_.query.robot().bodies();
-    for (std::size_t j = 0; j < obstacle_balls_.size(); ++j) {
-      const Obstacle& obstacle = scene_.query.obstacles()[j];
-      const double padding = deviations_ * gaussianOf(obstacle).standardDeviations().maxCoeff();
+  double operator()(const Table2State& state, double) const {
+    const Poses poses = state.query.robot().poses(state.values);
+    const auto& bodies = state.query.robot().bodies();
+    for (const Obstacle& obstacle : state.query.obstacles()) {
+      const fcl::CollisionGeometryd& thick = *padded_.at(&obstacle);
       for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const detail::Ball ball = body_balls_[i].placed(poses[i]);
-        if (isBeyond(ball, obstacle_balls_[j], padding)) continue;
-        if (isWithin(*bodies[i].geometry, poses[i], obstacle, padding)) return 1.0;
+        if (doCollide(*bodies[i].geometry, poses[i], thick, obstacle.pose)) return 1.0;
       }
     }
     return 0.0;
   }
 
  private:
-  // fcl::distance has no limit beyond which it stops; a broad phase leaves these out.
-  static bool isBeyond(const detail::Ball& x, const detail::Ball& y, double padding) {
-    return (x.centre - y.centre).norm() > x.radius + y.radius + padding;
-  }
-
-  static bool isWithin(const fcl::CollisionGeometryd& body, const fcl::Transform3d& pose,
-                       const Obstacle& obstacle, double padding) {
-    if (doCollide(body, pose, *obstacle.geometry, obstacle.pose)) return true;
-    fcl::DistanceResultd result;
-    return fcl::distance(&body, pose, obstacle.geometry.get(), obstacle.pose,
-                         fcl::DistanceRequestd(), result) <= padding;
-  }
-
-  const Table2Scene& scene_;
-  double deviations_;
-  std::vector<detail::Ball> body_balls_;      ///< frames of the bodies
-  std::vector<detail::Ball> obstacle_balls_;  ///< world frame
-};
-
-/// Convex parts of all bodies and obstacles.
-struct SceneParts {
-  explicit SceneParts(const Table2Scene& scene) {
-    for (const RobotBody& body : scene.query.robot().bodies()) bodies.push_back(of(*body.geometry));
-    for (const Obstacle& obstacle : scene.query.obstacles()) {
-      obstacles.push_back(of(*obstacle.geometry));
-    }
-  }
-
-  static ConvexParts of(const fcl::CollisionGeometryd& mesh) {
-    DecompositionRequest request;
-    request.max_parts = kMostPartsOfMesh;
-    request.pieces = 4 * kMostPartsOfMesh;
-    return ConvexParts(triangleMesh(detail::meshView(mesh)), request);
-  }
-
-  std::vector<ConvexParts> bodies;
-  std::vector<ConvexParts> obstacles;
-};
-
-/// Adds up what `upper` says of every body and obstacle.
-template <typename Upper>
-double summed(const Table2Scene& scene, const Eigen::VectorXd& values, double enough,
-              const Upper& upper) {
-  const Poses poses = scene.query.robot().poses(values);
-  double sum = 0.0;
-  for (std::size_t j = 0; j < scene.query.obstacles().size(); ++j) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      sum += upper(i, poses[i], j, scene.query.obstacles()[j]);
-      if (sum >= enough) return sum;
-    }
-  }
-  return sum;
-}
-
-/// The printed sum over trees of convex parts.
-class TreesRow {
- public:
-  TreesRow(const Table2Scene& scene, const SceneParts& parts, PartVolume volume) : scene_(scene) {
-    for (const ConvexParts& of_one : parts.bodies) bodies_.emplace_back(of_one, volume);
-    for (const ConvexParts& of_one : parts.obstacles) obstacles_.emplace_back(of_one, volume);
-  }
-
-  double operator()(const Eigen::VectorXd& values, double enough) const {
-    GeneralPcdRequest request;
-    request.stop_at_one = true;
-    return summed(scene_, values, enough,
-                  [&](std::size_t body, const fcl::Transform3d& pose, std::size_t index,
-                      const Obstacle& obstacle) {
-                    return generalPcd(bodies_[body], pose, obstacles_[index], obstacle.pose,
-                                      gaussianOf(obstacle).reversed(), request)
-                        .raw_sum;
-                  });
-  }
-
- private:
-  const Table2Scene& scene_;
-  std::vector<PartTree> bodies_;
-  std::vector<PartTree> obstacles_;
-};
-
-/// Hunter's bound for the parts of a body and an obstacle.
-class HunterRow {
- public:
-  HunterRow(const Table2Scene& scene, std::shared_ptr<const SceneParts> parts)
-      : scene_(scene), parts_(std::move(parts)) {}
-
-  double operator()(const Eigen::VectorXd& values, double enough) const {
-    return summed(scene_, values, enough,
-                  [&](std::size_t body, const fcl::Transform3d& pose, std::size_t index,
-                      const Obstacle& obstacle) {
-                    return partsBounds(parts_->bodies[body], pose, parts_->obstacles[index],
-                                       obstacle.pose, gaussianOf(obstacle).reversed())
-                        .any.upper;
-                  });
-  }
-
- private:
-  const Table2Scene& scene_;
-  std::shared_ptr<const SceneParts> parts_;
+  std::map<const Obstacle*, std::shared_ptr<const fcl::CollisionGeometryd>> padded_;
 };
 
 constexpr std::size_t kCellsOfDecision = 2'000;
@@ -210,23 +119,19 @@ constexpr std::size_t kCellsOfDecision = 2'000;
 /// Ours: as planCertified() decides.
 class CertifiedRow {
  public:
-  CertifiedRow(const Table2Scene& scene, std::shared_ptr<const detail::StateScreen> screen,
-               double threshold)
-      : scene_(scene), screen_(std::move(screen)) {
+  explicit CertifiedRow(double threshold) {
     request_.threshold = threshold;
     request_.relative_tolerance = 0.05;
     request_.max_cells = kCellsOfDecision;
   }
 
-  double operator()(const Eigen::VectorXd& values, double enough) const {
-    if (screen_->isBelow(values, enough)) return 0.0;
-    if (screen_->isHardlyBelow(values, enough)) return 1.0;
-    return scene_.query.state(values, request_).decision == Decision::below ? 0.0 : 1.0;
+  double operator()(const Table2State& state, double enough) const {
+    if (state.screen.isBelow(state.values, enough)) return 0.0;
+    if (state.screen.isHardlyBelow(state.values, enough)) return 1.0;
+    return state.query.state(state.values, request_).decision == Decision::below ? 0.0 : 1.0;
   }
 
  private:
-  const Table2Scene& scene_;
-  std::shared_ptr<const detail::StateScreen> screen_;
   ProbabilityRequest request_;
 };
 
@@ -234,26 +139,22 @@ class CertifiedRow {
 /// samples that tells.
 class ProbableRow {
  public:
-  ProbableRow(const Table2Scene& scene, std::shared_ptr<const detail::StateScreen> screen,
-              double threshold, std::uint64_t seed)
-      : scene_(scene), screen_(std::move(screen)), threshold_(threshold) {
+  ProbableRow(double threshold, std::uint64_t seed) : threshold_(threshold) {
     request_.max_cells = kCellsOfDecision;
     request_.seed = seed;
   }
 
-  double operator()(const Eigen::VectorXd& values, double enough) const {
-    if (screen_->isBelow(values, enough)) return 0.0;
-    if (screen_->isHardlyBelow(values, enough)) return 1.0;
+  double operator()(const Table2State& state, double enough) const {
+    if (state.screen.isBelow(state.values, enough)) return 0.0;
+    if (state.screen.isHardlyBelow(state.values, enough)) return 1.0;
     const ProbableDecision decision =
-        scene_.query.decideProbably({values}, threshold_, kChanceOfError, request_).decision;
+        state.query.decideProbably({state.values}, threshold_, kChanceOfError, request_).decision;
     const bool below = decision == ProbableDecision::certainly_below ||
                        decision == ProbableDecision::probably_below;
     return below ? 0.0 : 1.0;
   }
 
  private:
-  const Table2Scene& scene_;
-  std::shared_ptr<const detail::StateScreen> screen_;
   double threshold_;
   ProbabilityRequest request_;
 };
@@ -261,26 +162,15 @@ class ProbableRow {
 }  // namespace
 
 std::vector<Table2Method> table2Methods(const Table2Scene& scene, double threshold,
-                                        std::uint64_t seed) {
-  const auto parts = std::make_shared<const SceneParts>(scene);
-  std::vector<Table2Method> methods;
-  const auto screen = std::make_shared<const detail::StateScreen>(scene.query.among());
-  methods.push_back(
-      {"certified decision", "", CertifiedRow(scene, screen, threshold), Table2Answer::certified});
-  methods.push_back({"probable decision", "", ProbableRow(scene, screen, threshold, seed),
-                     Table2Answer::probable});
-  methods.push_back({"padding by 2 sigma", "", PaddingRow(scene, 2.0), Table2Answer::padding});
-  methods.push_back({"padding by 3 sigma", "", PaddingRow(scene, 3.0), Table2Answer::padding});
-  const std::vector<std::pair<std::string, PartVolume>> volumes{{"sphere", PartVolume::sphere},
-                                                                {"aabb", PartVolume::aabb},
-                                                                {"obb", PartVolume::obb},
-                                                                {"kdop26", PartVolume::kdop26},
-                                                                {"convex", PartVolume::convex}};
-  for (const auto& [name, volume] : volumes) {
-    methods.push_back({name + ", printed sum", name, TreesRow(scene, *parts, volume)});
-  }
-  methods.push_back({"convex, Hunter's bound", "", HunterRow(scene, parts)});
-  methods.push_back({"Monte Carlo, 10,000 samples", "monte-carlo", MonteCarloRow(scene, seed)});
+                                        std::uint64_t seed, PartsOfMeshes& known) {
+  std::vector<Table2Method> methods{
+      {"certified decision", "", CertifiedRow(threshold), Table2Answer::certified},
+      {"probable decision", "", ProbableRow(threshold, seed), Table2Answer::probable},
+      {"padding by 2 sigma", "", PaddingRow(scene, 2.0), Table2Answer::padding},
+      {"padding by 3 sigma", "", PaddingRow(scene, 3.0), Table2Answer::padding}};
+  for (Table2Method& bound : table2Bounds(scene, known)) methods.push_back(std::move(bound));
+  methods.push_back({"Monte Carlo, 10,000 samples", "monte-carlo", MonteCarloRow(scene, seed),
+                     Table2Answer::counted});
   return methods;
 }
 

@@ -4,16 +4,20 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bench/table2_scene.h"
+#include "fcl_prob/convex_parts.h"
 
 namespace fcl_prob::cli {
 
 /// What stands behind the number that a method gives.
 enum class Table2Answer {
-  probability,  ///< it is one: counted, or a bound
+  counted,      ///< a share of samples
+  upper_bound,  ///< a probability that is no smaller
   certified,    ///< 0 or 1: below the threshold for certain, or not
   probable,     ///< 0 or 1: below the threshold but for a chance, or not
   padding       ///< 0 or 1: apart by so much, or not
@@ -28,14 +32,20 @@ struct Table2Method {
 
   /// P(any body touches any obstacle) as the method has it, or 0 or 1; once it is seen to be at
   /// least `enough`, anything that is.
-  std::function<double(const Eigen::VectorXd& values, double enough)> probability;
+  std::function<double(const Table2State& state, double enough)> probability;
 
-  Table2Answer answer = Table2Answer::probability;
+  Table2Answer answer = Table2Answer::upper_bound;
+  bool plans = true;  ///< a path is looked for with it
 };
 
-/// All rows for a scene, which must outlive them.
+/// Convex parts of meshes, which several scenes share.
+using GeometryPtr = std::shared_ptr<const fcl::CollisionGeometryd>;
+using PartsOfMeshes = std::map<GeometryPtr, ConvexParts>;
+
+/// All rows for the states of a scene.
 /// \param threshold  at which the certified and the probable decision decide
+/// \param known  as of table2Bounds()
 std::vector<Table2Method> table2Methods(const Table2Scene& scene, double threshold,
-                                        std::uint64_t seed);
+                                        std::uint64_t seed, PartsOfMeshes& known);
 
 }  // namespace fcl_prob::cli

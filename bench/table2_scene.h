@@ -3,30 +3,68 @@
 // The two scenes of the paper's Table II, as far as it tells them, for a Fetch arm.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "fcl_prob/robot_query.h"
 #include "fcl_prob/self_collision.h"
+#include "robot/state_screen.h"
 
 namespace fcl_prob::cli {
 
+/// Something whose place is known: it is touched or not, by fcl::collide.
+struct ExactObstacle {
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  fcl::Transform3d pose;  ///< metres, world frame
+};
+
+/// The robot among obstacles where they are at one time.
+struct Table2Around {
+  Table2Around(const fcl_prob::Robot& robot, std::vector<Obstacle> obstacles)
+      : query(robot, std::move(obstacles)), screen(query.among()) {}
+
+  RobotQuery query;  ///< arm, gripper and what it holds
+  detail::StateScreen screen;
+};
+
+/// A state of the robot at its time.
+struct Table2State {
+  const Eigen::VectorXd& values;
+  const RobotQuery& query;
+  const detail::StateScreen& screen;  ///< of the query
+};
+
 struct Table2Scene {
   std::string name;
-  RobotQuery query;    ///< arm, gripper and what it holds among the obstacles
   SelfCollision self;  ///< all of the robot
+  std::vector<ExactObstacle> exact;
   Eigen::VectorXd start;
   Eigen::VectorXd goal;
   std::vector<std::string> joints;  ///< that move
+
+  /// At each time that obstacles are predicted for, the same ones; once where they stay.
+  std::vector<std::shared_ptr<const Table2Around>> around;
+
+  const fcl_prob::Robot& robot() const { return around.front()->query.robot(); }
+  const std::vector<Obstacle>& obstacles() const { return around.front()->query.obstacles(); }
+
+  /// Part of the motion that a state is at, 0 at its start and 1 at its end: how far the gripper
+  /// has been led to the side, at a constant speed.
+  double partOf(const Eigen::VectorXd& values) const;
+  Table2State at(const Eigen::VectorXd& values) const;
+
+  /// Whether the robot touches neither itself nor what is exact.
+  bool isFree(const Eigen::VectorXd& values) const;
 };
 
-/// "cans": the arm carries a can over a table with two more and past a human arm. "waving": the
-/// arm goes past a human arm that waves, predicted at four times with a covariance that grows; as
-/// four obstacles, since each of them may be there when the robot comes.
+/// "cans": the arm carries a can over a table with two more and past a human arm; the table is
+/// exact. "waving": the arm goes past a human arm that waves, predicted every tenth of a second
+/// with a covariance that grows; the place of the gripper tells the time.
 /// \param models_folder  holds fetch_robot/, human/ and objects/
 std::vector<Table2Scene> table2Scenes(const std::string& models_folder);
 
-/// The poses of the arm that waves one at a time, each with its covariance.
+/// An arm that waves closer by, at four times, each by itself with its covariance.
 std::vector<Table2Scene> singleArmScenes(const std::string& models_folder);
 
 }  // namespace fcl_prob::cli

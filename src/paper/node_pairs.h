@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "bounds/pair_bounds.h"
 #include "convex/pair_frame.h"
@@ -71,6 +73,28 @@ class RoundedNodePairs : public NodePairs {
  private:
   const fcl::BVHModel<BV>& model_a_;
   const fcl::BVHModel<BV>& model_b_;
+};
+
+/// Trees of the same nodes, of several bounding volumes: the bound by a coarse one stands where it
+/// is negligible.
+class ScreenedNodePairs final : public NodePairs {
+ public:
+  /// \param coarse  the coarsest first
+  ScreenedNodePairs(const BoundingTree& a, const BoundingTree& b, const PairFrame& frame,
+                    std::vector<NodePairs> coarse, double negligible)
+      : NodePairs(a, b, frame), coarse_(std::move(coarse)), negligible_(negligible) {}
+
+  double bound(int node_a, int node_b) override {
+    for (NodePairs& pairs : coarse_) {
+      const double upper = pairs.bound(node_a, node_b);
+      if (upper < negligible_) return upper;
+    }
+    return NodePairs::bound(node_a, node_b);
+  }
+
+ private:
+  std::vector<NodePairs> coarse_;
+  double negligible_;
 };
 
 /// A kIOS is bounded both by its OBB and by its smallest sphere.

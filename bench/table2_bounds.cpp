@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "bench/table2_bounds.h"
+
+#include "fcl_prob/part_tree.h"
+#include "fcl_prob/parts_bounds.h"
+#include "geometry/mesh_visitor.h"
+
+namespace fcl_prob::cli {
+namespace {
+
+/// Of the paper's models; ours are cut into no more, so that the bounds end.
+constexpr std::size_t kMostPartsOfMesh = 8;
+
+constexpr double kConfidenceOfPaths = 0.99;  // δ of the paper
+
+/// A body and an obstacle, by their numbers, where they are.
+struct PlacedPair {
+  std::size_t body;
+  const fcl::Transform3d& body_pose;
+  std::size_t index;
+  const Obstacle& obstacle;
+
+  GaussianDisplacement displacement() const {
+    return std::get<GaussianDisplacement>(obstacle.displacement).reversed();
+  }
+};
+
+/// Something of all bodies and of all obstacles of a scene, in their frames.
+template <typename One>
+struct OfScene {
+  std::vector<One> bodies;
+  std::vector<One> obstacles;
+
+  template <typename Make>
+  OfScene(const Table2Scene& scene, const Make& make) {
+    for (const RobotBody& body : scene.robot().bodies()) {
+      bodies.push_back(make(body.geometry));
+    }
+    for (const Obstacle& obstacle : scene.obstacles()) {
+      obstacles.push_back(make(obstacle.geometry));
+    }
+  }
+
+  template <typename Other, typename Make>
+  OfScene(const OfScene<Other>& others, const Make& make) {
+    for (const Other& other : others.bodies) bodies.push_back(make(other));
+    for (const Other& other : others.obstacles) obstacles.push_back(make(other));
+  }
+};
+
+using SceneParts = OfScene<ConvexParts>;
+using SceneTrees = OfScene<std::vector<PartTree>>;
+using SceneBalls = OfScene<detail::Ball>;
+
+SceneParts partsOf(const Table2Scene& scene, PartsOfMeshes& known) {
+  return SceneParts(scene, [&known](const GeometryPtr& mesh) {
+    const auto found = known.find(mesh);
+    if (found != known.end()) return found->second;
+    DecompositionRequest request;
+    request.max_parts = kMostPartsOfMesh;
+    request.pieces = 4 * kMostPartsOfMesh;
+    const ConvexParts parts(triangleMesh(detail::meshView(*mesh)), request);
+    known.emplace(mesh, parts);
+    return parts;
+  });
+}
+
+std::shared_ptr<const SceneTrees> treesOf(const SceneParts& parts,
+                                          const std::vector<PartVolume>& volumes) {
+  return std::make_shared<const SceneTrees>(parts, [&volumes](const ConvexParts& of_one) {
+    std::vector<PartTree> trees;
+    for (const PartVolume volume : volumes) trees.emplace_back(of_one, volume);
+    return trees;
+  });
+}
+
+/// What balls say of a pair, where that hardly matters.
+class BallBound {
+ public:
+  explicit BallBound(const Table2Scene& scene)
+      : balls_(std::make_shared<const SceneBalls>(scene, [](const GeometryPtr& geometry) {
+          return detail::ballAround({geometry, "a geometry"});
+        })) {
+    share_ = (1.0 - kConfidenceOfPaths) /
+             static_cast<double>(balls_->bodies.size() * balls_->obstacles.size());
+  }
+
+  /// What a pair may have of 1 - δ.
+  double share() const { return share_; }
+
+  std::optional<double> kept(const PlacedPair& pair) const {
+    const double upper = farContactUpper(balls_->bodies[pair.body].placed(pair.body_pose),
+                                         balls_->obstacles[pair.index].placed(pair.obstacle.pose),
+                                         pair.obstacle.displacement);
+    return upper < share_ ? std::make_optional(upper) : std::nullopt;
+  }
+
+ private:
+  std::shared_ptr<const SceneBalls> balls_;
+  double share_;
+};
+
+/// Of a pair that is not far. Once it is at least `enough`, anything that is.
+using PairUpper = std::function<double(const PlacedPair& pair, double enough)>;
+
+/// Adds up what is said of every body and obstacle.
+class SumRow {
+ public:
+  SumRow(BallBound balls, PairUpper upper) : balls_(std::move(balls)), upper_(std::move(upper)) {}
+
+  double operator()(const Table2State& state, double enough) const {
+    const auto poses = state.query.robot().poses(state.values);
+    double sum = 0.0;
+    for (std::size_t j = 0; j < state.query.obstacles().size(); ++j) {
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        const PlacedPair pair{i, poses[i], j, state.query.obstacles()[j]};
+        const std::optional<double> kept = balls_.kept(pair);
+        sum += kept ? *kept : upper_(pair, enough);
+        if (sum >= enough) return sum;
+      }
+    }
+    return sum;
+  }
+
+ private:
+  BallBound balls_;
+  PairUpper upper_;
+};
+
+/// The paper's sum over trees of the last volume; the others are coarser ones, the coarsest first.
+PairUpper overTrees(std::shared_ptr<const SceneTrees> trees, double share,
+                    GeneralPcdVariant variant = GeneralPcdVariant::sum) {
+  return [trees = std::move(trees), share, variant](const PlacedPair& pair, double enough) {
+    const std::vector<PartTree>& a = trees->bodies[pair.body];
+    const std::vector<PartTree>& b = trees->obstacles[pair.index];
+    GeneralPcdRequest request;
+    request.confidence = kConfidenceOfPaths;
+    request.variant = variant;
+    request.stop_at_one = enough <= 1.0;
+    const std::size_t parts_of_a = (a[0].nodeCount() + 1) / 2;
+    const std::size_t parts_of_b = (b[0].nodeCount() + 1) / 2;
+    return generalPcd(a, pair.body_pose, b, pair.obstacle.pose, pair.displacement(),
+                      share / static_cast<double>(parts_of_a * parts_of_b), request)
+        .raw_sum;
+  };
+}
+
+/// Where the sum over hulls is not small.
+PairUpper byHunter(std::shared_ptr<const SceneParts> parts, PairUpper sum, double share) {
+  return [parts = std::move(parts), sum = std::move(sum), share](const PlacedPair& pair,
+                                                                 double enough) {
+    const double of_hulls = sum(pair, enough);
+    if (of_hulls < share) return of_hulls;
+    return partsBounds(parts->bodies[pair.body], pair.body_pose, parts->obstacles[pair.index],
+                       pair.obstacle.pose, pair.displacement())
+        .any.upper;
+  };
+}
+
+}  // namespace
+
+std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsOfMeshes& known) {
+  const auto parts = std::make_shared<const SceneParts>(partsOf(scene, known));
+  const BallBound balls(scene);
+  const auto sum = [&](const std::vector<PartVolume>& volumes) {
+    return overTrees(treesOf(*parts, volumes), balls.share());
+  };
+  const std::vector<PartVolume> to_hulls{PartVolume::obb, PartVolume::kdop26, PartVolume::convex};
+  const auto hulls = treesOf(*parts, to_hulls);
+  const PairUpper sum_of_hulls = overTrees(hulls, balls.share());
+  std::vector<Table2Method> methods{
+      {"spheres, printed sum", "sphere", SumRow(balls, sum({PartVolume::sphere}))},
+      {"AABBs, printed sum", "aabb", SumRow(balls, sum({PartVolume::aabb}))},
+      {"OBBs, printed sum", "obb", SumRow(balls, sum({PartVolume::obb}))},
+      {"26-DOPs, printed sum", "kdop26", SumRow(balls, sum({PartVolume::obb, PartVolume::kdop26}))},
+      {"hulls, printed sum", "convex", SumRow(balls, sum_of_hulls)},
+      {"hulls, minimum", "",
+       SumRow(balls, overTrees(hulls, balls.share(), GeneralPcdVariant::minimum))},
+      {"hulls, Hunter's bound", "", SumRow(balls, byHunter(parts, sum_of_hulls, balls.share()))}};
+  for (std::size_t i = methods.size() - 2; i < methods.size(); ++i) methods[i].plans = false;
+  return methods;
+}
+
+}  // namespace fcl_prob::cli
