@@ -35,7 +35,7 @@ Robot robotOf(const std::string& models_folder, const std::string& name) {
 }
 
 /// Uniform within the limits; continuous joints within half a turn.
-Eigen::MatrixXd statesOf(const Robot& robot, Uniforms& random, int count) {
+Eigen::MatrixXd drawnStates(const Robot& robot, Uniforms& random, int count) {
   Eigen::MatrixXd states(robot.joints().size(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     for (Eigen::Index i = 0; i < states.rows(); ++i) {
@@ -159,7 +159,7 @@ BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& 
       if (!progress(0.5 * (static_cast<double>(r) + done), names[r])) return report;
       const RobotQuery query = first.withObstacles({personBeside(mesh, random)});
       const Eigen::MatrixXd states =
-          statesOf(robot, random, options.quick ? kStatesQuick : kStatesOfPlace);
+          drawnStates(robot, random, options.quick ? kStatesQuick : kStatesOfPlace);
       for (Eigen::Index k = 0; k < states.cols(); ++k) addRandomState(query, states.col(k), costs);
     }
     addRobotRow(names[r], costs, report);
