@@ -268,13 +268,33 @@ std::shared_ptr<RobotQuery> withObstacles(const RobotQuery& query, const py::lis
   return std::make_shared<RobotQuery>(query.withObstacles(std::move(all)));
 }
 
-/// (n, k) float64 or a dict of standard deviations by name.
+/// A (k, k) covariance, or a dict of standard deviations by name.
 Eigen::MatrixXd jointErrorFrom(const Robot& robot, const py::object& value) {
   if (value.is_none()) return {};
   if (py::isinstance<py::dict>(value)) {
-    return jointCovariance(robot, value.cast<std::map<std::string, double>>());
+    try {
+      return jointCovariance(robot, value.cast<std::map<std::string, double>>());
+    } catch (const py::cast_error&) {
+      throw py::type_error("joint_error must have a number for each name, not " + textOf(value));
+    }
   }
-  return value.cast<Eigen::MatrixXd>();
+  const Numbers numbers(value, "joint_error");
+  const std::size_t count = robot.joints().size();
+  const auto size = static_cast<std::ptrdiff_t>(count);
+  if (!numbers.hasShape({size, size})) numbers.refuseShape("(k, k) for k joints");
+  Eigen::MatrixXd covariance(size, size);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = numbers.at(i, j);
+    }
+  }
+  return covariance;
+}
+
+PoseError baseErrorFrom(const py::object& value) {
+  const Randomness randomness = randomnessFrom(value, "base_error");
+  if (const auto* error = std::get_if<PoseError>(&randomness)) return *error;
+  throw py::type_error("base_error must be a PoseError, not " + textOf(value));
 }
 
 RobotResult state(const RobotQuery& query, const py::object& values, const py::object& joint_error,
@@ -282,7 +302,7 @@ RobotResult state(const RobotQuery& query, const py::object& values, const py::o
   const Eigen::VectorXd at = jointValues(query.robot(), values, "values");
   RobotErrors errors;
   errors.joints = jointErrorFrom(query.robot(), joint_error);
-  if (!base_error.is_none()) errors.base = base_error.cast<PoseError>();
+  if (!base_error.is_none()) errors.base = baseErrorFrom(base_error);
   return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
     return errors.none() ? query.state(at, of) : query.state(at, errors, of);
   });

@@ -355,3 +355,8 @@ def test_errors_of_joints_and_base():
     assert query.state(values, base_error=base, relative_tolerance=0.05).probability > 0
     with pytest.raises(fcl_prob.InvalidRequest):
         query.state(values, joint_error={"nowhere": 0.1})
+    for wrong in ({"joint_error": {"turn": "far"}}, {"base_error": error}):
+        with pytest.raises(TypeError):
+            query.state(values, **wrong)
+    with pytest.raises(ValueError):
+        query.state(values, joint_error=np.eye(2))
