@@ -50,8 +50,10 @@ const std::vector<Benchmark>& benchmarks() {
       {"pose_pairs",
        "random ellipsoids and superquadrics with errors of the pose, as others draw them", false,
        benchPosePairs},
+#ifdef FCL_PROB_HAS_ROBOT
       {"random-states", "decisions on random states of a KUKA and a Fetch beside a person", true,
        benchRandomStates},
+#endif
       {"stability", "stiff and extreme scenes whose P is known in 100 digits", false,
        benchStability},
       {"table1", "the paper's Table I on six scenes, with all of its rows and more", true,

@@ -66,9 +66,11 @@ BenchReport benchMixed(const BenchOptions& options, const BenchProgress& progres
 BenchReport benchParts(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchPose(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchPosePairs(const BenchOptions& options, const BenchProgress& progress);
-BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchStability(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable1(const BenchOptions& options, const BenchProgress& progress);
+#ifdef FCL_PROB_HAS_ROBOT
+BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& progress);
+#endif
 #ifdef FCL_PROB_HAS_PLANNING
 BenchReport benchStates(const BenchOptions& options, const BenchProgress& progress);
 BenchReport benchTable2(const BenchOptions& options, const BenchProgress& progress);
