@@ -68,4 +68,13 @@ class RoundWorkers {
   std::unique_ptr<tbb::task_arena> arena_;
 };
 
+/// Calls `work(i)` for every i below `count`, on several threads, where no piece needs anything
+/// that it must not share.
+template <typename Work>
+void onThreads(unsigned threads, std::size_t count, const Work& work) {
+  struct None {};
+  const auto none = [] { return std::make_unique<None>(); };
+  RoundWorkers<None>(threads, none()).run(count, none, [&](None&, std::size_t i) { work(i); });
+}
+
 }  // namespace fcl_prob::detail

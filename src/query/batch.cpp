@@ -2,16 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/batch.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include <algorithm>
 #include <mutex>
 #include <string>
 #include <variant>
 
+#include "base/round_workers.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
@@ -32,21 +27,9 @@ class Batch {
   }
 
   BatchResult run() {
-    if (request_.query.threads == 1) {
-      for (std::size_t i = 0; i < waypoints_.size() && !cancelled(); ++i) answer(i);
-    } else {
-      tbb::task_arena arena(static_cast<int>(std::min(
-          request_.query.threads, static_cast<unsigned>(tbb::info::default_concurrency()))));
-      // Each waypoint is a task of its own: their costs differ by orders of magnitude.
-      arena.execute([this] {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, waypoints_.size(), 1),
-            [this](const tbb::blocked_range<std::size_t>& range) {
-              for (std::size_t i = range.begin(); i < range.end() && !cancelled(); ++i) answer(i);
-            },
-            tbb::simple_partitioner());
-      });
-    }
+    detail::onThreads(request_.query.threads, waypoints_.size(), [this](std::size_t i) {
+      if (!cancelled()) answer(i);
+    });
     result_.cancelled = result_.done < waypoints_.size();
     result_.path = pathBounds();
     return std::move(result_);

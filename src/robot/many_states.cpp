@@ -2,16 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/many_states.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include <algorithm>
 #include <atomic>
 #include <mutex>
 
 #include "base/number_text.h"
+#include "base/round_workers.h"
 #include "base/stopwatch.h"
 #include "fcl_prob/exceptions.h"
 
@@ -28,27 +23,12 @@ class ManyStates {
         decisions_(states.cols(), ProbableDecision::undecided) {}
 
   std::vector<ProbableDecision> run() {
-    const auto threads =
-        std::min(request_.threads, static_cast<unsigned>(tbb::info::default_concurrency()));
-    if (threads == 1) {
-      for (Eigen::Index i = 0; i < states_.cols(); ++i) answer(i);
-      return std::move(decisions_);
-    }
-    tbb::task_arena arena(static_cast<int>(threads));
-    // Costs differ by orders of magnitude: a state is a task of its own.
-    arena.execute([this] {
-      tbb::parallel_for(
-          tbb::blocked_range<Eigen::Index>(0, states_.cols(), 1),
-          [this](const tbb::blocked_range<Eigen::Index>& range) {
-            for (Eigen::Index i = range.begin(); i < range.end(); ++i) answer(i);
-          },
-          tbb::simple_partitioner());
-    });
+    onThreads(request_.threads, decisions_.size(), [this](std::size_t i) { answer(i); });
     return std::move(decisions_);
   }
 
  private:
-  void answer(Eigen::Index i) {
+  void answer(std::size_t i) {
     if (cancelled_) return;
     ProbabilityRequest of_one = request_;
     of_one.threads = 1;
@@ -60,7 +40,7 @@ class ManyStates {
     if (request_.on_progress) {
       of_one.on_progress = [this](const ProbabilityProgress& progress) { return tell(progress); };
     }
-    decisions_[static_cast<std::size_t>(i)] = decide_(states_.col(i), of_one);
+    decisions_[i] = decide_(states_.col(static_cast<Eigen::Index>(i)), of_one);
     ++done_;
     if (request_.on_progress) tell({});
   }
