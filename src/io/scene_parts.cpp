@@ -34,10 +34,8 @@ MeshFile readMeshFile(StrictObject& object, const std::filesystem::path& folder)
   return mesh;
 }
 
-void readPose(StrictObject& object, SceneObject& result) {
-  if (!object.has("pose")) return;
-  const std::vector<double> numbers = object.numbers("pose");
-  result.pose = located(object, "pose", [&] { return poseFrom(numbers); });
+void addPose(StrictObject& object, SceneObject& result) {
+  if (const auto pose = readPose(object, "pose")) result.pose = *pose;
 }
 
 // A map or a reconstructed cloud, which come with bands of their own.
@@ -55,6 +53,12 @@ SceneObject readMeasured(StrictObject& object, const std::filesystem::path& fold
 
 }  // namespace
 
+std::optional<fcl::Transform3d> readPose(StrictObject& object, const std::string& key) {
+  if (!object.has(key)) return std::nullopt;
+  const std::vector<double> numbers = object.numbers(key);
+  return located(object, key, [&] { return poseFrom(numbers); });
+}
+
 SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& folder) {
   SceneObject result;
   std::vector<std::string> kinds = primitiveNames();
@@ -65,14 +69,14 @@ SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& 
   } else {
     result.shape = readPrimitive(object, kind);
   }
-  readPose(object, result);
+  addPose(object, result);
   return result;
 }
 
 SceneObject readObject(StrictObject object, const std::filesystem::path& folder) {
   const bool measured = object.has("cloud") || object.has("octomap");
   SceneObject result = measured ? readMeasured(object, folder) : readShapeAndPose(object, folder);
-  if (measured) readPose(object, result);
+  if (measured) addPose(object, result);
   if (object.has("band")) {
     const std::vector<double> numbers = object.numbers("band");
     result.band = located(object, "band", [&] { return bandFrom(numbers); });

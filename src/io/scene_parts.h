@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "fcl_prob/scene_io.h"
 #include "io/strict_json.h"
@@ -14,6 +15,9 @@ namespace fcl_prob::detail {
 SceneObject readObject(StrictObject object, const std::filesystem::path& folder);
 GaussianDisplacement readDisplacement(StrictObject object);
 PoseError readPoseError(StrictObject object);
+
+/// What a key says, if it is there; the caller calls finish().
+std::optional<fcl::Transform3d> readPose(StrictObject& object, const std::string& key);
 
 /// \param request  what holds where the object says nothing
 ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request = {});

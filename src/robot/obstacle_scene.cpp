@@ -2,21 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/obstacle_scene.h"
 
-#include "fcl_prob/exceptions.h"
-#include "io/quantities.h"
 #include "io/scene_parts.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-fcl::Transform3d readPoseOf(StrictObject& object) {
-  const std::vector<double> numbers = object.numbers("pose");
-  try {
-    return poseFrom(numbers);
-  } catch (const Exception& error) {
-    object.fail("pose", error.what());
-  }
-}
 
 SceneObject readBody(StrictObject object, const std::filesystem::path& folder) {
   SceneObject body = readShapeAndPose(object, folder);
@@ -31,7 +20,7 @@ void readBodies(StrictObject& object, const std::filesystem::path& folder,
     obstacle.object = readShapeAndPose(object, folder);
     return;
   }
-  if (object.has("pose")) obstacle.object.pose = readPoseOf(object);
+  if (const auto pose = readPose(object, "pose")) obstacle.object.pose = *pose;
   if (object.oneOf({"bodies", "robot"}) == "bodies") {
     for (StrictObject& body : object.objects("bodies")) {
       obstacle.bodies.push_back(readBody(std::move(body), folder));
@@ -53,14 +42,7 @@ std::vector<ObstacleState> readStatesOverTime(StrictObject& object,
   std::vector<ObstacleState> states;
   for (StrictObject& entry : object.objects("over_time")) {
     ObstacleState state{obstacle.object.pose, obstacle.displacement};
-    if (entry.has("pose")) {
-      const std::vector<double> numbers = entry.numbers("pose");
-      try {
-        state.pose = poseFrom(numbers);
-      } catch (const Exception& error) {
-        entry.fail("pose", error.what());
-      }
-    }
+    if (const auto pose = readPose(entry, "pose")) state.pose = *pose;
     if (entry.has("displacement")) {
       state.displacement = readDisplacement(entry.object("displacement"));
     }

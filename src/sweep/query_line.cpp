@@ -29,11 +29,6 @@ auto located(StrictObject& object, const std::string& key, const Convert& conver
   }
 }
 
-std::optional<fcl::Transform3d> readPose(StrictObject& object, const std::string& key) {
-  if (!object.has(key)) return std::nullopt;
-  return located(object, key, [](const auto& numbers) { return detail::poseFrom(numbers); });
-}
-
 /// The shape without its pose, as a text.
 std::string shapeKey(Json shape) {
   if (shape.is_object()) shape.erase("pose");
@@ -95,8 +90,8 @@ void readQueryLine(const NumberedLine& line, const std::filesystem::path& folder
     query.id = id.is_number() ? Json(object.count("id")) : Json(object.text("id"));
   }
   readShapes(object, document, folder, query);
-  query.pose_a = readPose(object, "pose_a");
-  query.pose_b = readPose(object, "pose_b");
+  query.pose_a = detail::readPose(object, "pose_a");
+  query.pose_b = detail::readPose(object, "pose_b");
   readRandomness(object, query);
   if (object.has("request")) {
     detail::readRequest(object.object("request"));
