@@ -92,7 +92,8 @@ Bounds Table2Paths::motionOf(const FoundPath& path) const {
       obstacles[j].over_time.push_back({by_then[j].pose, by_then[j].displacement});
     }
   }
-  return RobotQuery(scene_.robot(), std::move(obstacles))
+  return scene_.around[0]
+      ->query.withObstacles(std::move(obstacles))
       .motion(path.states, ErrorsOverTime::any_dependence, request)
       .any;
 }

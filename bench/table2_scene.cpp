@@ -89,7 +89,8 @@ class Table2Models {
             state({0.065, -0.258, -0.555, 1.794, 0.917, -1.092, 0.260}),
             state({-0.263, -0.143, 0.968, 1.845, -0.800, -0.789, -0.616}),
             armJoints(),
-            {std::make_shared<Table2Around>(arm_->withAttached(held), std::move(obstacles))}};
+            {std::make_shared<Table2Around>(
+                RobotQuery(arm_->withAttached(held), std::move(obstacles)))}};
   }
 
   Table2Scene waving() const {
@@ -129,8 +130,9 @@ class Table2Models {
                       state({-0.132, 0.786, -0.835, -1.871, 0.423, 0.755, 0.261}),
                       armJoints(),
                       {}};
+    const RobotQuery first(*arm_, {arms.front()});
     for (const Obstacle& arm : arms) {
-      scene.around.push_back(std::make_shared<Table2Around>(*arm_, std::vector<Obstacle>{arm}));
+      scene.around.push_back(std::make_shared<Table2Around>(first.withObstacles({arm})));
     }
     return scene;
   }

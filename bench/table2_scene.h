@@ -21,8 +21,7 @@ struct ExactObstacle {
 
 /// The robot among obstacles where they are at one time.
 struct Table2Around {
-  Table2Around(const fcl_prob::Robot& robot, std::vector<Obstacle> obstacles)
-      : query(robot, std::move(obstacles)), screen(query.among()) {}
+  explicit Table2Around(RobotQuery of) : query(std::move(of)), screen(query.among()) {}
 
   RobotQuery query;  ///< arm, gripper and what it holds
   detail::StateScreen screen;
