@@ -126,8 +126,7 @@ class CertifiedRow {
   }
 
   double operator()(const Table2State& state, double enough) const {
-    if (state.screen.isBelow(state.values, enough)) return 0.0;
-    if (state.screen.isHardlyBelow(state.values, enough)) return 1.0;
+    if (const auto told = state.screen.tell(state.values, enough)) return *told ? 0.0 : 1.0;
     return state.query.state(state.values, request_).decision == Decision::below ? 0.0 : 1.0;
   }
 
@@ -145,8 +144,7 @@ class ProbableRow {
   }
 
   double operator()(const Table2State& state, double enough) const {
-    if (state.screen.isBelow(state.values, enough)) return 0.0;
-    if (state.screen.isHardlyBelow(state.values, enough)) return 1.0;
+    if (const auto told = state.screen.tell(state.values, enough)) return *told ? 0.0 : 1.0;
     const ProbableDecision decision =
         state.query.decideProbably({state.values}, threshold_, kChanceOfError, request_).decision;
     const bool below = decision == ProbableDecision::certainly_below ||

@@ -145,6 +145,7 @@ class RobotQuery {
   const std::vector<Obstacle>& obstacles() const;
   const std::vector<AllowedContact>& allowed() const;
 
+  /// What the query is made of, for other parts of this library.
   const detail::RobotAmongObstacles& among() const;
 
   /// The same robot among other obstacles. What was prepared is shared, that of obstacles of the
@@ -163,7 +164,7 @@ class RobotQuery {
   /// In one state that is known up to errors of the joints and the base: P over these and all
   /// displacements. An estimate, whose threshold is decided with ProbabilityRequest::confidence;
   /// `any` is [0, 1] but where the errors turn out to be none. Values that are drawn may be beyond
-  /// the limits of joints. There is no answer by obstacle.
+  /// the limits of joints. There is no answer by obstacle. Where no errors are given: as state().
   /// \param request  method automatic, estimate or monte_carlo
   /// \throws InvalidDistribution for a covariance that is none, or not of the robot's joints;
   ///         UnsupportedGeometry for method interval, and where contact with some obstacles only

@@ -12,6 +12,7 @@
 #include "fcl_prob/exceptions.h"
 #include "planning/motion_descent.h"
 #include "planning/moving_joints.h"
+#include "robot/moving_obstacle.h"
 #include "robot/state_screen.h"
 
 namespace fcl_prob {
@@ -59,11 +60,7 @@ class CertifiedPlanner {
     }
     validateRequest(request.state);
     detail::refuseBand(request.state, "robots");
-    for (const Obstacle& obstacle : query.obstacles()) {
-      if (obstacle.over_time.empty()) continue;
-      throw InvalidRequest("obstacle " + obstacle.name +
-                           " moves: plans are for obstacles that stay where they are");
-    }
+    detail::requireStaying(query.obstacles(), "plans are");
     const auto is_same = [](const RobotJoint& x, const RobotJoint& y) { return x.name == y.name; };
     const auto &x = self.robot().joints(), &y = query.robot().joints();
     if (!std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same)) {
@@ -103,8 +100,7 @@ class CertifiedPlanner {
     return [this, &state, states](const Eigen::VectorXd& values) mutable {
       ++states;
       if (self_.collides(values)) return false;
-      if (screen_.isBelow(values, *state.threshold)) return true;
-      if (screen_.isHardlyBelow(values, *state.threshold)) return false;
+      if (const auto told = screen_.tell(values, *state.threshold)) return *told;
       return query_.state(values, withinLimits(state, states, false)).decision == Decision::below;
     };
   }

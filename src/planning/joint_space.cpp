@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "planning/moving_joints.h"
+#include "robot/joint_indices.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -94,12 +95,7 @@ JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
 
 void JointSpace::chooseJoints(const Robot& robot, const Eigen::VectorXd& goal) {
   const auto& joints = robot.joints();
-  for (const std::string& name : request_.joints) {
-    const auto is_it = [&name](const RobotJoint& joint) { return joint.name == name; };
-    if (std::none_of(joints.begin(), joints.end(), is_it)) {
-      throw InvalidRequest(robot.name() + " has no joint " + name + " that moves by itself");
-    }
-  }
+  for (const std::string& name : request_.joints) jointIndex(robot, name);
   indices_ = movingJoints(robot, request_.joints);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const auto index = static_cast<Eigen::Index>(i);

@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 
-#include <algorithm>
-
 #include "base/refuse_band.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/ompl.h"
+#include "robot/joint_indices.h"
+#include "robot/moving_obstacle.h"
 #include "robot/robot_among_obstacles.h"
 #include "robot/state_screen.h"
 
@@ -19,23 +19,11 @@ constexpr double kStepOfSelf = 0.05;
 /// The part of a motion that is told as valid is found by so many halvings.
 constexpr int kHalvings = 6;
 
-std::vector<Eigen::Index> indicesOf(const Robot& robot, const std::vector<std::string>& names) {
-  std::vector<Eigen::Index> indices;
-  const auto& joints = robot.joints();
-  for (std::size_t i = 0; names.empty() && i < joints.size(); ++i) {
-    indices.push_back(static_cast<Eigen::Index>(i));
+std::vector<Eigen::Index> coordinatesOf(const Robot& robot, std::vector<std::string> names) {
+  if (names.empty()) {
+    for (const RobotJoint& joint : robot.joints()) names.push_back(joint.name);
   }
-  for (const std::string& name : names) {
-    const auto found = std::find_if(joints.begin(), joints.end(),
-                                    [&](const RobotJoint& joint) { return joint.name == name; });
-    const Eigen::Index index = found - joints.begin();
-    if (found == joints.end()) throw InvalidRequest(robot.name() + " has no joint " + name);
-    if (std::count(indices.begin(), indices.end(), index) > 0) {
-      throw InvalidRequest("the joint " + name + " is named twice");
-    }
-    indices.push_back(index);
-  }
-  return indices;
+  return detail::jointIndices(robot, names);
 }
 
 }  // namespace
@@ -60,13 +48,9 @@ RobotRisk::RobotRisk(std::shared_ptr<const RobotQuery> query,
   validateRequest(request);
   detail::refuseBand(request, "robots");
   query->robot().requireWithinLimits(rest);
-  for (const Obstacle& obstacle : query->obstacles()) {
-    if (obstacle.over_time.empty()) continue;
-    throw InvalidRequest("obstacle " + obstacle.name +
-                         " moves: plans are for obstacles that stay where they are");
-  }
+  detail::requireStaying(query->obstacles(), "plans are");
   const detail::RobotAmongObstacles& among = query->among();
-  std::vector<Eigen::Index> indices = indicesOf(query->robot(), joints);
+  std::vector<Eigen::Index> indices = coordinatesOf(query->robot(), joints);
   implementation_.reset(new Implementation{std::move(query), std::move(self), std::move(indices),
                                            rest, request, motion_cells,
                                            detail::StateScreen(among)});
@@ -84,8 +68,7 @@ Eigen::VectorXd RobotRisk::valuesOf(const ompl::base::State* state) const {
 bool RobotRisk::isValid(const Eigen::VectorXd& values) const {
   const Implementation& of = *implementation_;
   if (!of.query->robot().isWithinLimits(values) || of.touchesItself(values)) return false;
-  if (of.screen.isBelow(values, threshold())) return true;
-  if (of.screen.isHardlyBelow(values, threshold())) return false;
+  if (const auto told = of.screen.tell(values, threshold())) return *told;
   return of.query->state(values, of.request).decision == Decision::below;
 }
 

@@ -304,7 +304,7 @@ RobotResult state(const RobotQuery& query, const py::object& values, const py::o
   errors.joints = jointErrorFrom(query.robot(), joint_error);
   if (!base_error.is_none()) errors.base = baseErrorFrom(base_error);
   return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
-    return errors.none() ? query.state(at, of) : query.state(at, errors, of);
+    return query.state(at, errors, of);
   });
 }
 

@@ -22,20 +22,24 @@ double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
 
 }  // namespace
 
+double bodyUpper(const PreparedGeometry& body, const fcl::Transform3d& pose,
+                 const PreparedObstacle& obstacle, const std::vector<fcl::Transform3d>& poses,
+                 const GaussianDisplacement& of_bodies) {
+  const PreparedGeometries& others = obstacle.geometries();
+  double upper = upperOfPair(body, pose, *others[0], poses[0], of_bodies);
+  for (std::size_t i = 1; i < poses.size() && upper < 1.0; ++i) {
+    upper = sumAbove(upper, upperOfPair(body, pose, *others[i], poses[i], of_bodies));
+  }
+  return std::min(1.0, upper);
+}
+
 BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
                        const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
                        const GaussianDisplacement& of_bodies) {
   const std::vector<fcl::Transform3d> poses = obstacle.poses(pose);
   for (const PlacedBody& body : bodies) {
-    const auto upperOf = [&](std::size_t i) {
-      return upperOfPair(*geometries[body.body], body.pose, *obstacle.geometries()[i], poses[i],
-                         of_bodies);
-    };
-    double upper = upperOf(0);
-    for (std::size_t i = 1; i < poses.size() && upper < 1.0; ++i) {
-      upper = sumAbove(upper, upperOf(i));
-    }
-    bounds_.push_back({body, std::min(1.0, upper)});
+    bounds_.push_back(
+        {body, bodyUpper(*geometries[body.body], body.pose, obstacle, poses, of_bodies)});
   }
   std::stable_sort(bounds_.begin(), bounds_.end(),
                    [](const Bound& x, const Bound& y) { return x.upper > y.upper; });

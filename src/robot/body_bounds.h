@@ -11,6 +11,13 @@
 
 namespace fcl_prob::detail {
 
+/// Certainly not below P that a body touches the obstacle.
+/// \param poses      of the bodies of the obstacle
+/// \param of_bodies  the displacement of the robot's bodies relative to it
+double bodyUpper(const PreparedGeometry& body, const fcl::Transform3d& pose,
+                 const PreparedObstacle& obstacle, const std::vector<fcl::Transform3d>& poses,
+                 const GaussianDisplacement& of_bodies);
+
 /// The bodies of one query, each with a bound on P that it touches the obstacle. Their sum bounds P
 /// that any of them does.
 class BodyBounds {

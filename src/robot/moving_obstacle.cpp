@@ -66,6 +66,14 @@ void requireStates(const Obstacle& obstacle, std::size_t waypoints) {
                        std::to_string(waypoints));
 }
 
+void requireStaying(const std::vector<Obstacle>& obstacles, const std::string& what) {
+  for (const Obstacle& obstacle : obstacles) {
+    if (obstacle.over_time.empty()) continue;
+    throw InvalidRequest("obstacle " + obstacle.name + " moves: " + what +
+                         " for obstacles that stay where they are");
+  }
+}
+
 std::vector<Eigen::Vector3d> offsetsSinceFirst(const Obstacle& obstacle, std::size_t waypoints) {
   std::vector<Eigen::Vector3d> offsets(waypoints, Eigen::Vector3d::Zero());
   if (obstacle.over_time.empty()) return offsets;

@@ -3,6 +3,7 @@
 // Obstacles that are elsewhere, or less certain, at every waypoint.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "fcl_prob/robot_query.h"
@@ -15,6 +16,10 @@ ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint);
 
 /// \throws InvalidRequest unless it stays or has one state a waypoint
 void requireStates(const Obstacle& obstacle, std::size_t waypoints);
+
+/// \param what  is only for those that stay, as "plans are"
+/// \throws InvalidRequest naming the first that moves
+void requireStaying(const std::vector<Obstacle>& obstacles, const std::string& what);
 
 /// How far the obstacle has moved since the first of so many waypoints, its mean displacement
 /// included: with that, an error that is the same all along is one displacement of one obstacle.

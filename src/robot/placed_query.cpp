@@ -2,15 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/placed_query.h"
 
-#include <fcl/narrowphase/collision.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "base/budget.h"
 #include "base/decision.h"
 #include "base/statistics.h"
-#include "fcl_prob/monte_carlo.h"
 #include "query/groups_query.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
@@ -88,25 +85,6 @@ ProbabilityResult allUnlikely(double upper) {
   return result;
 }
 
-/// Whether fcl::collide finds them in contact where the obstacle is expected.
-bool touchesInTheMean(const ObstacleAmongBodies& scene, const ObstacleState& state,
-                      const PlacedBody& body, const Eigen::Vector3d& mean) {
-  fcl::Transform3d expected = state.pose;
-  expected.translation() += mean;
-  const std::vector<fcl::Transform3d> poses = scene.obstacle.poses(expected);
-  const fcl::CollisionGeometryd& geometry = scene.bodies[body.body]->geometry();
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const fcl::CollisionGeometryd& other = scene.obstacle.geometries()[i]->geometry();
-    if (!fclSupportsPair(geometry, other)) continue;
-    fcl::CollisionResultd result;
-    if (fcl::collide(&geometry, body.pose, &other, poses[i], fcl::CollisionRequestd(), result) >
-        0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// A body that touches the obstacle where it is expected is often above the threshold alone, and
 /// one that is convex beside a mesh takes a part of the time of all. Nothing where it is not.
 /// \param bodies  the likeliest first
@@ -116,8 +94,10 @@ std::optional<ProbabilityResult> aboveByOne(const ObstacleAmongBodies& scene,
                                             const GaussianDisplacement& displacement,
                                             ProbabilityRequest request,
                                             ProbabilityStatistics& spent) {
+  fcl::Transform3d expected = state.pose;
+  expected.translation() += displacement.mean();
   const auto touching = std::find_if(bodies.begin(), bodies.end(), [&](const PlacedBody& body) {
-    return touchesInTheMean(scene, state, body, displacement.mean());
+    return scene.obstacle.touches(scene.bodies[body.body]->geometry(), body.pose, expected);
   });
   if (touching == bodies.end()) return std::nullopt;
   request.max_cells = std::min(request.max_cells, kCellsOfOne);

@@ -110,16 +110,12 @@ void addWaypoints(std::size_t obstacles, RobotResult& result) {
 struct RobotQuery::Implementation {
   explicit Implementation(detail::RobotAmongObstacles of) : among(std::move(of)) {}
 
-  void validate(const std::vector<Eigen::VectorXd>& waypoints,
-                const ProbabilityRequest& request) const {
+  void validate(const ProbabilityRequest& request) const {
     validateRequest(request);
     detail::refuseBand(request, "robots");
     if (request.gradient) {
       throw InvalidRequest("a gradient was asked for: robots have none");
     }
-    if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
-    detail::requireWithinLimits(among.robot(), waypoints);
-    for (const Obstacle& obstacle : obstacles()) detail::requireStates(obstacle, waypoints.size());
     // Open meshes are refused wherever they are.
     for (const auto& geometry : among.geometries()) geometry->solid(request.contact);
     for (std::size_t i = 0; i < obstacles().size(); ++i) {
@@ -127,6 +123,14 @@ struct RobotQuery::Implementation {
         geometry->solid(request.contact);
       }
     }
+  }
+
+  void validate(const std::vector<Eigen::VectorXd>& waypoints,
+                const ProbabilityRequest& request) const {
+    validate(request);
+    if (waypoints.empty()) throw InvalidRequest("a motion needs a waypoint");
+    detail::requireWithinLimits(among.robot(), waypoints);
+    for (const Obstacle& obstacle : obstacles()) detail::requireStates(obstacle, waypoints.size());
   }
 
   const std::vector<Obstacle>& obstacles() const { return among.obstacles(); }
@@ -362,6 +366,7 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 
 RobotResult RobotQuery::state(const Eigen::VectorXd& values, const RobotErrors& errors,
                               const ProbabilityRequest& of_user) const {
+  if (errors.none()) return state(values, of_user);
   implementation_->validate({values}, of_user);
   const ProbabilityRequest request = detail::ofOneCall(of_user);
   const ProbabilityResult answer =
@@ -414,9 +419,9 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
     const Eigen::MatrixXd& states, const ProbabilityRequest& request,
     std::optional<double> chance_of_error) const {
   if (!request.threshold) throw InvalidRequest("states are decided against a threshold");
-  for (Eigen::Index i = 0; i < states.cols(); ++i) {
-    implementation_->validate({states.col(i)}, request);
-  }
+  implementation_->validate(request);
+  for (Eigen::Index i = 0; i < states.cols(); ++i) robot().requireWithinLimits(states.col(i));
+  for (const Obstacle& obstacle : obstacles()) detail::requireStates(obstacle, 1);
   if (chance_of_error) detail::requireChance(*chance_of_error);
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
     if (!chance_of_error) {

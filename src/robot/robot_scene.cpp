@@ -7,6 +7,7 @@
 #include "io/quantities.h"
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
+#include "robot/joint_indices.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_scene.h"
 #include "robot/robot_notes.h"
@@ -36,14 +37,7 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
       scene.attached.push_back(readAttached(std::move(attached), folder));
     }
   }
-  if (object.has("base")) {
-    const std::vector<double> numbers = object.numbers("base");
-    try {
-      scene.robot.base = detail::poseFrom(numbers);
-    } catch (const Exception& error) {
-      object.fail("base", error.what());
-    }
-  }
+  if (const auto base = detail::readPose(object, "base")) scene.robot.base = *base;
   object.finish();
 }
 
@@ -210,12 +204,7 @@ RobotErrors errorsOf(const RobotScene& scene, const Robot& robot) {
   errors.base = scene.base_error;
   if (!scene.joint_error) return errors;
   errors.joints = jointCovariance(robot, scene.joint_error->sigma);
-  std::vector<Eigen::Index> at;
-  for (const std::string& name : scene.joint_error->joints) {
-    Eigen::Index where = 0;
-    jointCovariance(robot, {{name, 1.0}}).diagonal().maxCoeff(&where);
-    at.push_back(where);
-  }
+  const auto at = detail::jointIndices(robot, scene.joint_error->joints);
   for (std::size_t i = 0; i < at.size(); ++i) {
     for (std::size_t j = 0; j < at.size(); ++j) {
       errors.joints(at[i], at[j]) =

@@ -2,13 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/state_screen.h"
 
-#include <fcl/narrowphase/collision.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "base/random_words.h"
-#include "fcl_prob/monte_carlo.h"
 #include "robot/body_bounds.h"
 
 namespace fcl_prob::detail {
@@ -47,7 +44,12 @@ StateScreen::StateScreen(const RobotAmongObstacles& among) : among_(among) {
                  std::holds_alternative<GaussianDisplacement>(obstacle.displacement);
   }
   if (!is_usable_) return;
-  for (std::size_t j = 0; j < among.obstacles().size(); ++j) draw(among.obstacles()[j], j);
+  for (std::size_t j = 0; j < among.obstacles().size(); ++j) {
+    const Obstacle& obstacle = among.obstacles()[j];
+    draw(obstacle, j);
+    at_.push_back(among.preparedObstacle(j).poses(obstacle.pose));
+    of_bodies_.push_back(std::get<GaussianDisplacement>(obstacle.displacement).reversed());
+  }
 }
 
 void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
@@ -61,32 +63,38 @@ void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
   moved_.push_back(std::move(moved));
 }
 
-bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold) const {
-  if (!is_usable_) return false;
+std::optional<bool> StateScreen::tell(const Eigen::VectorXd& values, double threshold) const {
+  if (!is_usable_) return std::nullopt;
   const std::vector<fcl::Transform3d> poses = among_.robot().poses(values);
+  if (isBelow(poses, threshold)) return true;
+  if (isHardlyBelow(poses, threshold)) return false;
+  return std::nullopt;
+}
+
+bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const {
+  return is_usable_ && isBelow(among_.robot().poses(values), threshold);
+}
+
+bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold) const {
+  return is_usable_ && isHardlyBelow(among_.robot().poses(values), threshold);
+}
+
+bool StateScreen::isBelow(const std::vector<fcl::Transform3d>& poses, double threshold) const {
+  return pairsBelow(poses, kNegligible * threshold, threshold).has_value();
+}
+
+bool StateScreen::isHardlyBelow(const std::vector<fcl::Transform3d>& poses,
+                                double threshold) const {
   const auto near =
       pairsBelow(poses, kNegligible * threshold, std::numeric_limits<double>::infinity());
   const double enough = kTimesAsOften * threshold * kDraws + kMoreHits;
-  const auto touch = [&](const Pair& pair, std::size_t draw) {
-    const fcl::CollisionGeometryd& body = among_.geometries()[pair.body]->geometry();
-    fcl::Transform3d moved = among_.obstacles()[pair.obstacle].pose;
-    moved.translation() += moved_[pair.obstacle][draw];
-    const PreparedObstacle& obstacle = among_.preparedObstacle(pair.obstacle);
-    const std::vector<fcl::Transform3d> at = obstacle.poses(moved);
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      const fcl::CollisionGeometryd& other = obstacle.geometries()[k]->geometry();
-      if (!fclSupportsPair(body, other)) continue;
-      fcl::CollisionResultd result;
-      if (fcl::collide(&body, poses[pair.body], &other, at[k], fcl::CollisionRequestd(), result) >
-          0) {
-        return true;
-      }
-    }
-    return false;
-  };
   const auto isHit = [&](std::size_t draw) {
     return std::any_of(near->begin(), near->end(), [&](const Pair& pair) {
-      return pair.upper >= kShareOfPair * threshold && touch(pair, draw);
+      if (pair.upper < kShareOfPair * threshold) return false;
+      fcl::Transform3d moved = among_.obstacles()[pair.obstacle].pose;
+      moved.translation() += moved_[pair.obstacle][draw];
+      return among_.preparedObstacle(pair.obstacle)
+          .touches(among_.geometries()[pair.body]->geometry(), poses[pair.body], moved);
     });
   };
   int hits = 0;
@@ -104,16 +112,13 @@ std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
   for (std::size_t j = 0; j < among_.obstacles().size(); ++j) {
     const Obstacle& obstacle = among_.obstacles()[j];
     const PreparedObstacle& prepared = among_.preparedObstacle(j);
-    const GaussianDisplacement of_bodies =
-        std::get<GaussianDisplacement>(obstacle.displacement).reversed();
     const Ball around = prepared.around().placed(obstacle.pose);
     for (const std::size_t i : among_.bodiesOf(j)) {
       double upper =
           farContactUpper(among_.balls()[i].placed(poses[i]), around, obstacle.displacement);
       if (upper > negligible) {
-        const BodyBounds bound(among_.geometries(), {{i, poses[i]}}, prepared, obstacle.pose,
-                               of_bodies);
-        upper = std::min(upper, bound.sum());
+        upper = std::min(
+            upper, bodyUpper(*among_.geometries()[i], poses[i], prepared, at_[j], of_bodies_[j]));
       }
       pairs.push_back({i, j, upper});
       sum += upper;
@@ -121,12 +126,6 @@ std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
     }
   }
   return pairs;
-}
-
-bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const {
-  if (!is_usable_) return false;
-  const auto poses = among_.robot().poses(values);
-  return pairsBelow(poses, kNegligible * threshold, threshold).has_value();
 }
 
 }  // namespace fcl_prob::detail

@@ -17,6 +17,10 @@ class StateScreen {
   /// \param among  must outlive this
   explicit StateScreen(const RobotAmongObstacles& among);
 
+  /// Whether P is below `threshold`, by isBelow() or isHardlyBelow(); nothing: not known.
+  /// \param values  valid ones
+  std::optional<bool> tell(const Eigen::VectorXd& values, double threshold) const;
+
   /// Whether P(any body touches any obstacle) is certainly below `threshold`; false: not known.
   /// \param values  valid ones
   bool isBelow(const Eigen::VectorXd& values, double threshold) const;
@@ -33,12 +37,17 @@ class StateScreen {
     double upper;  ///< certainly not below P that they touch
   };
 
+  bool isBelow(const std::vector<fcl::Transform3d>& poses, double threshold) const;
+  bool isHardlyBelow(const std::vector<fcl::Transform3d>& poses, double threshold) const;
+
   /// All of them, by half-spaces; nothing once their sum is not below `enough`.
   std::optional<std::vector<Pair>> pairsBelow(const std::vector<fcl::Transform3d>& poses,
                                               double negligible, double enough) const;
   void draw(const Obstacle& obstacle, std::uint64_t stream);
 
   const RobotAmongObstacles& among_;
+  std::vector<std::vector<fcl::Transform3d>> at_;    ///< of every obstacle's bodies
+  std::vector<GaussianDisplacement> of_bodies_;      ///< of the bodies relative to each obstacle
   std::vector<std::vector<Eigen::Vector3d>> moved_;  ///< draws of every obstacle's displacement
 
   /// All have bounded hulls, and all displacements are Gaussian.

@@ -6,10 +6,13 @@
 #include <memory>
 #include <utility>
 
+#include "base/decision.h"
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/pose_probability.h"
 #include "fcl_prob/random_configuration.h"
+#include "robot/joint_indices.h"
+#include "robot/moving_obstacle.h"
 
 namespace fcl_prob {
 namespace detail {
@@ -52,10 +55,6 @@ class AmongDisplaced : public RandomConfiguration {
 };
 
 const GaussianDisplacement& gaussianOf(const Obstacle& obstacle) {
-  if (!obstacle.over_time.empty()) {
-    throw InvalidRequest("obstacle " + obstacle.name +
-                         " moves: errors of a robot are for obstacles that stay where they are");
-  }
   const auto* gaussian = std::get_if<GaussianDisplacement>(&obstacle.displacement);
   if (gaussian != nullptr) return *gaussian;
   throw InvalidRequest("obstacle " + obstacle.name +
@@ -88,6 +87,7 @@ Eigen::MatrixXd covarianceOf(const RobotErrors& errors, Eigen::Index joints) {
 // exactly or counted; of several the displacements are drawn with the joints.
 ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
                                   const RobotErrors& errors, const ProbabilityRequest& request) {
+  requireStaying(among.obstacles(), "errors of a robot are");
   const Robot& robot = among.robot();
   const std::vector<std::size_t>& bodies = bodiesOfAll(among);
   std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> a, b;
@@ -108,6 +108,7 @@ ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen:
     ProbabilityResult none;
     none.lower = none.upper = 0.0;
     none.status = ProbabilityStatus::exact;
+    none.decision = decisionOf({0.0, 0.0}, request);
     return none;
   }
   const auto kinematics = [&](const Eigen::VectorXd& drawn) {
@@ -139,9 +140,7 @@ Eigen::MatrixXd jointCovariance(const Robot& robot,
   const auto count = static_cast<Eigen::Index>(robot.joints().size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   for (const auto& [name, deviation] : deviations) {
-    Eigen::Index at = 0;
-    while (at < count && robot.joints()[static_cast<std::size_t>(at)].name != name) ++at;
-    if (at == count) throw InvalidRequest(robot.name() + " has no joint " + name);
+    const Eigen::Index at = detail::jointIndex(robot, name);
     if (!(std::isfinite(deviation) && deviation >= 0.0)) {
       throw InvalidDistribution("the standard deviation of joint " + name + " is " +
                                 detail::numberText(deviation));

@@ -107,6 +107,17 @@ TEST_CASE("errors of a robot that cannot be meant are refused") {
   CHECK_THROWS_AS(query.withObstacles(moving).state(values, errors, {}), InvalidRequest);
 }
 
+TEST_CASE("with errors a threshold is decided even where every contact is allowed") {
+  const RobotQuery query(shippedArm(), ballAndBox(), {{"*", "*"}});
+  RobotErrors errors;
+  errors.joints = jointCovariance(query.robot(), {{"elbow", 0.1}});
+  ProbabilityRequest decision;
+  decision.threshold = 0.05;
+  const RobotResult result = query.state(query.robot().values({}), errors, decision);
+  CHECK(result.any.upper == 0.0);
+  CHECK(result.decision == Decision::below);
+}
+
 TEST_CASE("scenes have errors of joints and base") {
   const TemporaryFolder folder;
   const auto sceneWith = [&](const std::string& errors, const std::string& states) {
@@ -135,6 +146,9 @@ TEST_CASE("scenes have errors of joints and base") {
       FileError);
   CHECK_THROWS_AS(sceneWith(R"("joint_error": {"joints": ["elbow"], "covariance": [1, 2]})", one),
                   FileError);
+  const std::string twice =
+      R"("joint_error": {"joints": ["elbow", "elbow"], "covariance": [0.04, 0.01, 0.09]})";
+  CHECK_THROWS_AS(errorsOf(sceneWith(twice, one), robot), InvalidRequest);
   CHECK_THROWS_AS(errorsOf(sceneWith(R"("joint_error": {"sigma": {"elbwo": 0.1}})", one), robot),
                   InvalidRequest);
   CHECK_THROWS_AS(requireExactRobot(sceneWith(R"("joint_error": {"sigma": {}})", one), "it"),
