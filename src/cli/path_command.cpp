@@ -223,6 +223,9 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
   if (result.standard_error) {
     text += "standard error " + numberText(*result.standard_error, 3) + "\n";
   }
+  if (result.confidence_interval) {
+    text += "confidence interval " + intervalText(*result.confidence_interval) + "\n";
+  }
   if (result.decision != Decision::none) text += "decision: " + toString(result.decision) + "\n";
   text += "status: " + toString(result.status) + "\n";
   text += std::to_string(report.waypoints) + " waypoints, " + errorsTold(scene.errors) + "\n";

@@ -145,6 +145,9 @@ void bindResult(py::module_& module) {
           "upper", [](const R& r) { return r.any.upper; }, "Certified.")
       .def_property_readonly("estimate", [](const R& r) { return orNone(r.estimate); })
       .def_property_readonly("standard_error", [](const R& r) { return orNone(r.standard_error); })
+      .def_property_readonly(
+          "confidence_interval", [](const R& r) { return pairOf(r.confidence_interval); },
+          "With errors of joints or base: (lower, upper), covers P with the stated confidence.")
       .def_property_readonly("decision", [](const R& r) { return decisionOf(r.decision); })
       .def_property_readonly("status", [](const R& r) { return toString(r.status); })
       .def_property_readonly(
@@ -174,6 +177,7 @@ void bindResult(py::module_& module) {
              dict["upper"] = r.any.upper;
              dict["estimate"] = orNone(r.estimate);
              dict["standard_error"] = orNone(r.standard_error);
+             dict["confidence_interval"] = pairOf(r.confidence_interval);
              dict["decision"] = decisionOf(r.decision);
              dict["status"] = toString(r.status);
              dict["by_waypoint"] = pairsOf(r.by_waypoint);

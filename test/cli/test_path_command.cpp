@@ -134,6 +134,31 @@ TEST_CASE("path decides probably where it is asked to", "[cli]") {
   CHECK(runCommand({"path", "--scene", scene, "--probable", "0.1", "--between"}, folder).refused());
 }
 
+TEST_CASE("path answers where joints and base have errors of their own", "[cli]") {
+  const TemporaryFolder folder;
+  folder.write("scene.json", R"({"robot": {"urdf": ")" + dataFile("arm.urdf") +
+                                 R"("}, "joints": {"turn": 0.6, "elbow": 0.3, "grip": 0.02},)"
+                                 R"( "joint_error": {"sigma": {"turn": 0.02}},)"
+                                 R"( "base_error": {"sigma": [0.01, 0.01, 0, 0, 0, 0]},)"
+                                 R"( "obstacles": [{"name": "ball", "sphere": 0.1,)"
+                                 R"( "pose": [0.55, 0.25, 0.35],)"
+                                 R"( "displacement": {"sigma": [0.03, 0.02, 0.04]}}]})");
+  const std::vector<std::string> path{"path", "--scene", folder.path("scene.json")};
+  const auto run = [&](const std::string& option) {
+    std::vector<std::string> all = path;
+    all.push_back(option);
+    return runCommand(all, folder);
+  };
+  const json answer = json::parse(run("--json").out);
+  const double estimate = answer.at("estimate");
+  CHECK(answer.at("confidence_interval")[0].get<double>() < estimate);
+  CHECK(answer.at("confidence_interval")[1].get<double>() > estimate);
+  CHECK(runCommand(path, folder).out.find("\nconfidence interval [") != std::string::npos);
+  const CommandResult refused = run("--by-body");
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.err.find("errors of joints") != std::string::npos);
+}
+
 TEST_CASE("path tells of a state that collides with itself", "[cli]") {
   CHECK(answerOf({}).at("self_collisions").empty());
   const TemporaryFolder folder;

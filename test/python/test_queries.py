@@ -348,6 +348,9 @@ def test_errors_of_joints_and_base():
     exact = query.state(values)
     by_name = query.state(values, joint_error={"turn": 0.1}, relative_tolerance=0.05)
     assert by_name.estimate is not None and by_name.estimate != exact.probability
+    lower, upper = by_name.confidence_interval
+    assert 0 < lower < by_name.estimate < upper < 1 and exact.confidence_interval is None
+    assert by_name.to_dict()["confidence_interval"] == (lower, upper)
     covariance = np.zeros((len(robot.joints), len(robot.joints)))
     covariance[robot.joints.index("turn"), robot.joints.index("turn")] = 0.1**2
     assert query.state(values, joint_error=covariance, relative_tolerance=0.05).estimate == by_name.estimate
