@@ -7,6 +7,7 @@
 #include "fcl_prob/band.h"
 #include "fcl_prob/batch.h"
 #include "fcl_prob/broadphase.h"
+#include "fcl_prob/certificate.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/convex_pcd.h"

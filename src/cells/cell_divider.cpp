@@ -73,6 +73,7 @@ void CellDivider::divide(const OpenCell& parent, const Soon& soon, Division& int
     into.parts.push_back({asItIs(parent), std::nullopt});
     return;
   }
+  if (claim_observer) claim_observer->divided(parent.cell);
   for (const bool upper : {false, true}) {
     Cell half = parent.cell;
     (upper ? half.lo : half.hi)[split.axis] = split.at;

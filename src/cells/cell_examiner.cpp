@@ -87,12 +87,12 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
   result_ = Examination{};
   ++statistics_.cells;
   if (inherited.size() > kLongFront && witness() && witness()->covers(cell)) {
-    settle(cell, "crossing surfaces");
+    settle({"crossing surfaces", true, cell, {}, {}, witness_->proof()});
     return std::move(result_);
   }
   front_.take(cell, inherited);
   const std::optional<CuttingPair> leader = findLeader();
-  for (const Cell& covered : front_.covered()) settle(covered, "one pair");
+  for (const CoveredSlice& slice : front_.covered()) settle({"one pair", true, slice.cell, {}}, slice.by);
   if (front_.cell().empty()) return std::move(result_);
   if (front_.coarse().empty() && front_.cutting().empty()) {
     settleFree(front_.cell());
@@ -136,7 +136,9 @@ void CellExaminer::improveByTopology(std::optional<CuttingPair>& best) {
   }
   const auto layer = witness()->layer(cell, near_);
   if (!layer) return;
-  const auto leader = front_.addLayer(layer->m, layer->from, layer->to);
+  const FrontPair known = front_.newLayer(layer->m, layer->from, layer->to);
+  if (observer_) proofs_[known.obstacle] = layer->proof;
+  const auto leader = front_.addLayer(known);
   if (leader && (!best || leader->depth < best->depth)) best = leader;
 }
 
@@ -154,13 +156,12 @@ void CellExaminer::setHint(const CrossingWitness::Hint& hint) {
   if (witness_) witness_->setHint(hint);
 }
 
-void CellExaminer::claim(const char* method, bool collides, const Cell& cell) const {
-  if (observer_ && !cell.empty()) observer_->claim({method, collides, cell, {}});
-}
-
-void CellExaminer::claim(const char* method, bool collides, const Cell& cell,
-                         const CoveredPart& part) const {
-  if (observer_ && !cell.empty()) observer_->claim({method, collides, cell, part});
+// By a pair of leaves, a layer, or something else.
+void CellExaminer::claim(Claim claim, const FrontPair& by) const {
+  if (!observer_ || claim.cell.empty()) return;
+  if (by.hasObstacle() && by.isLayer()) claim.crossing = proofs_.at(by.obstacle);
+  if (by.hasObstacle() && !by.isLayer()) claim.pair = by.nodes;
+  observer_->claim(claim);
 }
 
 // Nothing of `cell` with m·y < s collides.
@@ -169,12 +170,22 @@ void CellExaminer::claimBelow(const char* method, const Cell& cell, const CellPl
   CoveredPart below;
   below.planes[0] = {-plane.m, -plane.s};
   below.count = 1;
-  claim(method, false, cell, below);
+  claim({method, false, cell, below});
 }
 
-// All of `cell` collides.
-void CellExaminer::settle(const Cell& cell, const char* method) {
-  claim(method, true, cell);
+// All of `cell` above the leader's plane collides.
+void CellExaminer::claimAbove(const char* method, const Cell& cell,
+                              const CuttingPair& leader) const {
+  CoveredPart above;
+  above.planes[0] = leader.inner;
+  above.count = 1;
+  claim({method, true, cell, above}, leader.pair);
+}
+
+// All of the claim's cell collides.
+void CellExaminer::settle(const Claim& all, const FrontPair& by) {
+  claim(all, by);
+  const Cell& cell = all.cell;
   SettledMass settled;
   settled.mass = cellMass(cell);
   if (with_moments_) {
@@ -201,14 +212,14 @@ void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double s
 // No surfaces meet anywhere in `cell`, but for slivers at its sides that were settled with layers:
 // one point of the rest tells whether the solids overlap.
 void CellExaminer::settleFree(const Cell& cell) {
-  if (!solids_ || cell.empty() || !solids_->possible(cell)) return claim("no pair", false, cell);
+  if (!solids_ || cell.empty() || !solids_->possible(cell)) return claim({"no pair", false, cell, {}});
   const bool is_thin = cell.leastWidth() < kThinBesideSlivers;
   switch (is_thin ? Containment::unknown : solids_->at(0.5 * (cell.lo + cell.hi))) {
     case Containment::inside:
-      settle(cell, "containment");
+      settle({"containment", true, cell, {}});
       break;
     case Containment::outside:
-      claim("no containment", false, cell);
+      claim({"no containment", false, cell, {}});
       break;
     case Containment::unknown: {
       const double mass = cellMass(cell).upper;
@@ -286,17 +297,17 @@ void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, doubl
                                bool nothing_below) const {
   const Cell& cell = front_.cell();
   const Eigen::Vector3d& m = leader.inner.m;
-  const bool by_pair = !leader.pair.isLayer();
+  const auto above =
+      leader.pair.isLayer() ? "plane of crossing surfaces" : "plane of a pair";
   if (settled_from < leader.inner.s) observer_->excuse(cell, m, settled_from, leader.inner.s);
-  CoveredPart above;
-  above.planes[0] = leader.inner;
-  above.count = 1;
-  claim(by_pair ? "plane of a pair" : "plane of crossing surfaces", true, cell, above);
   const CellPlane from{m, settled_from};
-  if (nothing_below) return claimBelow("nothing below a plane", cell, from);
-  if (!isCutBack(box)) return;
-  visitAround(cell, box,
-              [&](const Cell& part) { claimBelow("beside what stays open", part, from); });
+  if (nothing_below) claimBelow("nothing below a plane", cell, from);
+  if (nothing_below || !isCutBack(box)) return claimAbove(above, cell, leader);
+  claimAbove(above, box, leader);
+  visitAround(cell, box, [&](const Cell& part) {
+    claimAbove(above, part, leader);
+    claimBelow("beside what stays open", part, from);
+  });
 }
 
 // Whether all of the cell below a plane, where no surfaces meet but in slivers at its sides, is
@@ -319,7 +330,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   const Cell& cell = front_.cell();
   const Eigen::Vector3d& m = leader.inner.m;
   const double level = leader.layered ? leader.inner.s : leader.outer;
-  const double enough = level - kSliver;
+  const double enough = observer_ && observer_->needsAll() ? level : level - kSliver;
   double settled_from = level;
   OpenCell open;
   open.possible_from = leader.outer;

@@ -3,6 +3,7 @@
 // What one cell of the displacement space is worth: free, colliding, exactly known, or open.
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "cells/cell_front.h"
@@ -57,14 +58,17 @@ class CellExaminer {
   /// Accuracy, relative to the cell's mass, of the masses of cells that stay open.
   static constexpr double kOpenAccuracy = 1e-4;
 
+  /// No pair and no layer.
+  static constexpr FrontPair kNobody{{FrontPair::kNone, FrontPair::kNone}, FrontPair::kNone};
+
   static double lowestIn(const Cell& part, const Eigen::Vector3d& m);
-  void settle(const Cell& cell, const char* method);
+  void settle(const Claim& all, const FrontPair& by = kNobody);
   void settlePart(const Cell& cell, const CellPlane& plane, double sign, double accuracy);
   double accuracyBeside(const OpenCell& open) const;
   void settleFree(const Cell& cell);
   void settleAround(const Cell& box);
-  void claim(const char* method, bool collides, const Cell& cell) const;
-  void claim(const char* method, bool collides, const Cell& cell, const CoveredPart& part) const;
+  void claim(Claim claim, const FrontPair& by = kNobody) const;
+  void claimAbove(const char* method, const Cell& cell, const CuttingPair& leader) const;
   void claimBelow(const char* method, const Cell& cell, const CellPlane& plane) const;
   std::optional<CuttingPair> champion() const;
   std::optional<CuttingPair> findLeader();
@@ -96,6 +100,7 @@ class CellExaminer {
   double relative_tolerance_;
   ProbabilityStatistics& statistics_;
   ClaimObserver* const observer_ = claim_observer;
+  std::map<int, CrossingProof> proofs_;  ///< by layer; for the observer only
   CubeCutter cutter_;
   Examination result_;
   std::vector<FrontPair> near_;

@@ -34,6 +34,7 @@ ObstaclePart CellExaminer::largestPart(const OpenCell& open, int most, double& m
       continue;
     if (++tried > kMostTried) break;
     ObstaclePart part = obstaclePart(front_.slabs(cutting.pair), open.cell, most);
+    part.by = cutting.pair;
     for (ObstaclePart& other : best) {
       if (part.share > other.share) std::swap(part, other);
     }
@@ -100,7 +101,7 @@ void CellExaminer::addPart(OpenCell& open) {
   open.tells = OpenCell::PlaneTells::possible;
   open.plane = best.part.planes[0];
   open.part = best.part;
-  claim("part of a cell", true, open.cell, best.part);
+  claim({"part of a cell", true, open.cell, best.part}, best.by);
   for (int i = 0; i < possible.count; ++i) {
     claimBelow("below what is possible", open.cell, possible.planes[i]);
   }
@@ -142,7 +143,7 @@ void CellExaminer::weigh(OpenCell& open) {
   const ObstaclePart below = largestPart(open, CoveredPart::kMostPlanes - 1, mass);
   open.part = below.part;
   if (open.part.count == 0) return;
-  claim("part below a plane", true, open.cell, open.part);
+  claim({"part below a plane", true, open.cell, open.part}, below.by);
   open.lower = std::min(open.upper, open.lower + mass);
 }
 

@@ -116,7 +116,7 @@ void CellFront::gatherLeaf(const FrontPair& pair) {
   const CellCut cut = kernels_.classify(slabs, box_);
   if (cut.relation == CellRelation::outside) return;
   if (slabs.outer_only) return gatherSection(pair);
-  if (cut.relation == CellRelation::inside) return coverAll();
+  if (cut.relation == CellRelation::inside) return coverAll(pair);
   CuttingPair cutting{pair, cut.sides, cut.covered, {}, 0.0, 2.0};
   if (cut.sides == 1) setPlane(cut, cutting);
   cutting_.push_back(cutting);
@@ -135,15 +135,15 @@ void CellFront::setPlane(const CellCut& cut, CuttingPair& cutting) const {
 }
 
 // As one of the cutting pairs, or as what covers all.
-std::optional<CuttingPair> CellFront::addLayer(const Eigen::Vector3d& m, double from, double to) {
+std::optional<CuttingPair> CellFront::addLayer(const FrontPair& layer) {
   const std::size_t before = cutting_.size();
-  gatherLeaf(FrontPair::ofLayer(obstacles_.addLayer(m, from, to)));
+  gatherLeaf(layer);
   if (cutting_.size() == before || cutting_.back().sides != 1) return std::nullopt;
   return cutting_.back();
 }
 
-void CellFront::coverAll() {
-  covered_.push_back(cell_);
+void CellFront::coverAll(const FrontPair& by) {
+  covered_.push_back({cell_, by});
   cell_.hi = cell_.lo;
   cell_.settled = true;
 }
@@ -159,7 +159,7 @@ void CellFront::gatherSection(const FrontPair& pair) {
   }
   const CellSection section = sectionOfPair(obstacle, pair.nodes);
   if (section.relation == CellSection::Relation::outside) return;
-  if (section.relation == CellSection::Relation::inside) return coverAll();
+  if (section.relation == CellSection::Relation::inside) return coverAll(pair);
   if (!section.normal.isZero(0.0)) {
     cutting.sides = 1;
     cutting.inner = {-section.normal, -section.inner};
@@ -271,6 +271,7 @@ void CellFront::expand(const BoxedPair& boxed) {
 void CellFront::carve() {
   for (int round = 0; round < kCarveRounds; ++round) {
     CellSlice best{-1, false, 0.0};
+    const CuttingPair* by = nullptr;
     double share = kLeastShare;
     // What a pair may cover was computed for the cell as it was; a smaller cell may be covered
     // better, so that from the second round on the filter is a guess.
@@ -281,10 +282,11 @@ void CellFront::carve() {
       if (slice.width > share * 2 * box_.half[slice.axis]) {
         share = slice.width / (2 * box_.half[slice.axis]);
         best = slice;
+        by = &cutting;
       }
     }
-    if (best.axis < 0) return;
-    cover(best);
+    if (!by) return;
+    cover(best, by->pair);
     if (cell_.empty()) return;
   }
 }
@@ -293,11 +295,11 @@ bool CellFront::carveBy(const FrontPair& pair, double least_share) {
   const CellSlice slice = kernels_.coveredSlice(obstacles_.slabs(pair.obstacle), box_);
   if (slice.axis < 0 || slice.axis >= cell_.rank) return false;
   if (slice.width <= least_share * 2 * box_.half[slice.axis]) return false;
-  cover(slice);
+  cover(slice, pair);
   return true;
 }
 
-void CellFront::cover(const CellSlice& covered) {
+void CellFront::cover(const CellSlice& covered, const FrontPair& by) {
   Cell slice = cell_;
   const int k = covered.axis;
   if (covered.at_lower_end) {
@@ -307,7 +309,7 @@ void CellFront::cover(const CellSlice& covered) {
     cell_.hi[k] = std::max(slice.lo[k], slice.hi[k] - covered.width);
     slice.lo[k] = cell_.hi[k];
   }
-  covered_.push_back(slice);
+  covered_.push_back({slice, by});
   box_ = cell_.box();
 }
 

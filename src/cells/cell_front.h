@@ -25,6 +25,12 @@ struct CuttingPair {
   bool layered = false;  ///< dividing the cell brings the planes closer to each other
 };
 
+/// A slice of a cell that certainly collides, and what covers it.
+struct CoveredSlice {
+  Cell cell;
+  FrontPair by;
+};
+
 /// Works on one cell at a time: sorts its pairs, and cuts off the slices of it that a pair covers.
 class CellFront {
  public:
@@ -39,7 +45,7 @@ class CellFront {
 
   const Cell& cell() const { return cell_; }
   const CellBox& box() const { return box_; }
-  const std::vector<Cell>& covered() const { return covered_; }
+  const std::vector<CoveredSlice>& covered() const { return covered_; }
   const std::vector<CuttingPair>& cutting() const { return cutting_; }
 
   /// Pairs with an inner node: too large to say anything of the cell but that they may meet it.
@@ -48,9 +54,14 @@ class CellFront {
   /// Signed distance of a plane from the cell's middle: -1 covers all, 1 nothing.
   double depthOf(const CellPlane& plane) const;
 
+  /// What is known to collide between two planes, as a pair that addLayer() takes.
+  FrontPair newLayer(const Eigen::Vector3d& m, double from, double to) {
+    return FrontPair::ofLayer(obstacles_.addLayer(m, from, to));
+  }
+
   /// Takes what the cell has of a layer as known to collide. Nothing if not one of its planes alone
   /// cuts the cell.
-  std::optional<CuttingPair> addLayer(const Eigen::Vector3d& m, double from, double to);
+  std::optional<CuttingPair> addLayer(const FrontPair& layer);
 
   const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
 
@@ -104,14 +115,14 @@ class CellFront {
   double lowestOf(const SupportObstacle& obstacle, NodePair nodes, const Eigen::Vector3d& m) const;
   double outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const;
   void setPlane(const CellCut& cut, CuttingPair& cutting) const;
-  void coverAll();
+  void coverAll(const FrontPair& by);
   void noteDepth(const CuttingPair& cutting);
   void gatherCoarse(const std::vector<FrontPair>& inherited);
   void refine(const BoxedPair& coarse, int& probes);
   void expand(const BoxedPair& pair);
   void carve();
   bool carveBy(const FrontPair& pair, double least_share);
-  void cover(const CellSlice& slice);
+  void cover(const CellSlice& slice, const FrontPair& by);
   void classifyAgain();
   NodeBox obstacleBoxOf(const FrontPair& pair) const;
   bool meetsCell(const NodeBox& box) const;
@@ -132,7 +143,7 @@ class CellFront {
 
   Cell cell_;
   CellBox box_;
-  std::vector<Cell> covered_;
+  std::vector<CoveredSlice> covered_;
   std::vector<CuttingPair> cutting_;
   double least_depth_ = 1.0;  ///< among the pairs with sections
   CellPlane deepest_;         ///< inner plane of the cutting pair of least depth

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// For tests only: what the partition claims of which displacements, so that each claim can be
-// checked against something that is not the partition.
+// What the partition claims of which displacements, so that each claim can be checked by something
+// that is not the partition: tests, and whoever reads a certificate.
 #pragma once
 
 #include "cells/covered_part.h"
+#include "cells/crossing_witness.h"
 #include "fcl_prob/gaussian_displacement.h"
 #include "fcl_prob/whitening.h"
 
@@ -18,7 +19,9 @@ struct Claim {
   const char* method;  ///< what proves it
   bool collides;       ///< every displacement of the set leads to contact, or none does
   Cell cell;
-  CoveredPart within;  ///< no planes: all of the cell
+  CoveredPart within;              ///< no planes: all of the cell
+  std::optional<NodePair> pair{};  ///< of leaves, which touch everywhere in the set
+  std::optional<CrossingProof> crossing{};
 };
 
 class ClaimObserver {
@@ -30,12 +33,21 @@ class ClaimObserver {
 
   virtual void claim(const Claim& claim) = 0;
 
+  /// A cell of which something was claimed is divided: other claims, of its parts, take the place of
+  /// those.
+  virtual void divided(const Cell& /*cell*/) {}
+
+  /// Whether the claims that stand at the end must account for all that is known of P: excuse() is
+  /// of no use then, and what proves its bounds otherwise than by claims is left out.
+  virtual bool needsAll() const { return false; }
+
   /// In the layer { from <= m·y <= to } of the cell contact may be claimed away: its mass is in the
   /// upper bound already.
   virtual void excuse(const Cell& cell, const Eigen::Vector3d& m, double from, double to) = 0;
 };
 
-/// Told what queries in this thread claim; null, as it is outside of tests, costs nothing.
+/// Told what queries in this thread claim; null, as it is without tests and certificates, costs
+/// nothing.
 inline thread_local ClaimObserver* claim_observer = nullptr;
 
 }  // namespace fcl_prob::detail

@@ -8,6 +8,7 @@
 #include "convex/slab_kernels.h"
 #include "mass/cell_mass.h"
 #include "mass/cut_cube.h"
+#include "scene/front_pair.h"
 
 namespace fcl_prob::detail {
 
@@ -78,6 +79,7 @@ class PartMeasure {
 struct ObstaclePart {
   CoveredPart part;
   double share = 0.0;  ///< roughly, of the cell that is covered; 0 if there is no part
+  FrontPair by{{FrontPair::kNone, FrontPair::kNone}, FrontPair::kNone};  ///< who covers it
 };
 
 ObstaclePart obstaclePart(const SlabArrays& slabs, const Cell& cell, int most);

@@ -72,6 +72,10 @@ std::vector<int> spreadVertices(const PieceTree& tree, std::size_t count) {
   return vertices;
 }
 
+int componentOf(const CappedTree& mesh, int vertex) {
+  return mesh.caps().components.of_vertex[vertex];
+}
+
 // The vertex of a node that lies about farthest along m.
 int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) {
   while (!mesh.tree->nodes[node].isLeaf()) {
@@ -282,19 +286,21 @@ std::optional<bool> CrossingWitness::isInside(Side& side, const SweptVertex& swe
 // Whether a vertex inside means contact, for all displacements of the cell: of surfaces that
 // another one of the same component is outside.
 bool CrossingWitness::crosses(Side& side, int vertex, const Cell& cell) {
+  proof_ = {side.sign > 0, vertex, -1};
   if (solid_) return true;
-  const int component = side.inner.mesh().tree->caps->components.of_vertex[vertex];
-  return staysOutside(side, component, cell) && avoidsCaps(side, cell);
+  proof_.outside = staysOutside(side, componentOf(side.inner, vertex), cell);
+  return proof_.outside >= 0 && avoidsCaps(side, cell);
 }
 
-// Whether some vertex of the component is outside for all displacements of the cell, at which it
-// touches nothing.
-bool CrossingWitness::staysOutside(Side& side, int component, const Cell& cell) {
+// A vertex of the component that is outside for all displacements of the cell, at which it touches
+// nothing; -1 if none is found.
+int CrossingWitness::staysOutside(Side& side, int component, const Cell& cell) {
   const auto& six = side.extremes[component];
-  return std::any_of(six.begin(), six.end(), [&](int vertex) {
+  const auto found = std::find_if(six.begin(), six.end(), [&](int vertex) {
     const SweptVertex swept = sweep(side, vertex, cell);
     return side.outer.isFree(swept.lo, swept.hi) && isInside(side, swept) == false;
   });
+  return found == six.end() ? -1 : *found;
 }
 
 // No triangle of the inner mesh meets a cap of the outer one for any displacement of the cell.
@@ -373,14 +379,14 @@ void CrossingWitness::tryAlong(Side& side, const Cell& cell, const std::vector<F
     const double from = sideFrom(side, vertex, cell, m, true, known_from);
     if (!(from < known_from)) continue;
     known_from = from;
-    const int component = side.inner.mesh().tree->caps->components.of_vertex[vertex];
+    CrossingProof proof{side.sign > 0, vertex, -1};
     if (!solid_ && !avoidsCaps(side, cell)) return;
-    const double to = solid_ ? kInfinity : outsideTo(side, component, cell, m, from);
+    const double to = solid_ ? kInfinity : outsideTo(side, proof, cell, m, from);
     const double share = (std::min(to, most) - from) / (most - least);
     if (!(share > (best_ ? best_->share : kLeastShareOfLayer))) continue;
     // A plane that only touches the cell is none.
     best_ = Attempt{
-        &side, vertex, {m, from > least ? from : -kInfinity, to < most ? to : kInfinity}, share};
+        &side, vertex, {m, from > least ? from : -kInfinity, to < most ? to : kInfinity, proof}, share};
   }
 }
 
@@ -403,17 +409,21 @@ double CrossingWitness::sideFrom(Side& side, int vertex, const Cell& cell, const
 
 // The highest m·y below which some vertex of the component touches nothing and is outside; -inf if
 // that is not above `from`.
-double CrossingWitness::outsideTo(Side& side, int component, const Cell& cell,
+double CrossingWitness::outsideTo(Side& side, CrossingProof& proof, const Cell& cell,
                                   const Eigen::Vector3d& m, double from) {
+  const int component = componentOf(side.inner, proof.inside);
   const auto& six = side.extremes[component];
   std::vector<int> vertices(six.begin(), six.end());
   const int farthest = extremeVertex(side.inner.mesh(), 0, -side.sign * m);
-  const std::vector<int>& of_vertex = side.inner.mesh().tree->caps->components.of_vertex;
-  if (of_vertex[farthest] == component) vertices.insert(vertices.begin(), farthest);
+  if (componentOf(side.inner, farthest) == component) vertices.insert(vertices.begin(), farthest);
   const double most = m.dot(cell.lowestCorner(-m));
   double to = -kInfinity;
   for (const int vertex : vertices) {
-    to = std::max(to, -sideFrom(side, vertex, cell, -m, false, -std::max(from, to)));
+    const double outside = -sideFrom(side, vertex, cell, -m, false, -std::max(from, to));
+    if (outside > to) {
+      to = outside;
+      proof.outside = vertex;
+    }
     if (to >= most) break;
   }
   return to;

@@ -13,12 +13,21 @@
 
 namespace fcl_prob::detail {
 
+/// Vertices of one mesh: one inside the other, closed surface, and one of the same component of its
+/// own outside; -1 of solids, for which the first one is enough. Indices into the mesh's tree.
+struct CrossingProof {
+  bool of_a = false;
+  int inside = -1;
+  int outside = -1;
+};
+
 /// What lies between two parallel planes, { from <= m·y <= to }, m a unit vector. Either level is
 /// infinite where its plane does not cut the cell.
 struct CrossingLayer {
   Eigen::Vector3d m;
   double from;
   double to;
+  CrossingProof proof;
 };
 
 /// If a vertex of one mesh stays inside the other, capped, for every displacement of a cell, while
@@ -44,8 +53,10 @@ class CrossingWitness {
   Hint hint() const;
   void setHint(const Hint& hint);
 
-  /// True only if all of `cell` collides.
+  /// True only if all of `cell` collides: proof() has by what.
   bool covers(const Cell& cell);
+
+  const CrossingProof& proof() const { return proof_; }
 
   /// A layer of which all that `cell` has collides: from where a vertex is inside to where, if they
   /// are surfaces, another one is not outside any more. As thick as the vertices that lie farthest
@@ -92,7 +103,7 @@ class CrossingWitness {
   bool coversBy(Side& side, Candidate& candidate, const Cell& cell);
   std::optional<bool> isInside(Side& side, const SweptVertex& swept);
   bool crosses(Side& side, int vertex, const Cell& cell);
-  bool staysOutside(Side& side, int component, const Cell& cell);
+  int staysOutside(Side& side, int component, const Cell& cell);
   bool avoidsCaps(Side& side, const Cell& cell);
 
   void trySide(Side& side, const Cell& cell, const std::vector<FrontPair>& near);
@@ -103,7 +114,7 @@ class CrossingWitness {
                                  const Eigen::Vector3d& m) const;
   double sideFrom(Side& side, int vertex, const Cell& cell, const Eigen::Vector3d& m, bool inside,
                   double most);
-  double outsideTo(Side& side, int component, const Cell& cell, const Eigen::Vector3d& m,
+  double outsideTo(Side& side, CrossingProof& proof, const Cell& cell, const Eigen::Vector3d& m,
                    double from);
   bool findTouched(Side& side, const SweptVertex& swept);
   Eigen::Vector3d acrossTouched(const Side& side) const;
@@ -119,6 +130,7 @@ class CrossingWitness {
   Eigen::Vector3d triangle_size_;         ///< on the average, of the mesh of smaller ones
   std::vector<Eigen::Vector3i> touched_;  ///< triangles of the outer mesh and its caps
   std::optional<Attempt> best_;
+  CrossingProof proof_;
 };
 
 }  // namespace fcl_prob::detail

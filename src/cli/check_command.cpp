@@ -3,6 +3,7 @@
 #include "cli/check_command.h"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "cli/output.h"
 #include "cli/prepared_scene.h"
@@ -18,9 +19,21 @@ struct CheckArguments {
   SceneArguments scene;
   bool json = false;
   std::string output;
+  std::string certificate;  ///< its file, empty for none
 };
 
-CheckReport check(Scene scene, const std::string& bounding_volume, PartsUse parts) {
+TimedResult answerOf(const PreparedScene& prepared, const ProbabilityRequest& request,
+                     const std::string& certificate) {
+  if (certificate.empty()) return prepared.query(request);
+  std::ostringstream text;
+  TimedResult timed = prepared.certified(request, text);
+  writeFile(certificate, text.str());
+  return timed;
+}
+
+CheckReport check(Scene scene, const CheckArguments& arguments) {
+  const std::string& bounding_volume = arguments.scene.bounding_volume;
+  const PartsUse parts = partsUse(arguments.scene);
   const PreparedScene prepared(scene, bounding_volume, parts);
   noteInterrupts();
   CheckReport report;
@@ -28,7 +41,7 @@ CheckReport check(Scene scene, const std::string& bounding_volume, PartsUse part
   {
     ProgressBar bar("fcl_prob check");
     scene.request.on_progress = std::ref(bar);
-    const TimedResult timed = prepared.query(scene.request);
+    const TimedResult timed = answerOf(prepared, scene.request, arguments.certificate);
     report.result = timed.result;
     report.time_ms = timed.time_ms;
   }
@@ -39,8 +52,7 @@ CheckReport check(Scene scene, const std::string& bounding_volume, PartsUse part
 }
 
 int runCheck(const CheckArguments& arguments) {
-  const CheckReport report =
-      check(sceneFrom(arguments.scene), arguments.scene.bounding_volume, partsUse(arguments.scene));
+  const CheckReport report = check(sceneFrom(arguments.scene), arguments);
   deliver(arguments.json ? jsonOf(report).dump() + "\n" : textOf(report), arguments.output);
   return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
 }
@@ -58,6 +70,9 @@ void addCheckCommand(CLI::App& app, int& exit_code) {
       ->group("Question");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
+  command.add_option("--certificate", arguments->certificate,
+                     "Write what fcl_prob_verify needs to check the interval to this file; of "
+                     "meshes and boxes");
   command.callback([arguments, &exit_code] { exit_code = runCheck(*arguments); });
 }
 

@@ -8,6 +8,7 @@
 #include "base/decision.h"
 #include "base/stopwatch.h"
 #include "base/until_no.h"
+#include "fcl_prob/certificate.h"
 #include "io/import_notes.h"
 
 namespace fcl_prob::cli {
@@ -126,9 +127,33 @@ TimedResult PreparedScene::query(const ProbabilityRequest& request) const {
     timed.result = betweenTwo(request);
   }
   timed.time_ms = watch.milliseconds();
-  for (std::string& note : importNotes(request, timed.result)) {
-    timed.result.plan.push_back(std::move(note));
+  addImportNotes(request, timed.result);
+  return timed;
+}
+
+void PreparedScene::addImportNotes(const ProbabilityRequest& request,
+                                   ProbabilityResult& result) const {
+  for (std::string& note : importNotes(request, result)) result.plan.push_back(std::move(note));
+}
+
+TimedResult PreparedScene::certified(const ProbabilityRequest& request,
+                                     std::ostream& certificate) const {
+  if (!query_ || possible_query_) {
+    throw InvalidRequest(
+        "no certificate with parts, --bv sphere, kdop26 and convex, errors of poses or "
+        "reconstructed clouds");
   }
+  // FCL's objects may be changed, but are not.
+  const auto asObject = [](const Geometry& geometry, const fcl::Transform3d& pose) {
+    return fcl::CollisionObjectd(std::const_pointer_cast<fcl::CollisionGeometryd>(geometry), pose);
+  };
+  const fcl::CollisionObjectd a = asObject(geometry_a_, a_.pose);
+  const fcl::CollisionObjectd b = asObject(geometry_b_, b_.pose);
+  TimedResult timed;
+  const detail::Stopwatch watch;
+  certifiedProbability({&a}, {&b}, displacement_, request, certificate, timed.result);
+  timed.time_ms = watch.milliseconds();
+  addImportNotes(request, timed.result);
   return timed;
 }
 

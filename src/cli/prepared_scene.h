@@ -3,6 +3,7 @@
 // A scene that is ready to be queried, and queries with a clock.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <string>
 
@@ -39,6 +40,10 @@ class PreparedScene {
   /// \throws InvalidRequest if the bounding volume is not FCL's and the method not general-pcd
   TimedResult query(const ProbabilityRequest& request) const;
 
+  /// The same as an interval with its certificate: see certifiedProbability().
+  /// \throws InvalidRequest for parts, own volumes, errors of poses and reconstructed clouds
+  TimedResult certified(const ProbabilityRequest& request, std::ostream& certificate) const;
+
   /// Three runs, or one if it is long: the results are the same, and the quickest time counts.
   TimedResult quickestOfThree(const ProbabilityRequest& request) const;
 
@@ -60,6 +65,8 @@ class PreparedScene {
   /// deviations and the tolerance.
   std::vector<std::string> importNotes(const ProbabilityRequest& request,
                                        const ProbabilityResult& result) const;
+
+  void addImportNotes(const ProbabilityRequest& request, ProbabilityResult& result) const;
 
   /// Lower bounds by what was seen, upper ones by what may be there.
   ProbabilityResult betweenTwo(const ProbabilityRequest& request) const;

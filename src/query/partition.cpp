@@ -50,7 +50,7 @@ class PartitionQuery {
         budget_(request),
         known_(request),
         scene_(a, b, displacement, request, ball != nullptr),
-        may_use_polytopes_(!ball && mayBeCarved(scene_, request)) {
+        may_use_polytopes_(!ball && !needsAllClaims() && mayBeCarved(scene_, request)) {
     result_.method = isEstimate() ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
     result_.statistics.rungs.push_back({"whitening", budget_.seconds(), known_.interval(), 1, 0});
     announceFrame();
@@ -61,6 +61,8 @@ class PartitionQuery {
  private:
   bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
   bool isDecision() const { return request_.threshold.has_value(); }
+
+  static bool needsAllClaims() { return claim_observer && claim_observer->needsAll(); }
 
   void announceFrame() const {
     if (claim_observer) claim_observer->frame(scene_.whitening(), given_);

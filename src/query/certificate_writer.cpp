@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/certificate_writer.h"
+
+#include <Eigen/Geometry>
+#include <ostream>
+#include <string>
+
+#include "base/number_text.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/mesh_visitor.h"
+#include "geometry/outer_mesh.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// A whitening that is not turned is diag(1/σ) Aᵀ up to rounding, whatever the rounding of its rows
+// means along axes of far larger deviations.
+constexpr double kNotTurned = 1e-14;
+
+/// Writes [x, y, …].
+template <typename List, typename Write>
+void writeList(std::ostream& out, const List& list, const Write& write) {
+  const char* separator = "[";
+  for (const auto& element : list) {
+    out << separator;
+    write(element);
+    separator = ",";
+  }
+  out << (*separator == '[' ? "[]" : "]");
+}
+
+void writeVector(std::ostream& out, const Eigen::Vector3d& v) {
+  out << '[' << numberText(v[0]) << ',' << numberText(v[1]) << ',' << numberText(v[2]) << ']';
+}
+
+void writeVectors(std::ostream& out, const std::vector<Eigen::Vector3d>& vectors) {
+  writeList(out, vectors, [&](const Eigen::Vector3d& v) { writeVector(out, v); });
+}
+
+void writeTriangles(std::ostream& out, const std::vector<Eigen::Vector3i>& triangles) {
+  writeList(out, triangles, [&](const Eigen::Vector3i& t) {
+    out << '[' << t[0] << ',' << t[1] << ',' << t[2] << ']';
+  });
+}
+
+std::vector<Eigen::Vector3d> rowsOf(const Eigen::Matrix3d& matrix, int count) {
+  std::vector<Eigen::Vector3d> rows;
+  for (int i = 0; i < count; ++i) rows.emplace_back(matrix.row(i).transpose());
+  return rows;
+}
+
+bool isTurned(const Whitening& whitening, const GaussianDisplacement& displacement) {
+  for (int k = 0; k < whitening.rank(); ++k) {
+    const Eigen::Vector3d row =
+        whitening.matrix().row(k).transpose() * displacement.standardDeviations()[k];
+    if (!((row - displacement.axes().col(k)).norm() < kNotTurned)) return true;
+  }
+  return false;
+}
+
+bool isBox(const fcl::CollisionGeometryd& geometry) {
+  return geometry.getNodeType() == fcl::GEOM_BOX;
+}
+
+// The boundary of a box, normals outwards.
+std::vector<Eigen::Vector3i> outwardTriangles(const TriangleMesh& box) {
+  std::vector<Eigen::Vector3i> triangles;
+  for (const fcl::Triangle& t : box.triangles) {
+    Eigen::Vector3i corners(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
+    const Eigen::Vector3d& p = box.vertices[t[0]];
+    const Eigen::Vector3d normal = (box.vertices[t[1]] - p).cross(box.vertices[t[2]] - p);
+    if (normal.dot(p) < 0.0) std::swap(corners[1], corners[2]);  // the box is around its origin
+    triangles.push_back(corners);
+  }
+  return triangles;
+}
+
+const OuterMeshRequest kExactly{0.0, Eigen::Vector3d::Zero(), 0.0};
+
+}  // namespace
+
+void requireCertifiable(const CertifiedObject& object, const char* name) {
+  for (std::size_t i = 0; i < object.geometries.size(); ++i) {
+    const fcl::CollisionGeometryd& geometry = *object.geometries[i];
+    if (kindOf(geometry) == GeometryKind::mesh || isBox(geometry)) continue;
+    throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " + name +
+                              ": " + nodeTypeName(geometry.getNodeType()) +
+                              " is neither a mesh nor a Box");
+  }
+}
+
+CertificateWriter::CertificateWriter(std::ostream& out, const CertifiedObject& a,
+                                     const CertifiedObject& b, ContactMeaning contact)
+    : out_(out), a_(a), b_(b), contact_(contact) {
+  claim_observer = this;
+}
+
+void CertificateWriter::frame(const Whitening& whitening,
+                              const GaussianDisplacement& displacement) {
+  rank_ = whitening.rank();
+  if (rank_ < displacement.rank() || rank_ == 0) {
+    throw InvalidRequest("no certificate of a displacement of rank " +
+                         std::to_string(displacement.rank()) + " of which the cells have " +
+                         std::to_string(rank_) + " axes");
+  }
+  out_ << R"({"fcl_prob_certificate":1,"contact":")"
+       << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
+  writeVector(out_, displacement.mean());
+  out_ << R"(,"axes":)";
+  writeVectors(out_, rowsOf(displacement.axes().transpose(), rank_));
+  out_ << R"(,"deviations":)";
+  const Eigen::VectorXd deviations = displacement.standardDeviations().head(rank_);
+  writeList(out_, deviations, [&](double sd) { out_ << numberText(sd); });
+  out_ << R"(,"whitening":)";
+  if (isTurned(whitening, displacement)) {
+    writeVectors(out_, rowsOf(whitening.matrix(), rank_));
+  } else {
+    out_ << "null";
+  }
+  out_ << "}\n";
+  of_a_ = writeObject(a_, "A");
+  of_b_ = writeObject(b_, "B");
+  writeCaps(a_, "A", of_a_);
+  writeCaps(b_, "B", of_b_);
+}
+
+// In the order of the geometry's own vertices, and of the tree's triangles.
+CertificateWriter::Numbers CertificateWriter::writeObject(const CertifiedObject& object,
+                                                          const char* name) {
+  const PieceTree& tree = *object.placed.tree;
+  Numbers numbers{std::vector<int>(tree.vertices.size(), -1),
+                  std::vector<int>(tree.triangles.size() + tree.bodies.size(), -1)};
+  int pieces = 0;
+  int vertex_count = 0;
+  for (std::size_t i = 0; i < object.geometries.size(); ++i) {
+    const PieceTree::Part& part = tree.parts[i];
+    const fcl::CollisionGeometryd& geometry = *object.geometries[i];
+    const TriangleMesh mesh = outerMesh(geometry, kExactly);
+    std::vector<Eigen::Vector3i> triangles;
+    if (isBox(geometry)) {
+      triangles = outwardTriangles(mesh);
+      numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(part.bodies.begin)] =
+          pieces++;
+    } else {
+      std::vector<int> within(tree.vertices.size(), -1);
+      for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const auto in_tree = static_cast<std::size_t>(PieceTree::vertexOf(part, v));
+        within[in_tree] = static_cast<int>(v);
+        numbers.of_vertex[in_tree] = vertex_count + static_cast<int>(v);
+      }
+      for (int t = part.triangles.begin; t < part.triangles.end; ++t) {
+        const Eigen::Vector3i& corners = tree.triangles[static_cast<std::size_t>(t)];
+        triangles.emplace_back(within[corners[0]], within[corners[1]], within[corners[2]]);
+        numbers.of_piece[static_cast<std::size_t>(t)] = pieces++;
+      }
+    }
+    vertex_count += static_cast<int>(mesh.vertices.size());
+    const PlacedPart& placed = object.placed.parts[i];
+    out_ << R"({"part":")" << name << R"(","rotation":)";
+    writeVectors(out_, rowsOf(placed.pose.linear(), 3));
+    out_ << R"(,"translation":)";
+    writeVector(out_, placed.pose.translation());
+    out_ << R"(,"vertices":)";
+    writeVectors(out_, {mesh.vertices.begin(), mesh.vertices.end()});
+    out_ << R"(,"triangles":)";
+    writeTriangles(out_, triangles);
+    out_ << R"(,"convex":)" << (isBox(geometry) ? "true" : "false") << R"(,"solid":)"
+         << (placed.solid ? "true" : "false") << "}\n";
+  }
+  return numbers;
+}
+
+// Of a single mesh: the apexes are the vertices of its tree that are none of its own.
+void CertificateWriter::writeCaps(const CertifiedObject& object, const char* name,
+                                  Numbers& numbers) {
+  const PieceTree& tree = *object.placed.tree;
+  if (!tree.caps || tree.caps->triangles.empty()) return;
+  std::vector<Eigen::Vector3d> apexes;
+  int next = static_cast<int>(meshView(*object.geometries[0]).vertex_count);
+  std::vector<Eigen::Vector3i> triangles;
+  for (const Eigen::Vector3i& corners : tree.caps->triangles) {
+    Eigen::Vector3i numbered;
+    for (int k = 0; k < 3; ++k) {
+      int& number = numbers.of_vertex[static_cast<std::size_t>(corners[k])];
+      if (number < 0) {
+        number = next++;
+        apexes.push_back(tree.parts[0].origin +
+                         tree.vertices[static_cast<std::size_t>(corners[k])]);
+      }
+      numbered[k] = number;
+    }
+    triangles.push_back(numbered);
+  }
+  out_ << R"({"caps":")" << name << R"(","part":0,"vertices":)";
+  writeVectors(out_, apexes);
+  out_ << R"(,"triangles":)";
+  writeTriangles(out_, triangles);
+  out_ << "}\n";
+}
+
+void CertificateWriter::claim(const Claim& claim) {
+  Corners corners{};
+  for (int k = 0; k < rank_; ++k) {
+    corners[static_cast<std::size_t>(k)] = claim.cell.lo[k];
+    corners[static_cast<std::size_t>(rank_ + k)] = claim.cell.hi[k];
+  }
+  if (claim.within.count == 0) {
+    CellClaims whole;
+    (claim.collides ? whole.contact : whole.free).push_back(claim);
+    return writeCell(corners, whole);
+  }
+  CellClaims& claims = open_[corners];
+  (claim.collides ? claims.contact : claims.free).push_back(claim);
+}
+
+void CertificateWriter::divided(const Cell& cell) {
+  Corners corners{};
+  for (int k = 0; k < rank_; ++k) {
+    corners[static_cast<std::size_t>(k)] = cell.lo[k];
+    corners[static_cast<std::size_t>(rank_ + k)] = cell.hi[k];
+  }
+  open_.erase(corners);
+}
+
+void CertificateWriter::writeCell(const Corners& corners, const CellClaims& claims) {
+  ++cells_;
+  const std::size_t count = 2 * static_cast<std::size_t>(rank_);
+  out_ << R"({"cell":[)";
+  for (std::size_t k = 0; k < count; ++k) out_ << (k > 0 ? "," : "") << numberText(corners[k]);
+  out_ << ']';
+  if (!claims.free.empty()) {
+    out_ << R"(,"free":)";
+    if (claims.free[0].within.count == 0) {
+      out_ << "true";
+    } else {
+      writeList(out_, claims.free,
+                [&](const Claim& claim) { writePlane(claim.within.planes[0], -1.0); });
+    }
+  }
+  if (!claims.contact.empty()) {
+    out_ << R"(,"contact":)";
+    writeList(out_, claims.contact, [&](const Claim& claim) {
+      out_ << R"({"planes":)";
+      const auto* const first = claim.within.planes.data();
+      const std::vector<CellPlane> planes(first, first + claim.within.count);
+      writeList(out_, planes, [&](const CellPlane& plane) { writePlane(plane, 1.0); });
+      out_ << R"(,"by":)";
+      writeWitness(claim);
+      out_ << '}';
+    });
+  }
+  out_ << "}\n";
+}
+
+void CertificateWriter::writePlane(const CellPlane& plane, double sign) {
+  out_ << '[';
+  for (int k = 0; k < rank_; ++k) out_ << numberText(sign * plane.m[k]) << ',';
+  out_ << numberText(sign * plane.s) << ']';
+}
+
+void CertificateWriter::writeWitness(const Claim& claim) {
+  if (claim.pair) {
+    const int piece_a = a_.placed.tree->nodes[claim.pair->a].piece;
+    const int piece_b = b_.placed.tree->nodes[claim.pair->b].piece;
+    out_ << R"({"pair":[)" << of_a_.of_piece[piece_a] << ',' << of_b_.of_piece[piece_b] << "]}";
+  } else if (claim.crossing) {
+    const CrossingProof& proof = *claim.crossing;
+    const std::vector<int>& numbers = (proof.of_a ? of_a_ : of_b_).of_vertex;
+    out_ << R"({"inside":")" << (proof.of_a ? 'A' : 'B') << R"(","vertex":)"
+         << numbers[proof.inside];
+    if (proof.outside >= 0) out_ << R"(,"outside":)" << numbers[proof.outside];
+    out_ << '}';
+  } else {
+    out_ << R"({"contained":true})";
+  }
+}
+
+void CertificateWriter::finish(const Bounds& bounds) {
+  for (const auto& [corners, claims] : open_) writeCell(corners, claims);
+  out_ << R"({"lower":)" << numberText(bounds.lower) << R"(,"upper":)" << numberText(bounds.upper)
+       << R"(,"cells":)" << cells_ << "}\n";
+}
+
+}  // namespace fcl_prob::detail
