@@ -3,6 +3,7 @@
 // The probability that a robot, in one state or along a motion, touches what was perceived.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -172,6 +173,14 @@ class RobotQuery {
   ///         that moves; as state()
   RobotResult state(const Eigen::VectorXd& values, const RobotErrors& errors,
                     const ProbabilityRequest& request) const;
+
+  /// At any of the waypoints, with persistent errors, as a certified interval that somebody else
+  /// can check: see certifiedProbability(). One certificate an obstacle, those that no body may
+  /// touch left out. No body is left out as far.
+  /// \throws UnsupportedGeometry for obstacles whose displacement is not Gaussian; as
+  ///         certifiedProbability() and motion()
+  RobotResult certified(const std::vector<Eigen::VectorXd>& waypoints,
+                        const ProbabilityRequest& request, std::ostream& certificate) const;
 
   /// At any of the waypoints, or at any time between them, too.
   /// Persistent errors: the mass of the union over time of what the robot sweeps, one group query

@@ -3,6 +3,7 @@
 #include "cli/path_command.h"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "base/known_text.h"
 #include "base/stopwatch.h"
@@ -40,6 +41,7 @@ struct PathArguments {
   bool gradient = false;
   bool json = false;
   std::string output;
+  std::string certificate;  ///< its file, empty for none
 };
 
 struct PathReport {
@@ -104,6 +106,18 @@ void refuseWithErrors(const RobotScene& scene, const PathArguments& arguments,
   }
 }
 
+RobotResult certifiedAnswer(const RobotQuery& query, const std::vector<Eigen::VectorXd>& waypoints,
+                            const RobotScene& scene, const std::string& file) {
+  const bool is_persistent = waypoints.size() == 1 || scene.errors == ErrorsOverTime::persistent;
+  if (!is_persistent || scene.between != BetweenWaypoints::ignored) {
+    throw InvalidRequest("a certificate is of one state, or of waypoints with persistent errors");
+  }
+  std::ostringstream text;
+  RobotResult result = query.certified(waypoints, scene.request, text);
+  writeFile(file, text.str());
+  return result;
+}
+
 PathReport answer(RobotScene scene, const PathArguments& arguments) {
   PathReport report;
   const detail::Stopwatch building;
@@ -118,7 +132,12 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   scene.request.on_progress = std::ref(bar);
   const detail::Stopwatch watch;
   const RobotErrors errors = errorsOf(scene, query.robot());
-  if (errors.none()) {
+  if (!errors.none() && !arguments.certificate.empty()) {
+    throw InvalidRequest("no certificate with errors of joints and base");
+  }
+  if (!arguments.certificate.empty()) {
+    report.result = certifiedAnswer(query, waypoints, scene, arguments.certificate);
+  } else if (errors.none()) {
     report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   } else {
     refuseWithErrors(scene, arguments, waypoints.size());
@@ -365,6 +384,9 @@ void addPathCommand(CLI::App& app, int& exit_code) {
                 "Also how P changes with the joints at each waypoint, an estimate")
       ->excludes("--probable");
   command.add_flag("--json", arguments->json, "One JSON object instead of text");
+  command.add_option("--certificate", arguments->certificate,
+                     "Write what fcl_prob_verify needs to check the interval to this file: one "
+                     "state, or waypoints with persistent errors, of meshes and boxes");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runPath(*arguments); });
 }

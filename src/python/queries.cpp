@@ -5,7 +5,9 @@
 #include <pybind11/stl.h>
 
 #include <mutex>
+#include <sstream>
 
+#include "fcl_prob/certificate.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
@@ -85,6 +87,26 @@ ProbabilityResult askOnce(const py::object& a, const py::object& b, const py::ob
   return answer(questionFrom(request), [&](const auto& of, ProbabilityResult& result) {
     pair.answerOnce(at_a, at_b, randomness, of, result);
   });
+}
+
+// As a collision object, which FCL's function takes; it is not changed.
+fcl::CollisionObjectd objectFrom(const Geometry& geometry, const fcl::Transform3d& pose) {
+  return {std::const_pointer_cast<fcl::CollisionGeometryd>(geometry), pose};
+}
+
+py::tuple certify(const py::object& a, const py::object& b, const py::object& displacement,
+                  const py::object& pose_a, const py::object& pose_b, const py::kwargs& request) {
+  const Randomness randomness = randomnessFrom(displacement, "displacement");
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness);
+  if (!gaussian) throw UnsupportedGeometry("no certificate of a displacement that is not Gaussian");
+  const auto object_a = objectFrom(geometryFrom(a, "a"), poseFrom(pose_a, "pose_a"));
+  const auto object_b = objectFrom(geometryFrom(b, "b"), poseFrom(pose_b, "pose_b"));
+  std::ostringstream certificate;
+  ProbabilityResult found =
+      answer(questionFrom(request), [&](const auto& of, ProbabilityResult& result) {
+        certifiedProbability({&object_a}, {&object_b}, *gaussian, of, certificate, result);
+      });
+  return py::make_tuple(std::move(found), certificate.str());
 }
 
 ProbabilityResult ask(const Pair& pair, const py::object& displacement, const py::object& pose_a,
@@ -334,6 +356,12 @@ void bindQueries(py::module_& module) {
   bindGradient(module);
   module.def("collision_probability", &askOnce, py::arg("a"), py::arg("b"), py::arg("displacement"),
              py::arg("pose_a") = none, py::arg("pose_b") = none, kAskDocumentation);
+  module.def("certified_probability", &certify, py::arg("a"), py::arg("b"), py::arg("displacement"),
+             py::arg("pose_a") = none, py::arg("pose_b") = none,
+             "An interval that somebody else can check: (ProbabilityResult, certificate as text).\n\n"
+             "a, b: meshes and boxes; displacement: a GaussianDisplacement. The text goes to a file\n"
+             "for fcl_prob_verify. Takes longer than collision_probability().\n\n" FCL_PROB_REQUEST_KEYWORDS
+             "Raises UnsupportedGeometry, InvalidRequest, InvalidPose, OpenMesh.");
   module.def("collision_probabilities", &askAllOnce, py::arg("a"), py::arg("b"),
              py::arg("displacement") = none, py::arg("pose_a") = none, py::arg("pose_b") = none,
              py::kw_only(), py::arg("covariances") = none, py::arg("means") = none,

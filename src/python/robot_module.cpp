@@ -353,6 +353,17 @@ RobotResult motion(const RobotQuery& query, const py::object& waypoints, const s
   });
 }
 
+py::tuple certify(const RobotQuery& query, const py::object& waypoints,
+                  const py::kwargs& request) {
+  const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
+  std::ostringstream certificate;
+  RobotResult result =
+      run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
+        return query.certified(all, of, certificate);
+      });
+  return py::make_tuple(std::move(result), certificate.str());
+}
+
 ProbableResult decideProbably(const RobotQuery& query, const py::object& waypoints,
                               double threshold, double chance_of_error, const py::kwargs& request) {
   const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
@@ -424,6 +435,9 @@ void bindQuery(py::module_& module) {
           "moves\n"
           "further at once (radians, metres). between: 'swept' for all times between waypoints,\n"
           "too, certified (persistent errors only).")
+      .def("certified", &certify, py::arg("waypoints"),
+           "At any of the waypoints (n, k), persistent errors, as an interval that somebody else\n"
+           "can check: (RobotResult, certificates as text, one an obstacle, for fcl_prob_verify).")
       .def("decide_probably", &decideProbably, py::arg("waypoints"), py::arg("threshold"),
            py::arg("chance_of_error"),
            "Whether P at any of the waypoints (n, k), persistent errors, is below the threshold:\n"

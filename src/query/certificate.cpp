@@ -5,8 +5,7 @@
 #include <string>
 
 #include "fcl_prob/exceptions.h"
-#include "query/certificate_writer.h"
-#include "query/member_group.h"
+#include "query/certified_answer.h"
 #include "query/partition.h"
 
 namespace fcl_prob {
@@ -19,9 +18,6 @@ struct Side {
   Side(const Objects& objects, const std::string& name) : group(prepared(objects, name), name) {
     for (const auto* object : objects) poses.push_back(object->getTransform());
     group.validate(poses);
-    if (group.anyUnbounded()) {
-      throw UnsupportedGeometry("no certificate of " + name + ": a half-space or plane is in it");
-    }
   }
 
   static detail::PreparedGeometries prepared(const Objects& objects, const std::string& name) {
@@ -30,12 +26,6 @@ struct Side {
       all.push_back(std::make_shared<const detail::PreparedGeometry>(
           object->collisionGeometry(), "member " + std::to_string(all.size()) + " of " + name));
     }
-    return all;
-  }
-
-  std::vector<const fcl::CollisionGeometryd*> geometries() const {
-    std::vector<const fcl::CollisionGeometryd*> all;
-    for (const std::size_t i : group.bounded()) all.push_back(&group.members()[i]->geometry());
     return all;
   }
 
@@ -53,27 +43,43 @@ void requireCertifiable(const ProbabilityRequest& request) {
   if (request.gradient) throw InvalidRequest("no certificate of a gradient");
 }
 
+// The geometries of a group's bounded members, of which all must have certificates.
+std::vector<const fcl::CollisionGeometryd*> geometriesOf(const detail::MemberGroup& group) {
+  if (group.anyUnbounded()) {
+    throw UnsupportedGeometry("no certificate with a half-space or plane");
+  }
+  std::vector<const fcl::CollisionGeometryd*> all;
+  for (const std::size_t i : group.bounded()) all.push_back(&group.members()[i]->geometry());
+  return all;
+}
+
 }  // namespace
+
+ProbabilityResult detail::certifiedAnswer(const PlacedMembers& members_a,
+                                          const PlacedMembers& members_b,
+                                          const GaussianDisplacement& displacement,
+                                          const ProbabilityRequest& asked, std::ostream& out) {
+  requireCertifiable(asked);
+  const PartitionObject a = members_a.group.placed(members_a.poses, asked.contact);
+  const PartitionObject b = members_b.group.placed(members_b.poses, asked.contact);
+  const CertifiedObject certified_a{a, geometriesOf(members_a.group), members_a.name};
+  const CertifiedObject certified_b{b, geometriesOf(members_b.group), members_b.name};
+  ProbabilityRequest request = asked;
+  request.method = ProbabilityMethod::interval;
+  CertificateWriter writer(out, certified_a, certified_b, asked.contact);
+  ProbabilityResult answer = partitionProbability(a, b, displacement, request, nullptr);
+  writer.finish({*answer.lower, *answer.upper});
+  answer.plan.emplace_back("certificate written: boxes only, on one thread");
+  return answer;
+}
 
 double certifiedProbability(const Objects& group_a, const Objects& group_b,
                             const GaussianDisplacement& displacement,
-                            const ProbabilityRequest& asked, std::ostream& certificate,
+                            const ProbabilityRequest& request, std::ostream& certificate,
                             ProbabilityResult& result) {
-  requireCertifiable(asked);
-  const Side side_a(group_a, "group A"), side_b(group_b, "group B");
-  const detail::PartitionObject a = side_a.group.placed(side_a.poses, asked.contact);
-  const detail::PartitionObject b = side_b.group.placed(side_b.poses, asked.contact);
-  const detail::CertifiedObject certified_a{a, side_a.geometries()};
-  const detail::CertifiedObject certified_b{b, side_b.geometries()};
-  detail::requireCertifiable(certified_a, "group A");
-  detail::requireCertifiable(certified_b, "group B");
-  ProbabilityRequest request = asked;
-  request.method = ProbabilityMethod::interval;
-  detail::CertificateWriter writer(certificate, certified_a, certified_b, asked.contact);
-  ProbabilityResult answer = detail::partitionProbability(a, b, displacement, request, nullptr);
-  writer.finish({*answer.lower, *answer.upper});
-  answer.plan.emplace_back("certificate written: boxes only, on one thread");
-  result = std::move(answer);
+  const Side a(group_a, "group A"), b(group_b, "group B");
+  result = detail::certifiedAnswer({a.group, a.poses, "group A"}, {b.group, b.poses, "group B"},
+                                   displacement, request, certificate);
   return result.probability();
 }
 

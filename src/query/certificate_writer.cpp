@@ -44,6 +44,16 @@ void writeTriangles(std::ostream& out, const std::vector<Eigen::Vector3i>& trian
   });
 }
 
+// As a string of JSON.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + '"';
+}
+
 std::vector<Eigen::Vector3d> rowsOf(const Eigen::Matrix3d& matrix, int count) {
   std::vector<Eigen::Vector3d> rows;
   for (int i = 0; i < count; ++i) rows.emplace_back(matrix.row(i).transpose());
@@ -78,21 +88,23 @@ std::vector<Eigen::Vector3i> outwardTriangles(const TriangleMesh& box) {
 
 const OuterMeshRequest kExactly{0.0, Eigen::Vector3d::Zero(), 0.0};
 
-}  // namespace
-
-void requireCertifiable(const CertifiedObject& object, const char* name) {
+void requireCertifiable(const CertifiedObject& object) {
   for (std::size_t i = 0; i < object.geometries.size(); ++i) {
     const fcl::CollisionGeometryd& geometry = *object.geometries[i];
     if (kindOf(geometry) == GeometryKind::mesh || isBox(geometry)) continue;
-    throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " + name +
-                              ": " + nodeTypeName(geometry.getNodeType()) +
+    throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " +
+                              object.name + ": " + nodeTypeName(geometry.getNodeType()) +
                               " is neither a mesh nor a Box");
   }
 }
 
+}  // namespace
+
 CertificateWriter::CertificateWriter(std::ostream& out, const CertifiedObject& a,
                                      const CertifiedObject& b, ContactMeaning contact)
     : out_(out), a_(a), b_(b), contact_(contact) {
+  requireCertifiable(a);
+  requireCertifiable(b);
   claim_observer = this;
 }
 
@@ -104,7 +116,8 @@ void CertificateWriter::frame(const Whitening& whitening,
                          std::to_string(displacement.rank()) + " of which the cells have " +
                          std::to_string(rank_) + " axes");
   }
-  out_ << R"({"fcl_prob_certificate":1,"contact":")"
+  out_ << R"({"fcl_prob_certificate":1,"name":)" << quoted(a_.name + " and " + b_.name)
+       << R"(,"contact":")"
        << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
   writeVector(out_, displacement.mean());
   out_ << R"(,"axes":)";

@@ -6,6 +6,7 @@
 #include <array>
 #include <iosfwd>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "cells/claim_observer.h"
@@ -14,20 +15,19 @@
 
 namespace fcl_prob::detail {
 
-/// An object, and the geometry of each of its parts.
+/// An object, the geometry of each of its parts, and what messages call it.
 struct CertifiedObject {
   const PartitionObject& placed;
   std::vector<const fcl::CollisionGeometryd*> geometries;
+  std::string name;
 };
-
-/// \throws UnsupportedGeometry naming a part that is neither a mesh nor a box.
-void requireCertifiable(const CertifiedObject& object, const char* name);
 
 /// Told, as long as it lives, what the queries of this thread claim. Claims of cells that are not
 /// divided any more are written by finish().
 class CertificateWriter : public ClaimObserver {
  public:
   /// Keeps references to all arguments.
+  /// \throws UnsupportedGeometry naming a part that is neither a mesh nor a box.
   CertificateWriter(std::ostream& out, const CertifiedObject& a, const CertifiedObject& b,
                     ContactMeaning contact);
   ~CertificateWriter() override { claim_observer = nullptr; }

@@ -13,6 +13,7 @@
 #include "fcl_prob/exceptions.h"
 #include "io/import_notes.h"
 #include "query/motion_gradient.h"
+#include "robot/certified_motion.h"
 #include "robot/gradient_parts.h"
 #include "robot/many_states.h"
 #include "robot/moving_obstacle.h"
@@ -401,6 +402,14 @@ RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, Er
   const double tolerance = request.toleranceAt(result.estimate.value_or(result.any.upper));
   detail::addNotes(detail::precisionNotes(robot(), obstacles(), tolerance), result.plan);
   return result;
+}
+
+RobotResult RobotQuery::certified(const std::vector<Eigen::VectorXd>& waypoints,
+                                  const ProbabilityRequest& request,
+                                  std::ostream& certificate) const {
+  implementation_->validate(waypoints, request);
+  return detail::certifiedMotion(implementation_->among, waypoints, detail::ofOneCall(request),
+                                 certificate);
 }
 
 ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& waypoints,

@@ -49,6 +49,10 @@ Arguments parsed(int argc, char** argv) {
       plan.family = value;
     } else if (option == "--threads") {
       plan.threads = static_cast<unsigned>(std::stoul(value));
+    } else if (option == "--verify") {
+      plan.options.verifier = value;
+    } else if (option == "--verify-every") {
+      plan.options.verify_every = std::stoull(value);
     } else if (option == "--output") {
       arguments.output = value;
     } else {
@@ -70,7 +74,7 @@ void tellFailures(const AuditReport& report, const Arguments& arguments) {
     last = kind;
     // What hangs would hang some hundred times.
     const bool shrink = arguments.shrink && failure.violation.check != "hang";
-    const Failure small = shrink ? smallest(failure) : failure;
+    const Failure small = shrink ? smallest(failure, arguments.plan.options) : failure;
     const std::string name = "failure-" + std::to_string(++number);
     const std::string how = writeScene(small.scene, arguments.output, name,
                                        kind + "\n" + small.violation.detail + "\n");

@@ -126,7 +126,7 @@ class Run {
       const Scene scene = sceneAt(plan_, index);
       if (plan_.verbose) std::cout << textOf(scene) << std::flush;
       const double started = now();
-      const std::vector<Violation> found = checkSurviving(scene, tally);
+      const std::vector<Violation> found = checkSurviving(scene, tally, plan_.options);
       tell(scene, found, now() - started);
       ++done;
     }
@@ -183,8 +183,7 @@ AuditReport runAudit(const AuditPlan& plan) {
   return Run(plan).run();
 }
 
-Failure smallest(const Failure& failure) {
-  CheckOptions options;
+Failure smallest(const Failure& failure, CheckOptions options) {
   options.everything = true;
   options.only = failure.violation.check;
   const auto again = [&](const Scene& scene) -> std::optional<Violation> {

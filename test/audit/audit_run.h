@@ -19,6 +19,7 @@ struct AuditPlan {
   std::optional<std::uint64_t> scenes;
   std::optional<double> seconds;  ///< whichever comes first
   std::string family;             ///< only that one
+  CheckOptions options;
   unsigned threads = 1;
   bool verbose = false;
 };
@@ -40,7 +41,7 @@ struct AuditReport {
 AuditReport runAudit(const AuditPlan& plan);
 
 /// The smallest scene with the same violation.
-Failure smallest(const Failure& failure);
+Failure smallest(const Failure& failure, CheckOptions options);
 
 std::string textOf(const AuditReport& report);
 

@@ -14,6 +14,7 @@
 #include "slopes.h"
 #include "soundness.h"
 #include "truth.h"
+#include "verify_check.h"
 
 namespace fcl_prob_audit {
 namespace {
@@ -53,6 +54,11 @@ class SceneCheck {
     constexpr std::uint64_t kWithBands = 8;
     const bool chosen = options_.everything || scene_.index / families().size() % kWithBands == 0;
     if (chosen && mayFind("bands")) checkBands(scene_, tally_, found_);
+    const bool verified =
+        options_.everything || scene_.index / families().size() % options_.verify_every == 0;
+    if (verified && !options_.verifier.empty() && mayFind("certificate")) {
+      checkByVerifier(scene_, options_.verifier, tally_, found_);
+    }
     return std::move(found_);
   }
 

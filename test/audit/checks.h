@@ -13,6 +13,9 @@ struct CheckOptions {
   bool everything = false;
   /// Of the relations only what may find this violation again.
   std::string only;
+  /// Path of fcl_prob_verify, by which certificates of scenes are checked; empty for none.
+  std::string verifier;
+  std::uint64_t verify_every = 10;  ///< scenes of a family
 };
 
 /// Asks the scene's question, and what follows from it. Deterministic.

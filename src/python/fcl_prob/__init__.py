@@ -37,6 +37,7 @@ from ._core import (
     Sphere,
     TruncatedGaussian,
     __version__,
+    certified_probability,
     collision_probabilities,
     collision_probability,
 )
@@ -100,6 +101,7 @@ __all__ = [
     "TruncatedGaussian",
     "UnsupportedGeometry",
     "__version__",
+    "certified_probability",
     "collision_probabilities",
     "collision_probability",
     "load_mesh",

@@ -191,6 +191,31 @@ class BatchResult:
     def __len__(self) -> int: ...
     def __getitem__(self, index: int) -> Optional[ProbabilityResult]: ...
 
+def certified_probability(
+    a: Union[Geometry, AnyMesh],
+    b: Union[Geometry, AnyMesh],
+    displacement: GaussianDisplacement,
+    pose_a: Optional[Numbers] = None,
+    pose_b: Optional[Numbers] = None,
+    *,
+    method: str = "auto",
+    contact: str = "fcl",
+    relative_tolerance: float = 0.01,
+    absolute_tolerance: float = 1e-6,
+    threshold: Optional[float] = None,
+    time_limit: Optional[float] = None,
+    max_cells: int = ...,
+    max_memory: int = ...,
+    confidence: float = 0.99,
+    samples: int = ...,
+    seed: int = 1,
+    threads: int = 1,
+    gradient: bool = False,
+    patches: bool = True,
+    band_a: Union[float, Tuple[float, float]] = 0.0,
+    band_b: Union[float, Tuple[float, float]] = 0.0,
+    on_progress: Optional[QueryProgress] = None,
+) -> Tuple[ProbabilityResult, str]: ...
 def collision_probability(
     a: Union[Geometry, AnyMesh],
     b: Union[Geometry, AnyMesh],

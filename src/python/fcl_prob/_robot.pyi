@@ -158,6 +158,27 @@ class RobotQuery:
         on_progress: Optional[QueryProgress] = None,
     ) -> RobotResult: ...
 
+    def certified(
+        self,
+        waypoints: Union[Numbers, Sequence[Values]],
+        *,
+        method: str = "auto",
+        contact: str = "fcl",
+        relative_tolerance: float = 0.01,
+        absolute_tolerance: float = 1e-6,
+        threshold: Optional[float] = None,
+        time_limit: Optional[float] = None,
+        max_cells: int = ...,
+        max_memory: int = ...,
+        confidence: float = 0.99,
+        samples: int = ...,
+        seed: int = 1,
+        threads: int = 1,
+        gradient: bool = False,
+        patches: bool = True,
+        on_progress: Optional[QueryProgress] = None,
+    ) -> Tuple[RobotResult, str]: ...
+
     def decide_probably(
         self,
         waypoints: Union[Numbers, Sequence[Values]],
