@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What the lines of a certificate say (FORMAT.md), read and checked for form only.
+#pragma once
+
+#include <array>
+#include <istream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ball.h"
+
+namespace verify {
+
+/// The file is no certificate; `what` names line and field.
+struct Malformed : std::runtime_error {
+  Malformed(std::size_t line, const std::string& field, const std::string& why)
+      : std::runtime_error("line " + std::to_string(line) + ", \"" + field + "\": " + why) {}
+};
+
+using Triangle = std::array<int, 3>;
+
+struct Header {
+  bool solid_contact = false;
+  int rank = 0;
+  Vec mean{};
+  std::vector<Vec> axes;
+  std::vector<double> deviations;
+  std::vector<Vec> whitening;  // empty for the identity
+};
+
+struct Part {
+  std::size_t line = 0;
+  int object = 0;  // 0 is A, 1 is B
+  std::array<Vec, 3> rotation{};
+  Vec translation{};
+  std::vector<Vec> vertices;
+  std::vector<Triangle> triangles;
+  bool convex = false;
+  bool solid = false;
+};
+
+/// Triangles that close a part; indices below the part's number of vertices are the part's.
+struct Caps {
+  std::size_t line = 0;
+  int part = 0;
+  std::vector<Vec> vertices;
+  std::vector<Triangle> triangles;
+};
+
+/// `normal · y > level` or `<`, whichever the context says.
+struct Plane {
+  Vec normal{};
+  double level = 0;
+};
+
+struct Witness {
+  bool inside = false;        // else a pair
+  std::array<int, 2> pair{};  // pieces of A and B
+  int object = 0;             // whose vertex is inside
+  int vertex = -1, outside = -1;
+};
+
+struct ContactRegion {
+  std::vector<Plane> planes;  // all `>`
+  Witness witness;
+};
+
+struct Cell {
+  std::size_t line = 0;
+  Vec lo{}, hi{};  // (0, 0) beyond the rank
+  bool claims_free = false;
+  std::vector<Plane> free_planes;  // all `<`; none: all of the cell
+  std::vector<ContactRegion> contact;
+};
+
+struct Footer {
+  double lower = 0, upper = 0;
+  std::size_t cells = 0;
+};
+
+/// The lines in their order. Every method throws Malformed.
+class Reader {
+ public:
+  explicit Reader(std::istream& in) : in_(in) {}
+  /// Reads the header, the parts and the caps; stops before the first cell.
+  void read_objects();
+  /// False at the footer, which has to be the last line.
+  bool next_cell(Cell& cell);
+
+  Header header;
+  std::array<std::vector<Part>, 2> parts;
+  std::array<std::vector<Caps>, 2> caps;
+  Footer footer;
+
+ private:
+  bool next_line();
+
+  std::istream& in_;
+  std::string text_;
+  std::size_t line_ = 0;
+};
+
+}  // namespace verify

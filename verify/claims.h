@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// The claims of cells.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mass.h"
+#include "scene.h"
+
+namespace verify {
+
+/// What has been verified, added up. One a thread.
+struct Tally {
+  Ball contact;    // mass of regions of contact
+  Ball cells;      // mass of cells
+  Ball undecided;  // mass of what is in no free set
+  std::size_t claims = 0;
+  Masses masses;
+};
+
+/// Checks all claims of a cell and adds its masses. Empty, or what is wrong.
+std::string check_cell(const Scene& scene, const Cell& cell, Tally& tally);
+
+/// Empty, or why the witness proves nothing of `polytope`, which is not empty.
+std::string check_witness(const Scene& scene, const Polytope& polytope, const Region& region,
+                          const Witness& witness);
+
+/// Empty, or why the displacements at which the two pieces touch do not certainly contain the
+/// region.
+std::string check_pair(const Scene& scene, const Region& region, const Piece& k, const Piece& l);
+
+struct Box {
+  std::size_t line;
+  Vec lo, hi;
+};
+/// Lines of two boxes that overlap; zeros if there are none.
+std::pair<std::size_t, std::size_t> overlapping(const std::vector<Box>& boxes, int rank);
+
+}  // namespace verify

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "mass.h"
+
+#include <arb_hypgeom.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace verify {
+namespace {
+
+constexpr double kUnit = DBL_EPSILON / 2;
+constexpr int kMostNodes = 20;
+constexpr double kNegligible = 2e-15;  // the rule's error that is aimed at, of the integral
+
+// Nodes and weights on [0, 1], rounded.
+struct Rule {
+  std::vector<double> nodes, weights;
+};
+
+const Rule& rule(int count) {
+  static const std::vector<Rule> rules = [] {
+    std::vector<Rule> result(kMostNodes + 1);
+    const Precision enough(128);
+    for (int n = 2; n <= kMostNodes; ++n) {
+      for (int k = 0; k < n; ++k) {
+        Ball node, weight;
+        arb_hypgeom_legendre_p_ui_root(node.raw(), weight.raw(), n, k, Ball::bits);
+        result[n].nodes.push_back(((node + Ball(1)) * Ball(0.5)).nearest());
+        result[n].weights.push_back((weight * Ball(0.5)).nearest());
+      }
+    }
+    return result;
+  }();
+  return rules[count];
+}
+
+// e^x for |x| < 700 to a relative error of 2^-49 (1 + |x|): x = k ln 2 + r with |r| < 0.35, whose
+// rounding is below 2^-52 (1 + |x|), and 14 terms of the series, of which the rest is below 2^-57.
+inline double exponential(double x) {
+  constexpr double kToInteger = 0x1.8p52;  // rounds what is added to it, and taken off again
+  const double shifted = x * 1.4426950408889634 + kToInteger;
+  const double k = shifted - kToInteger;
+  const double r = (x - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;
+  double sum = 1.0 / 6227020800.0;
+  constexpr double kFactorials[] = {1.0 / 479001600,
+                                    1.0 / 39916800,
+                                    1.0 / 3628800,
+                                    1.0 / 362880,
+                                    1.0 / 40320,
+                                    1.0 / 5040,
+                                    1.0 / 720,
+                                    1.0 / 120,
+                                    1.0 / 24,
+                                    1.0 / 6,
+                                    0.5,
+                                    1.0,
+                                    1.0};
+  for (const double c : kFactorials) sum = sum * r + c;
+  std::int64_t bits, shift;
+  std::memcpy(&bits, &sum, sizeof bits);
+  std::memcpy(&shift, &shifted, sizeof shift);
+  bits += shift << 52;  // adds k to the exponent; what kToInteger has above is shifted out
+  std::memcpy(&sum, &bits, sizeof sum);
+  return sum;
+}
+
+// A simplex as seen from the center, its volume times rank!, and the bounds of what is summed up.
+struct Simplex {
+  Vec corner[4];
+  double determinant;
+};
+
+class Integral {
+ public:
+  Integral(int rank, const Vec& center)
+      : rank_(rank), center_(center), distance_(std::sqrt(dot(center, center))) {}
+  /// Adds the integral of exp(-center · s - |s|²/2) over the simplex.
+  void add(const Simplex& simplex, int depth = 0);
+  double sum() const { return sum_; }
+  /// A bound of the relative error of the sum.
+  double error() const { return error_; }
+
+ private:
+  double log_density(const Vec& s) const { return -dot(center_, s) - 0.5 * dot(s, s); }
+  int nodes_needed(const Simplex& simplex, double length) const;
+  double quadrature(const Simplex& simplex, int count) const;
+  void halve(const Simplex& simplex, int from, int to, int depth);
+
+  int rank_;
+  Vec center_;
+  double distance_;
+  double sum_ = 0, error_ = 0;
+};
+
+// The integrand g(u, v, w) = f(a + u b + u v c + u v w d) u² v is entire in each variable. A rule
+// of n nodes integrates polynomials of degree 2 n - 1, and the k-th Chebyshev coefficient on [0, 1]
+// of what is bounded by M in the ellipse with half-axes (ρ ± 1/ρ)/4 is at most 2 M ρ^-k, so that
+// the rule's error is below 32/15 M ρ^-2n / (1 - ρ^-2) for n >= 2 (Trefethen, Approximation Theory
+// and Practice, Theorem 19.3), once for each variable. There |Im s| <= (ρ - 1/ρ)/4 L, where L is
+// the length of the longest edge, and Re s is within (ρ + 1/ρ - 2)/4 L of an edge's line in the
+// simplex, so that M follows from |exp(-c·s - s·s/2)| = exp(-c·Re s - |Re s|²/2 + |Im s|²/2). The
+// logarithms need not be better than 1e-6.
+int Integral::nodes_needed(const Simplex& simplex, double length) const {
+  double linear = -DBL_MAX, least = DBL_MAX;  // of -c·s, and of the logarithm, which is concave
+  for (int i = 0; i <= rank_; ++i) {
+    linear = std::max(linear, -dot(center_, simplex.corner[i]));
+    least = std::min(least, log_density(simplex.corner[i]));
+  }
+  int best = kMostNodes + 1;
+  for (const double rho : {2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 100.0}) {
+    const double imaginary = (rho - 1 / rho) / 4 * length;
+    const double beyond = (rho + 1 / rho - 2) / 4 * length;
+    double log_bound = linear + distance_ * beyond + 0.5 * imaginary * imaginary - least;
+    log_bound += 3 * std::log((rho + 1 / rho + 2) / 4);                // |u² v|
+    log_bound += std::log(6 * 3 * 32 / 15.0 / (1 - 1 / (rho * rho)));  // of ∫ u² v = 1/6
+    const double count = (log_bound + 1e-3 - std::log(kNegligible)) / (2 * std::log(rho));
+    best = std::min(best, std::max(2, static_cast<int>(std::ceil(std::min(count, 1e3)))));
+  }
+  return best;
+}
+
+double Integral::quadrature(const Simplex& simplex, int count) const {
+  const Rule& r = rule(count);
+  const Vec* v = simplex.corner;
+  const Vec e1 = minus(v[1], v[0]), e2 = minus(v[2], v[1]);
+  const Vec e3 = rank_ == 3 ? minus(v[3], v[2]) : Vec{};
+  double total = 0;
+  for (int i = 0; i < count; ++i) {
+    double middle = 0;
+    for (int j = 0; j < count; ++j) {
+      const double first = r.nodes[i], second = first * r.nodes[j];
+      Vec s;
+      for (int k = 0; k < 3; ++k) s[k] = v[0][k] + first * e1[k] + second * e2[k];
+      if (rank_ == 2) {
+        middle += r.weights[j] * exponential(log_density(s));
+        continue;
+      }
+      double inner = 0;
+      for (int l = 0; l < count; ++l) {
+        const double third = second * r.nodes[l];
+        const Vec at{s[0] + third * e3[0], s[1] + third * e3[1], s[2] + third * e3[2]};
+        inner += r.weights[l] * exponential(log_density(at));
+      }
+      middle += r.weights[j] * second * inner;
+    }
+    total += r.weights[i] * r.nodes[i] * middle;
+  }
+  return total * simplex.determinant;
+}
+
+void Integral::halve(const Simplex& simplex, int from, int to, int depth) {
+  Simplex part = simplex;
+  part.determinant *= 0.5;
+  Vec middle = plus(simplex.corner[from], simplex.corner[to]);
+  for (double& x : middle) x *= 0.5;
+  part.corner[from] = middle;
+  add(part, depth + 1);
+  part.corner[from] = simplex.corner[from];
+  part.corner[to] = middle;
+  add(part, depth + 1);
+}
+
+void Integral::add(const Simplex& simplex, int depth) {
+  double length = 0, size = 0;
+  int from = 0, to = 1;
+  for (int i = 0; i <= rank_; ++i) {
+    size = std::max(size, std::sqrt(dot(simplex.corner[i], simplex.corner[i])));
+    for (int j = 0; j < i; ++j) {
+      const Vec edge = minus(simplex.corner[i], simplex.corner[j]);
+      const double here = std::sqrt(dot(edge, edge)) * (1 + 1e-14);
+      if (here > length) from = i, to = j;
+      length = std::max(length, here);
+    }
+  }
+  const int count = nodes_needed(simplex, length);
+  if (count > kMostNodes) {
+    halve(simplex, from, to, depth);
+    return;
+  }
+  sum_ += quadrature(simplex, count);
+  // Corners are off by (depth + 2) kUnit of their size, points by some 16 more, and the logarithm
+  // of the density by their product with its slope and by its own rounding; e^x as said there; sums
+  // of positive terms by one kUnit a term in each of the three loops, weights and nodes by a few.
+  const double slope = distance_ + size;
+  const double rounding =
+      kUnit * (size * slope * (depth + 48) + 16 * (1 + size * slope) + 3.0 * count + 40);
+  error_ = std::max(error_, kNegligible + rounding);
+}
+
+Ball gaussian_constant(int rank) {
+  Ball result(1), pi;
+  arb_const_pi(pi.raw(), Ball::bits);
+  arb_sqrt(pi.raw(), (pi * Ball(2)).raw(), Ball::bits);
+  for (int i = 0; i < rank; ++i) result = result / pi;
+  return result;
+}
+
+Ball rational(const mpq_class& q) { return Ball(q.get_num()) / Ball(q.get_den()); }
+
+// Of [x, ∞), x >= 0.
+Ball upper_tail(const Ball& x) {
+  Ball root, result;
+  arb_sqrt_ui(root.raw(), 2, Ball::bits);
+  arb_hypgeom_erfc(result.raw(), (x / root).raw(), Ball::bits);
+  return result * Ball(0.5);
+}
+
+Ball segment_mass(const mpq_class& lo, const mpq_class& hi) {
+  if (lo >= 0) return upper_tail(rational(lo)) - upper_tail(rational(hi));
+  if (hi <= 0) return upper_tail(rational(-hi)) - upper_tail(rational(-lo));
+  return Ball(1) - upper_tail(rational(-lo)) - upper_tail(rational(hi));
+}
+
+mpq_class determinant(const Polytope& polytope, const Polytope::Simplex& simplex) {
+  RationalVec e[3];
+  for (int i = 0; i < 3; ++i) {
+    e[i] = {0, 0, 0};
+    e[i][i] = 1;
+    if (i >= polytope.rank()) continue;
+    const RationalVec& to = polytope.vertices()[simplex[i + 1]];
+    const RationalVec& from = polytope.vertices()[simplex[0]];
+    for (int k = 0; k < polytope.rank(); ++k) e[i][k] = to[k] - from[k];
+  }
+  mpq_class result = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    result += e[0][i] * (e[1][j] * e[2][k] - e[1][k] * e[2][j]);
+  }
+  return abs(result);
+}
+
+}  // namespace
+
+const Ball& Masses::above(double x) {
+  const auto [found, is_new] = above_.try_emplace(x);
+  if (is_new) found->second = upper_tail(Ball(x));
+  return found->second;
+}
+
+Ball Masses::interval(double lo, double hi) {
+  if (lo >= 0) return above(lo) - above(hi);
+  if (hi <= 0) return above(-hi) - above(-lo);
+  return Ball(1) - above(-lo) - above(hi);
+}
+
+Ball Masses::box(int rank, const Vec& lo, const Vec& hi) {
+  const Precision precision(kMassBits);
+  Ball result(1);
+  for (int i = 0; i < rank; ++i) result = result * interval(lo[i], hi[i]);
+  return result;
+}
+
+namespace {
+
+// A polytope that is not too large for the density to vary much in it.
+Ball small_polytope(const Polytope& polytope, const Vec& center) {
+  std::vector<Vec> seen(polytope.vertices().size());
+  for (const int v : polytope.used()) {
+    for (int k = 0; k < polytope.rank(); ++k) {
+      seen[v][k] = mpq_class(polytope.vertices()[v][k] - mpq_class(center[k])).get_d();
+    }
+  }
+  Integral integral(polytope.rank(), center);
+  Ball negligible;
+  for (const auto& s : polytope.simplices()) {
+    Simplex simplex{};
+    for (int i = 0; i <= polytope.rank(); ++i) simplex.corner[i] = seen[s[i]];
+    // Rounded to 2^-52 of it, unless it is next to nothing: densities are below one.
+    simplex.determinant = determinant(polytope, s).get_d();
+    if (simplex.determinant < 1e-280) {
+      arb_add_error_2exp_si(negligible.raw(), -930);
+    } else {
+      integral.add(simplex);
+    }
+  }
+  Ball relative(integral.sum()), norm, scale;
+  arb_add_error(relative.raw(), Ball(integral.sum() * integral.error() * (1 + 1e-10)).raw());
+  for (const double c : center) norm = norm + Ball(c) * Ball(c);
+  arb_exp(scale.raw(), (norm * Ball(-0.5)).raw(), Ball::bits);
+  return relative * scale * gaussian_constant(polytope.rank()) + negligible;
+}
+
+}  // namespace
+
+// Halves what is large, the half nearer to the origin first: beside it the other one may be
+// negligible.
+void Masses::add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi, Ball& sum) {
+  if (polytope.empty()) return;
+  Vec center{}, half{};
+  int longest = 0;
+  for (int i = 0; i < polytope.rank(); ++i) {
+    center[i] = 0.5 * (lo[i] + hi[i]);
+    half[i] = 0.5 * (hi[i] - lo[i]);
+    if (half[i] > half[longest]) longest = i;
+  }
+  const double size = std::sqrt(dot(half, half));
+  if (size * (size + std::sqrt(dot(center, center))) < 20) {
+    sum = sum + small_polytope(polytope, center);
+    return;
+  }
+  const Ball most = box(polytope.rank(), lo, hi);
+  if (most <= sum * Ball(1e-18)) {
+    arb_add_error(sum.raw(), most.raw());
+    return;
+  }
+  Plane middle;
+  middle.normal[longest] = 1;
+  middle.level = center[longest];
+  for (const int side : {center[longest] > 0 ? -1 : 1, center[longest] > 0 ? 1 : -1}) {
+    Polytope part = polytope;
+    part.cut(middle, side);
+    Vec low = lo, high = hi;
+    (side > 0 ? low : high)[longest] = middle.level;
+    add_polytope(part, low, high, sum);
+  }
+}
+
+Ball Masses::polytope(const Polytope& polytope, const Vec& lo, const Vec& hi) {
+  const Precision precision(kMassBits);
+  Ball result;
+  if (polytope.rank() > 1) {
+    add_polytope(polytope, lo, hi, result);
+    return result;
+  }
+  for (const auto& s : polytope.simplices()) {
+    const mpq_class &a = polytope.vertices()[s[0]][0], &b = polytope.vertices()[s[1]][0];
+    result = result + segment_mass(std::min(a, b), std::max(a, b));
+  }
+  return result;
+}
+
+}  // namespace verify

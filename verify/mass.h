@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Standard normal measures of boxes and polytopes, as balls.
+#pragma once
+
+#include <unordered_map>
+
+#include "ball.h"
+#include "polytope.h"
+
+namespace verify {
+
+/// Keeps the values at sides, which neighbouring cells share.
+class Masses {
+ public:
+  Ball box(int rank, const Vec& lo, const Vec& hi);
+  /// Of a polytope in this box: to a relative error of some 1e-13, by Gauss and Legendre's rule
+  /// with a bound of its error.
+  Ball polytope(const Polytope& polytope, const Vec& lo, const Vec& hi);
+
+ private:
+  Ball interval(double lo, double hi);
+  const Ball& above(double x);  // of x >= 0
+  void add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi, Ball& sum);
+  std::unordered_map<double, Ball> above_;
+};
+
+constexpr slong kMassBits = 256;
+
+}  // namespace verify

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace verify {
+
+thread_local slong Ball::bits = 2048;
+
+const std::array<Vec, kSlabs> kSlabNormals = {{{1, 0, 0},
+                                               {0, 1, 0},
+                                               {0, 0, 1},
+                                               {1, 1, 0},
+                                               {1, -1, 0},
+                                               {1, 0, 1},
+                                               {1, 0, -1},
+                                               {0, 1, 1},
+                                               {0, 1, -1},
+                                               {1, 1, 1},
+                                               {1, 1, -1},
+                                               {1, -1, 1},
+                                               {1, -1, -1}}};
+
+namespace {
+
+BallVec scaled(const BallVec& v, const Ball& by) { return {v[0] * by, v[1] * by, v[2] * by}; }
+
+Ball square_root(const Ball& x) {
+  Ball result;
+  arb_sqrt(result.raw(), x.raw(), Ball::bits);
+  return result;
+}
+
+// Rows made orthonormal one after the other; entries beyond the rank are zero.
+std::vector<BallVec> gram_schmidt(std::vector<BallVec> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      rows[i] = minus(rows[i], scaled(rows[j], dot(rows[i], rows[j])));
+    }
+    const Ball length = square_root(dot(rows[i], rows[i]));
+    if (length.sign() <= 0) throw Malformed(1, "whitening", "rows depend on each other");
+    rows[i] = scaled(rows[i], Ball(1) / length);
+  }
+  return rows;
+}
+
+// Fills up the columns of the displacement to a basis, by any vectors that are exact and not too
+// small.
+void complete(std::array<BallVec, 3>& columns, int rank) {
+  const auto rounded = [&](int i) {
+    return Vec{columns[i][0].nearest(), columns[i][1].nearest(), columns[i][2].nearest()};
+  };
+  const Vec first = rounded(0);
+  const double length = std::sqrt(dot(first, first));
+  for (int i = rank; i < 3; ++i) {
+    Vec other = i == 2 ? rounded(1) : Vec{};
+    if (i == 1) {
+      const auto small = std::min_element(
+          first.begin(), first.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+      other[small - first.begin()] = 1;
+    }
+    Vec normal = cross(first, other);
+    const double scale = length / std::sqrt(dot(normal, normal));
+    for (double& n : normal) n *= scale;
+    columns[i] = balls(normal);
+  }
+}
+
+}  // namespace
+
+Frame::Frame(const Header& header)
+    : rank(header.rank), bits(header.whitening.empty() ? 2048 : 320), mean(balls(header.mean)) {
+  Ball::bits = bits;
+  std::array<BallVec, 3> scaled_axes;
+  for (int j = 0; j < rank; ++j) {
+    scaled_axes[j] = scaled(balls(header.axes[j]), Ball(header.deviations[j]));
+  }
+  columns = scaled_axes;
+  if (!header.whitening.empty()) {
+    std::vector<BallVec> rows(rank);
+    for (int i = 0; i < rank; ++i) {
+      for (int j = 0; j < rank; ++j) rows[i][j] = dot(balls(header.whitening[i]), scaled_axes[j]);
+    }
+    rows = gram_schmidt(rows);
+    // ξ_j = Σ_i R_ij y_i, so that the column of y_i is Σ_j R_ij times the one of ξ_j.
+    for (int i = 0; i < rank; ++i) {
+      columns[i] = BallVec();
+      for (int j = 0; j < rank; ++j) {
+        columns[i] = plus(columns[i], scaled(scaled_axes[j], rows[i][j]));
+      }
+    }
+  }
+  complete(columns, rank);
+  for (int i = 0; i < 3; ++i) cofactors[i] = cross(columns[(i + 1) % 3], columns[(i + 2) % 3]);
+  determinant = dot(columns[0], cofactors[0]);
+  if (determinant.sign() == 0 || !determinant.is_finite()) {
+    throw Malformed(1, "axes", "depend on each other, or a deviation is zero");
+  }
+}
+
+BallVec Frame::to_world(const BallVec& v) const {
+  BallVec result;
+  for (int i = 0; i < 3; ++i) result = plus(result, scaled(columns[i], v[i]));
+  return result;
+}
+
+int certain_sign(const Vec& a, const Vec& a_error, const Vec& b, const Vec& c, const Vec& error) {
+  double margin = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double size_a = std::abs(a[i]) + a_error[i];
+    const double bj = std::abs(b[j]), bk = std::abs(b[k]), cj = std::abs(c[j]), ck = std::abs(c[k]);
+    const double products = bj * ck + bk * cj;
+    margin += size_a * (16 * kUnit * products + error[j] * (ck + bk + error[k]) +
+                        error[k] * (bj + cj + error[j]));
+    margin += a_error[i] * products;
+  }
+  const double value = dot(a, cross(b, c));
+  return std::abs(value) > margin * (1 + 1e-10) + DBL_MIN ? (value > 0 ? 1 : -1) : 0;
+}
+
+BallVec Object::world(int vertex) const {
+  const Part& part = *sources_[vertex].part;
+  const BallVec local = balls(*sources_[vertex].vertex);
+  BallVec result = balls(part.translation);
+  for (int i = 0; i < 3; ++i) result[i] = result[i] + dot(balls(part.rotation[i]), local);
+  return result;
+}
+
+void Object::add_vertex(const Part& part, const Vec& vertex) {
+  sources_.push_back({&part, &vertex});
+  const Precision enough(192);
+  BallVec from = minus(world(static_cast<int>(points.size())), balls(origin_));
+  if (!displaced_) from = minus(from, frame_->mean);
+  Vec point;
+  for (int i = 0; i < 3; ++i) {
+    const Ball y = dot(frame_->cofactors[i], from) / frame_->determinant;
+    point[i] = y.nearest();
+    if (!std::isfinite(point[i])) throw Malformed(part.line, "vertices", "are too far away");
+    const double size = std::abs(point[i]);
+    bound[i] = std::max(bound[i], size);
+    error[i] = std::max(error[i], (size * kUnit + y.radius() + DBL_MIN) * (1 + 1e-10));
+  }
+  points.push_back(point);
+}
+
+void Object::add_part(const Part& part, bool with_pieces) {
+  const int first = static_cast<int>(points.size());
+  for (const Vec& vertex : part.vertices) add_vertex(part, vertex);
+  if (!with_pieces) return;
+  if (!part.convex) {
+    for (const Triangle& t : part.triangles) {
+      const Triangle moved{first + t[0], first + t[1], first + t[2]};
+      pieces.push_back({{moved.begin(), moved.end()}, {moved}});
+    }
+    return;
+  }
+  Piece piece{std::vector<int>(part.vertices.size()), part.triangles};
+  std::iota(piece.vertices.begin(), piece.vertices.end(), first);
+  for (Triangle& face : piece.faces) {
+    for (int& v : face) v += first;
+  }
+  pieces.push_back(std::move(piece));
+}
+
+void Object::add_caps(const Part& part, const Caps& caps) {
+  for (const Vec& vertex : caps.vertices) add_vertex(part, vertex);
+  for (const Triangle& t : caps.triangles) pieces.push_back({{t.begin(), t.end()}, {t}});
+}
+
+Object Object::single(int vertex) const {
+  Object result(*frame_, displaced_, origin_);
+  result.points = {points[vertex]};
+  result.sources_ = {sources_[vertex]};
+  result.error = error;
+  result.bound = bound;
+  result.pieces = {{{0}, {}}};
+  result.finish();
+  return result;
+}
+
+void Object::bound_piece(const Piece& piece, Node& node) const {
+  for (int d = 0; d < kSlabs; ++d) {
+    const Vec& n = kSlabNormals[d];
+    double lo = DBL_MAX, hi = -DBL_MAX, margin = 0;
+    for (const int v : piece.vertices) {
+      const double value = dot(n, points[v]);
+      lo = std::min(lo, value);
+      hi = std::max(hi, value);
+    }
+    for (int i = 0; i < 3; ++i) margin += std::abs(n[i]) * (error[i] + 8 * kUnit * bound[i]);
+    node.lo[d] = lo - margin * (1 + 1e-10);
+    node.hi[d] = hi + margin * (1 + 1e-10);
+  }
+}
+
+void Object::finish() {
+  if (pieces.empty()) return;
+  std::vector<int> order(pieces.size());
+  std::iota(order.begin(), order.end(), 0);
+  nodes.reserve(2 * pieces.size());
+  build(order.data(), order.data() + order.size());
+}
+
+// A node of some pieces, halved along the axis along which their first vertices spread most.
+int Object::build(int* first, int* last) {
+  const int here = static_cast<int>(nodes.size());
+  nodes.emplace_back();
+  Node node;
+  if (last - first == 1) {
+    node.piece = *first;
+    bound_piece(pieces[*first], node);
+    nodes[here] = node;
+    return here;
+  }
+  const auto place = [&](int piece, int axis) { return points[pieces[piece].vertices[0]][axis]; };
+  int axis = 0;
+  double most = -1;
+  for (int i = 0; i < 3; ++i) {
+    const auto ends =
+        std::minmax_element(first, last, [&](int a, int b) { return place(a, i) < place(b, i); });
+    const double spread = place(*ends.second, i) - place(*ends.first, i);
+    if (spread > most) axis = i;
+    most = std::max(most, spread);
+  }
+  int* middle = first + (last - first) / 2;
+  std::nth_element(first, middle, last,
+                   [&](int a, int b) { return place(a, axis) < place(b, axis); });
+  node.left = build(first, middle);
+  node.right = build(middle, last);
+  for (int d = 0; d < kSlabs; ++d) {
+    node.lo[d] = std::min(nodes[node.left].lo[d], nodes[node.right].lo[d]);
+    node.hi[d] = std::max(nodes[node.left].hi[d], nodes[node.right].hi[d]);
+  }
+  nodes[here] = node;
+  return here;
+}
+
+}  // namespace verify

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// A box cut by half-spaces, exactly: as simplices with rational vertices.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <map>
+#include <vector>
+
+#include "certificate.h"
+
+namespace verify {
+
+using RationalVec = std::array<mpq_class, 3>;
+
+class Polytope {
+ public:
+  Polytope(int rank, const Vec& lo, const Vec& hi);
+  /// Keeps what is on the side `side * (normal · y - level) > 0`.
+  void cut(const Plane& plane, int side);
+  bool empty() const { return simplices_.empty(); }
+
+  int rank() const { return rank_; }
+  /// Vertices of the simplices. All lie in the polytope, and its corners are among them.
+  std::vector<int> used() const;
+  /// A point of it.
+  RationalVec center() const;
+  const std::vector<RationalVec>& vertices() const { return vertices_; }
+  /// `rank + 1` vertices each; no two overlap.
+  using Simplex = std::array<int, 4>;
+  const std::vector<Simplex>& simplices() const { return simplices_; }
+
+ private:
+  void keep_positive(Simplex simplex, std::vector<Simplex>& kept);
+  int crossing(int positive, int negative);
+
+  int rank_;
+  std::vector<RationalVec> vertices_;
+  std::vector<Simplex> simplices_;
+  // Of the cut under way: height over the plane, and the new vertex of each edge that crosses it.
+  std::vector<mpq_class> heights_;
+  std::map<std::pair<int, int>, int> crossings_;
+};
+
+}  // namespace verify

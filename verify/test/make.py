@@ -1,0 +1,84 @@
+"""Certificates made from scratch, of scenes whose probability of contact is known in closed form."""
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the fcl_prob authors
+import json
+import math
+
+IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+BOX_FACES = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+             [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]]
+
+
+def box_part(obj, lo, hi, convex=True, solid=False, translation=(0, 0, 0)):
+    """A box; vertex i has its upper side along the axes whose bits i has."""
+    vertices = [[(hi if i >> k & 1 else lo)[k] for k in range(3)] for i in range(8)]
+    return {"part": obj, "rotation": IDENTITY, "translation": list(translation), "vertices": vertices,
+            "triangles": [list(t) for t in BOX_FACES], "convex": convex, "solid": solid}
+
+
+def mesh_part(obj, vertices, triangles, solid=False, convex=False):
+    return {"part": obj, "rotation": IDENTITY, "translation": [0, 0, 0], "vertices": vertices,
+            "triangles": triangles, "convex": convex, "solid": solid}
+
+
+def header(rank=3, mean=(0, 0, 0), deviations=(1, 1, 1), contact="surface", axes=None, whitening=None):
+    return {"fcl_prob_certificate": 1, "contact": contact, "mean": list(mean),
+            "axes": [list(a) for a in (axes or IDENTITY)][:rank], "deviations": list(deviations)[:rank],
+            "whitening": whitening}
+
+
+def interval_mass(lo, hi):
+    if lo > 0:
+        return interval_mass(-hi, -lo)
+    if hi <= 0:
+        return 0.5 * (math.erfc(-hi / math.sqrt(2)) - math.erfc(-lo / math.sqrt(2)))
+    return 0.5 * (math.erf(hi / math.sqrt(2)) - math.erf(lo / math.sqrt(2)))
+
+
+def box_mass(lo, hi):
+    return math.prod(interval_mass(a, b) for a, b in zip(lo, hi))
+
+
+def split_cells(lo, hi, depth, judge):
+    """Cells of a k-d tree over the box; judge(lo, hi, last) is what to claim, or None to split on."""
+    claim = judge(lo, hi, depth == 0)
+    if claim is not None:
+        return [{"cell": list(lo) + list(hi), **claim}]
+    axis = max(range(len(lo)), key=lambda i: hi[i] - lo[i])
+    middle = 0.5 * (lo[axis] + hi[axis])
+    low, high = list(lo), list(hi)
+    low[axis] = high[axis] = middle
+    return split_cells(lo, high, depth - 1, judge) + split_cells(low, hi, depth - 1, judge)
+
+
+def judge_box(inner_lo, inner_hi, witness=None, with_planes=False):
+    """Contact in a box of displacements, and nowhere else."""
+    witness = witness or {"pair": [0, 0]}
+
+    def judge(lo, hi, last):
+        rank = len(lo)
+        if all(a >= c and b <= d for a, b, c, d in zip(lo, hi, inner_lo, inner_hi)):
+            return {"contact": [{"planes": [], "by": witness}]}
+        if any(b <= c or a >= d for a, b, c, d in zip(lo, hi, inner_lo, inner_hi)):
+            return {"free": True}
+        if not last:
+            return None
+        if not with_planes:
+            return {}
+        planes = []
+        for i in range(rank):
+            unit = [1.0 if k == i else 0.0 for k in range(rank)]
+            if lo[i] < inner_lo[i]:
+                planes.append(unit + [inner_lo[i]])
+            if hi[i] > inner_hi[i]:
+                planes.append([-u for u in unit] + [-inner_hi[i]])
+        return {"free": planes, "contact": [{"planes": planes, "by": witness}]}
+
+    return judge
+
+
+def write(path, head, parts, cells, lower, upper, caps=()):
+    lines = [head, *parts, *caps, *cells, {"lower": lower, "upper": upper, "cells": len(cells)}]
+    with open(path, "w") as file:
+        for line in lines:
+            file.write(json.dumps(line) + "\n")
