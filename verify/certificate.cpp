@@ -146,14 +146,21 @@ Caps read_caps(const Field& line, const std::array<std::vector<Part>, 2>& parts)
 
 Witness read_witness(const Field& by) {
   Witness witness;
-  if (by.has("pair") == by.has("inside")) by.fail("must have one of \"pair\" and \"inside\"");
-  witness.inside = by.has("inside");
-  if (!witness.inside) {
+  if (by.has("pair") + by.has("inside") + by.has("contained") != 1) {
+    by.fail("must have one of \"pair\", \"inside\" and \"contained\"");
+  }
+  if (by.has("contained")) {
+    if (!by["contained"].boolean()) by["contained"].fail("must be true");
+    witness.kind = Witness::kContained;
+    return witness;
+  }
+  if (by.has("pair")) {
     const Field pair = by["pair"];
     if (pair.size() != 2) pair.fail("must be two indices");
     witness.pair = {pair.at(0).index(), pair.at(1).index()};
     return witness;
   }
+  witness.kind = Witness::kInside;
   witness.object = by["inside"].object();
   witness.vertex = by["vertex"].index();
   if (by.has("outside") && !by["outside"].json.is_null()) witness.outside = by["outside"].index();

@@ -56,7 +56,7 @@ struct Plane {
 };
 
 struct Witness {
-  bool inside = false;        // else a pair
+  enum Kind { kPair, kInside, kContained } kind = kPair;
   std::array<int, 2> pair{};  // pieces of A and B
   int object = 0;             // whose vertex is inside
   int vertex = -1, outside = -1;

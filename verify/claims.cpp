@@ -35,7 +35,10 @@ bool have_opposite_planes(const ContactRegion& a, const ContactRegion& b) {
 
 std::string check_free_set(const Scene& scene, const Polytope& polytope, const Region& region) {
   std::string wrong = scene.touching(region, scene.objects[0], scene.objects[1]);
-  if (wrong.empty()) wrong = scene.nested(polytope.center());
+  if (wrong.empty() && scene.solid_contact &&
+      scene.nesting(polytope.center()) != Scene::Nesting::kNone) {
+    wrong = "one object may be in a solid of the other";
+  }
   return wrong;
 }
 

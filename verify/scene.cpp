@@ -234,19 +234,18 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
   return "";
 }
 
-std::string Scene::nested(const RationalVec& y) const {
-  if (!solid_contact) return "";
-  for (int x = 0; x < 2; ++x) {
+Scene::Nesting Scene::nesting(const RationalVec& y) const {
+  Nesting result = Nesting::kNone;
+  for (int x = 0; x < 2 && solid_contact; ++x) {
     for (const Solid& solid : solids_[1 - x]) {
       for (const int v : representatives_[x]) {
         const Crossings found = crossings(x, v, solid.surface, y);
-        if (found.known && found.winding == 0) continue;
-        return std::string("vertex ") + std::to_string(v) + " of " + (x == 0 ? "A" : "B") +
-               " may be in a solid of the other object";
+        if (found.known && found.winding != 0) return Nesting::kSome;
+        if (!found.known) result = Nesting::kUnknown;
       }
     }
   }
-  return "";
+  return result;
 }
 
 }  // namespace verify

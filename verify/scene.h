@@ -21,8 +21,9 @@ class Scene {
   /// Empty if no piece of a touches one of b in the region; else says which could not be told
   /// apart.
   std::string touching(const Region& region, const Object& a, const Object& b) const;
-  /// Empty if in contact of solids none is in the other at y, given that no pieces touch around it.
-  std::string nested(const RationalVec& y) const;
+  /// Whether in contact of solids, at y, a component of one object is in a solid of the other.
+  enum class Nesting { kNone, kSome, kUnknown };
+  Nesting nesting(const RationalVec& y) const;
 
   struct Crossings {
     bool known = false;  // false if the point may be on the surface

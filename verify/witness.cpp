@@ -43,11 +43,20 @@ std::string check_inside(const Scene& scene, const Polytope& polytope, const Reg
   return wrong.empty() ? "" : "a cap may be touched: " + wrong;
 }
 
+std::string check_contained(const Scene& scene, const Polytope& polytope, const Region& region) {
+  if (!scene.solid_contact) return "\"contained\" is for contact of solids";
+  const std::string wrong = scene.touching(region, scene.objects[0], scene.objects[1]);
+  if (!wrong.empty()) return wrong;
+  if (scene.nesting(polytope.center()) == Scene::Nesting::kSome) return "";
+  return "no vertex is certainly in a solid of the other object";
+}
+
 }  // namespace
 
 std::string check_witness(const Scene& scene, const Polytope& polytope, const Region& region,
                           const Witness& witness) {
-  if (witness.inside) return check_inside(scene, polytope, region, witness);
+  if (witness.kind == Witness::kInside) return check_inside(scene, polytope, region, witness);
+  if (witness.kind == Witness::kContained) return check_contained(scene, polytope, region);
   for (int x = 0; x < 2; ++x) {
     if (static_cast<std::size_t>(witness.pair[x]) >= scene.objects[x].pieces.size()) {
       return "there is no piece " + std::to_string(witness.pair[x]) + " of " + (x == 0 ? "A" : "B");

@@ -82,3 +82,54 @@ def write(path, head, parts, cells, lower, upper, caps=()):
     with open(path, "w") as file:
         for line in lines:
             file.write(json.dumps(line) + "\n")
+
+
+def sphere(radius, center, level):
+    """Vertices on a sphere and triangles, an octahedron divided `level` times; normals outwards."""
+    vertices = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for _ in range(level):
+        middles, finer = {}, []
+
+        def middle(i, j):
+            key = (min(i, j), max(i, j))
+            if key not in middles:
+                point = [a + b for a, b in zip(vertices[i], vertices[j])]
+                length = math.sqrt(sum(x * x for x in point))
+                middles[key] = len(vertices)
+                vertices.append(tuple(x / length for x in point))
+            return middles[key]
+
+        for i, j, k in faces:
+            a, b, c = middle(i, j), middle(j, k), middle(k, i)
+            finer += [(i, a, c), (a, j, b), (c, b, k), (a, b, c)]
+        faces = finer
+    return ([[c + radius * x for c, x in zip(center, v)] for v in vertices], [list(f) for f in faces])
+
+
+def judge_spheres(a, b, radius_a, radius_b, inner_b, center_a, center_b, deviations, solid):
+    """Contact of two meshes of spheres, `a` and `b` their vertices: claims what is plain to see."""
+    def judge(lo, hi, last):
+        rank = len(lo)
+        shifts = [[center_a[i] - center_b[i] + deviations[i] * y[i] if i < rank else
+                   center_a[i] - center_b[i] for i in range(3)]
+                  for y in ([(hi if c >> k & 1 else lo)[k] for k in range(rank)] for c in range(1 << rank))]
+        # The nearest point of the cell to where the centers coincide.
+        near = [min(max(0, min(s[i] for s in shifts)), max(s[i] for s in shifts)) for i in range(3)]
+        if math.sqrt(sum(x * x for x in near)) > (radius_a + radius_b) * (1 + 1e-9):
+            return {"free": True}
+
+        def distance(v, shift):
+            return math.sqrt(sum((v[i] - center_a[i] + shift[i]) ** 2 for i in range(3)))
+        middle = [sum(s[i] for s in shifts) / len(shifts) for i in range(3)]
+        inside = min(range(len(a)), key=lambda v: distance(a[v], middle))
+        if max(distance(a[inside], s) for s in shifts) < inner_b * (1 - 1e-9):
+            if solid:
+                return {"contact": [{"planes": [], "by": {"inside": "A", "vertex": inside}}]}
+            outside = max(range(len(a)), key=lambda v: distance(a[v], middle))
+            aside = [s for s in shifts if distance(a[outside], s) < radius_b * (1 + 1e-9)]
+            if not aside and all(abs(middle[i]) > radius_b for i in range(1)):
+                return {"contact": [{"planes": [], "by": {"inside": "A", "vertex": inside,
+                                                          "outside": outside}}]}
+        return {} if last else None
+    return judge
