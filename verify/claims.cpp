@@ -60,6 +60,7 @@ std::string check_free(const Scene& scene, const Cell& cell, Tally& tally) {
     const std::string wrong = check_free_set(scene, side, Region(side, cell.lo, cell.hi, {plane}));
     if (!wrong.empty()) return "\"free\" " + describe(plane, rank) + ": " + wrong;
   }
+  const Precision precision(tally.bits);
   tally.undecided = tally.undecided + tally.masses.polytope(rest, cell.lo, cell.hi);
   return "";
 }
@@ -144,7 +145,7 @@ std::string check_cell(const Scene& scene, const Cell& cell, Tally& tally) {
   std::string wrong = check_contact(scene, cell, tally);
   if (!wrong.empty()) return wrong;
   const Ball mass = tally.masses.box(scene.frame.rank, cell.lo, cell.hi);
-  const Precision precision(kMassBits);
+  const Precision precision(tally.bits);
   tally.cells = tally.cells + mass;
   if (!cell.claims_free) {
     tally.undecided = tally.undecided + mass;

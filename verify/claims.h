@@ -17,7 +17,10 @@ struct Tally {
   Ball cells;      // mass of cells
   Ball undecided;  // mass of what is in no free set
   std::size_t claims = 0;
+  slong bits;  // the precision of the sums
   Masses masses;
+
+  explicit Tally(slong precision) : bits(precision), masses(precision) {}
 };
 
 /// Checks all claims of a cell and adds its masses. Empty, or what is wrong.

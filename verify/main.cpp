@@ -2,8 +2,10 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob_verify: checks a certificate without the library that wrote it. See FORMAT.md.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <thread>
@@ -74,14 +76,16 @@ struct Bounds {
 };
 
 Bounds add_up(const std::vector<Tally>& tallies) {
-  const Precision precision(kMassBits);
+  const Precision precision(tallies[0].bits);
   Ball contact, cells, undecided;
   for (const Tally& tally : tallies) {
     contact = contact + tally.contact;
     cells = cells + tally.cells;
     undecided = undecided + tally.undecided;
   }
-  return {contact.outward(-1), (Ball(1) - cells + undecided).outward(1)};
+  // A ball's radius may reach beyond what any probability is.
+  return {std::max(contact.outward(-1), 0.0),
+          std::min((Ball(1) - cells + undecided).outward(1), 1.0)};
 }
 
 void check_bounds(const Footer& footer, const Bounds& bounds) {
@@ -98,15 +102,30 @@ void check_bounds(const Footer& footer, const Bounds& bounds) {
   }
 }
 
+// Bits for 1 - Σ μ(cell) to be known to 256 of what the last line claims of it: that line is looked
+// at before its turn for this only.
+slong bits_needed(std::ifstream& in) {
+  in.seekg(0, std::ios::end);
+  in.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(in.tellg()) - 400));
+  std::string tail((std::istreambuf_iterator<char>(in)), {});
+  in.clear();
+  in.seekg(0);
+  const std::size_t found = tail.rfind("\"upper\":");
+  const double upper =
+      found == std::string::npos ? 1 : std::strtod(tail.c_str() + found + 8, nullptr);
+  return 256 + (upper > 0 && upper < 1 ? static_cast<slong>(-std::log2(upper)) : 0);
+}
+
 void run(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   std::ifstream in(options.file);
   if (!in) throw std::runtime_error(options.file + ": cannot be read");
+  const slong bits = bits_needed(in);
   Reader reader(in);
   reader.read_objects();
   const Scene scene(reader);
 
-  std::vector<Tally> tallies(options.threads);
+  std::vector<Tally> tallies(options.threads, Tally(bits));
   std::vector<Box> boxes;
   std::vector<Cell> batch;
   double last_told = 0;

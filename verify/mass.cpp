@@ -61,7 +61,7 @@ inline double exponential(double x) {
                                     1.0,
                                     1.0};
   for (const double c : kFactorials) sum = sum * r + c;
-  std::int64_t bits, shift;
+  std::uint64_t bits, shift;
   std::memcpy(&bits, &sum, sizeof bits);
   std::memcpy(&shift, &shifted, sizeof shift);
   bits += shift << 52;  // adds k to the exponent; what kToInteger has above is shifted out
@@ -249,7 +249,7 @@ Ball Masses::interval(double lo, double hi) {
 }
 
 Ball Masses::box(int rank, const Vec& lo, const Vec& hi) {
-  const Precision precision(kMassBits);
+  const Precision precision(bits_);
   Ball result(1);
   for (int i = 0; i < rank; ++i) result = result * interval(lo[i], hi[i]);
   return result;
@@ -321,7 +321,7 @@ void Masses::add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi
 }
 
 Ball Masses::polytope(const Polytope& polytope, const Vec& lo, const Vec& hi) {
-  const Precision precision(kMassBits);
+  const Precision precision(256);
   Ball result;
   if (polytope.rank() > 1) {
     add_polytope(polytope, lo, hi, result);

@@ -13,6 +13,8 @@ namespace verify {
 /// Keeps the values at sides, which neighbouring cells share.
 class Masses {
  public:
+  /// The precision of masses of boxes, of which differences with 1 are wanted.
+  explicit Masses(slong bits) : bits_(bits) {}
   Ball box(int rank, const Vec& lo, const Vec& hi);
   /// Of a polytope in this box: to a relative error of some 1e-13, by Gauss and Legendre's rule
   /// with a bound of its error.
@@ -22,9 +24,8 @@ class Masses {
   Ball interval(double lo, double hi);
   const Ball& above(double x);  // of x >= 0
   void add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi, Ball& sum);
+  slong bits_;
   std::unordered_map<double, Ball> above_;
 };
-
-constexpr slong kMassBits = 256;
 
 }  // namespace verify

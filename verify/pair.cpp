@@ -164,8 +164,8 @@ class Containment {
     const Ball constant = dot(normal, frame.mean);
     const Ball lo = l_lo - k_hi, hi = l_hi - k_lo;
     for (std::size_t i = 0; i < region_.corners.size(); ++i) {
-      Ball times;
-      const Ball value = dot(slope, region_.exact_corner(i, times)) + constant * times;
+      const auto [corner, times] = region_.exact_corner(i);
+      const Ball value = dot(slope, corner) + constant * times;
       if (!(value <= hi * times) || !(lo * times <= value)) return false;
     }
     return true;

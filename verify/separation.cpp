@@ -94,17 +94,15 @@ Region::Region(const Polytope& polytope, const Vec& low, const Vec& high,
   }
 }
 
-BallVec Region::exact_corner(std::size_t i, Ball& times) const {
-  times = Ball(1);
-  if (rationals.empty()) return balls(corners[i]);
+Region::Corner Region::exact_corner(std::size_t i) const {
+  if (rationals.empty()) return {balls(corners[i]), Ball(1)};
   mpz_class common = 1;
   for (const mpq_class& q : rationals[i]) common = lcm(common, q.get_den());
-  times = Ball(common);
   BallVec result;
   for (int k = 0; k < 3; ++k) {
     result[k] = Ball(mpz_class(rationals[i][k].get_num() * (common / rationals[i][k].get_den())));
   }
-  return result;
+  return {result, Ball(common)};
 }
 
 BallVec Separator::exact_edge(const Edge& edge) const {
@@ -154,8 +152,8 @@ bool Separator::proven_exactly(const Direction& direction) const {
   const Ball constant = dot(normal, frame_.mean);
   bool below = true, above = true;
   for (std::size_t i = 0; i < region_->corners.size() && (below || above); ++i) {
-    Ball times;
-    const Ball value = dot(slope, region_->exact_corner(i, times)) + constant * times;
+    const auto [corner, times] = region_->exact_corner(i);
+    const Ball value = dot(slope, corner) + constant * times;
     // Regions are open: on them a function that is not constant has no value that it has at a
     // corner only.
     below = below && (varies ? value <= lo * times : value < lo * times);

@@ -15,7 +15,11 @@ struct Region {
   Region(int rank, const Vec& lo, const Vec& hi);
   Region(const Polytope& polytope, const Vec& lo, const Vec& hi, const std::vector<Plane>& planes);
   /// A corner times a positive number, to have no division and so no rounding.
-  BallVec exact_corner(std::size_t i, Ball& times) const;
+  struct Corner {
+    BallVec point;
+    Ball times;
+  };
+  Corner exact_corner(std::size_t i) const;
 
   Vec lo, hi;
   Vec bound{};                         // of |y|

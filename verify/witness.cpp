@@ -18,8 +18,9 @@ std::string check_inside(const Scene& scene, const Polytope& polytope, const Reg
   const auto& component = scene.component[x];
   const RationalVec center = polytope.center();
   const Object& surface = solid ? scene.objects[y] : scene.closed[y];
-  for (const int v : {witness.vertex, witness.outside}) {
-    if (v == witness.outside && solid) continue;
+  for (const bool claimed_inside : {true, false}) {
+    if (!claimed_inside && solid) continue;
+    const int v = claimed_inside ? witness.vertex : witness.outside;
     if (v < 0 || static_cast<std::size_t>(v) >= component.size() || component[v] < 0) {
       return "no piece has vertex " + std::to_string(v);
     }
@@ -28,7 +29,7 @@ std::string check_inside(const Scene& scene, const Polytope& polytope, const Reg
         x == 0 ? scene.touching(region, point, surface) : scene.touching(region, surface, point);
     if (!wrong.empty()) return "vertex " + std::to_string(v) + " may be on the surface: " + wrong;
     const Scene::Crossings found = scene.crossings(x, v, surface, center);
-    const bool as_said = solid ? found.winding != 0 : found.odd == (v == witness.vertex);
+    const bool as_said = solid ? found.winding != 0 : found.odd == claimed_inside;
     if (!found.known || !as_said) {
       return "vertex " + std::to_string(v) + " is not on the side of the surface that is claimed";
     }

@@ -127,8 +127,11 @@ def judge_spheres(a, b, radius_a, radius_b, inner_b, center_a, center_b, deviati
             if solid:
                 return {"contact": [{"planes": [], "by": {"inside": "A", "vertex": inside}}]}
             outside = max(range(len(a)), key=lambda v: distance(a[v], middle))
-            aside = [s for s in shifts if distance(a[outside], s) < radius_b * (1 + 1e-9)]
-            if not aside and all(abs(middle[i]) > radius_b for i in range(1)):
+            # On the far side of a plane that touches the sphere of B, everywhere in the cell.
+            length = distance(a[outside], middle)
+            normal = [(a[outside][i] - center_a[i] + middle[i]) / length for i in range(3)]
+            if all(sum(n * (a[outside][i] - center_a[i] + s[i]) for i, n in enumerate(normal)) >
+                   radius_b * (1 + 1e-9) for s in shifts):
                 return {"contact": [{"planes": [], "by": {"inside": "A", "vertex": inside,
                                                           "outside": outside}}]}
         return {} if last else None

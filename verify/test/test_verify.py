@@ -1,0 +1,478 @@
+"""Tests of fcl_prob_verify: certificates that are true, and thousands of changes that make them false.
+
+Usage: test_verify.py VERIFIER [unittest arguments]"""
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the fcl_prob authors
+import collections
+import copy
+import json
+import math
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from judge_boxes import is_true
+from make import (IDENTITY, box_mass, box_part, header, judge_box, judge_spheres, mesh_part, sphere,
+                  split_cells)
+
+VERIFIER = sys.argv[1] if len(sys.argv) > 1 else "fcl_prob_verify"
+PYTHON_VERIFIER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "verify.py")
+
+
+def certificate(head, parts, cells, lower=0.0, upper=1.0, caps=()):
+    return [head, *parts, *caps, *cells, {"lower": lower, "upper": upper, "cells": len(cells)}]
+
+
+class Answer:
+    def __init__(self, lines, *options):
+        with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
+            file.write(lines if isinstance(lines, str) else "".join(json.dumps(x) + "\n" for x in lines))
+            file.flush()
+            run = subprocess.run([VERIFIER, file.name, *options], capture_output=True, text=True)
+        self.code, self.text = run.returncode, run.stdout + run.stderr
+        found = re.search(r"verified \[(.*), (.*)\]", run.stdout)
+        self.lower, self.upper = map(float, found.groups()) if found else (None, None)
+
+
+def two_boxes(rank, mean=(0, 0, 0), deviations=(1, 1, 1), depth=7, reach=8.0):
+    """Convex boxes; and the box of y at which they touch."""
+    a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [.25, .125, -.375], [1.25, 1.625, 1.5])
+    lo = [(x - m) / d for x, m, d in zip([-.75, -.875, -1.375], mean, deviations)][:rank]
+    hi = [(x - m) / d for x, m, d in zip([1.25, 1.625, 1.5], mean, deviations)][:rank]
+    cells = split_cells([-reach] * rank, [reach] * rank, depth, judge_box(lo, hi, None, True))
+    return certificate(header(rank, mean, deviations), [a, b], cells), lo, hi
+
+
+class TrueCertificates(unittest.TestCase):
+    def verify(self, lines, *options):
+        answer = Answer(lines, *options)
+        self.assertEqual(answer.code, 0, answer.text)
+        return answer
+
+    def test_two_boxes(self):
+        for rank in (1, 2, 3):
+            for mean, deviations in (((0, 0, 0), (1, 1, 1)), ((.5, -.25, .0625), (.5, .25, 2))):
+                lines, lo, hi = two_boxes(rank, mean, deviations)
+                answer = self.verify(lines)
+                mass = box_mass(lo, hi)
+                self.assertLessEqual(answer.lower, mass * (1 + 1e-13))
+                self.assertGreaterEqual(answer.upper, mass * (1 - 1e-13))
+                self.assertLess(answer.upper - answer.lower, 1e-12 * mass + 3e-14)
+
+    def test_threads_say_the_same(self):
+        lines, _, _ = two_boxes(3)
+        one, two = self.verify(lines), self.verify(lines, "--threads", "2", "--progress")
+        self.assertEqual((one.lower, one.upper), (two.lower, two.upper))
+
+    def test_probabilities_that_are_tiny(self):
+        # So many deviations away that nothing of P is left beside 1.
+        for distance in (12.0, 30.0):
+            lines, lo, hi = two_boxes(3, (distance, 0, 0), (1, 1, 1), depth=24, reach=64.0)
+            mass = box_mass(lo, hi)
+            lines[-1]["upper"] = mass * (1 + 1e-11)
+            answer = self.verify(lines)
+            self.assertLess(mass, 1e-25)
+            self.assertAlmostEqual(answer.lower / mass, 1, delta=1e-11)
+            self.assertAlmostEqual(answer.upper / mass, 1, delta=1e-11)
+
+    def test_whitening_turns_the_frame(self):
+        c, s = 0.6, 0.8
+        head = header(3, axes=[[c, s, 0], [-s, c, 0], [0, 0, 1]], whitening=IDENTITY)
+        a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [.25, .125, -.375], [1.25, 1.625, 1.5])
+        lo, hi = [-.75, -.875, -1.375], [1.25, 1.625, 1.5]
+        inner = judge_box([x + 1e-13 for x in lo], [x - 1e-13 for x in hi], None, True)
+        outer = judge_box([x - 1e-13 for x in lo], [x + 1e-13 for x in hi], None, True)
+
+        def judge(x, y, last):
+            contact, free = inner(x, y, last), outer(x, y, last)
+            if contact is None or free is None:
+                return None if not last else {}
+            return {**{k: v for k, v in contact.items() if k == "contact"},
+                    **{k: v for k, v in free.items() if k == "free"}}
+        cells = split_cells([-8.0] * 3, [8.0] * 3, 8, judge)
+        answer = self.verify(certificate(head, [a, b], cells))
+        mass = box_mass(lo, hi)
+        self.assertAlmostEqual(answer.lower, mass, delta=2e-12)
+        self.assertAlmostEqual(answer.upper, mass, delta=2e-12)
+        # With the frame of the axes themselves the same claims are wrong.
+        self.assertEqual(Answer(certificate({**head, "whitening": None}, [a, b], cells)).code, 1)
+
+    def test_boxes_of_two_parts(self):
+        lines, mass = boxes_of_two_parts(2)
+        answer = self.verify(lines)
+        self.assertLessEqual(answer.lower, mass)
+        self.assertGreaterEqual(answer.upper, mass)
+        self.assertLess(answer.upper - answer.lower, 0.2)
+
+    def test_triangles(self):
+        # A needle through a large triangle, moved along an axis: touches between the needle's ends.
+        needle = mesh_part("A", [[0, 0, -1], [0, 0, 1], [.125, 0, 1]], [[0, 1, 2]])
+        large = mesh_part("B", [[-9, -9, 0], [9, -9, 0], [0, 18, 0]], [[0, 1, 2]])
+        head = header(1, axes=[[0, 0, 1], [1, 0, 0], [0, 1, 0]])
+        cells = split_cells([-8.0], [8.0], 10, judge_box([-1], [1]))
+        answer = self.verify(certificate(head, [needle, large], cells))
+        mass = box_mass([-1], [1])
+        self.assertAlmostEqual(answer.lower, mass, delta=1e-13)
+        self.assertAlmostEqual(answer.upper, mass, delta=1e-13)
+        # The same claims by pieces without an inside of L - K: both in the plane y = 0.
+        flat = mesh_part("B", [[-9, 0, 0], [9, 0, 0], [0, 0, -.5]], [[0, 1, 2]])
+        cell = {"cell": [-.25, .25], "contact": [{"planes": [], "by": {"pair": [0, 0]}}]}
+        self.assertEqual(Answer(certificate(head, [needle, flat], [cell])).code, 1)
+
+    def test_tetrahedra_in_a_plane_of_displacements(self):
+        vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+        faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+        a = mesh_part("A", vertices, faces, convex=True)
+        b = mesh_part("B", [[-x for x in v] for v in vertices], [f[::-1] for f in faces], convex=True)
+        # L - K is the set -x for x, y, z >= 0 with sum 2 at most and each at most 1 or so: in the plane z = 0
+        # all of -x, -y >= 0 with a sum of 2 at most where a cut by one plane says it exactly.
+        plane = [1.0, 1.0, -2.0]
+        cell = {"cell": [-1.0, -1.0, 0.0, 0.0], "contact": [{"planes": [], "by": {"pair": [0, 0]}}]}
+        corner = {"cell": [-2.0, -1.0, -1.0, 0.0], "free": [plane],
+                  "contact": [{"planes": [plane], "by": {"pair": [0, 0]}}]}
+        other = {"cell": [-1.0, -2.0, 0.0, -1.0], "free": [plane],
+                 "contact": [{"planes": [plane], "by": {"pair": [0, 0]}}]}
+        outside = [{"cell": [0.0, -8.0, 8.0, 8.0], "free": True}, {"cell": [-8.0, -8.0, -2.0, 8.0], "free": True},
+                   {"cell": [-2.0, 0.0, 0.0, 8.0], "free": True}, {"cell": [-2.0, -8.0, 0.0, -2.0], "free": True},
+                   {"cell": [-2.0, -2.0, -1.0, -1.0], "free": True}]
+        answer = self.verify(certificate(header(2), [a, b], [cell, corner, other, *outside]))
+        steps = 20000  # of the midpoint rule for the triangle x, y < 0, x + y > -2
+        mass = sum(math.exp(-x * x / 2) * (math.erf((2 - x) / math.sqrt(2)))
+                   for x in ((k + .5) * 2 / steps for k in range(steps))) * 2 / steps / math.sqrt(8 * math.pi)
+        self.assertAlmostEqual(answer.lower, mass, delta=1e-9)
+        self.assertLess(answer.upper - answer.lower, 1e-13)
+
+    def test_spheres(self):
+        for solid in (False, True):
+            lines, mass_inner, mass_outer = two_spheres(solid)
+            answer = self.verify(lines)
+            self.assertGreater(answer.lower, 0)
+            self.assertLess(answer.lower, mass_outer)
+            self.assertGreater(answer.upper, mass_inner)
+
+    def test_open_box_with_a_cap(self):
+        answer = self.verify(open_box())
+        self.assertAlmostEqual(answer.lower, box_mass([-.25] * 3, [.25] * 3), delta=1e-14)
+
+    def test_solid_in_a_solid(self):
+        lines = solid_in_solid()
+        answer = self.verify(lines)
+        self.assertAlmostEqual(answer.lower, 2 * box_mass([-.5] * 3, [.5, .5, 0]), delta=1e-13)
+        lines[0]["contact"] = "surface"
+        self.assertEqual(Answer(lines).code, 1)
+
+    def test_touching_at_the_boundary_only(self):
+        # Boxes that slide along each other touch always; by the next double apart they never do.
+        for gap, code in ((0.0, 1), (2.0 ** -52, 0), (-2.0 ** -52, 1)):
+            a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [0, 0, 1 + gap], [1, 1, 2])
+            lines = certificate(header(1), [a, b], [{"cell": [-.5, .5], "free": True}])
+            self.assertEqual(Answer(lines).code, code)
+        # A cell that ends where they begin to touch is free.
+        a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [1.5, 0, 0], [2, 1, 1])
+        for convex in (True, False):
+            a["convex"] = b["convex"] = convex
+            for end, code in ((.5, 0), (math.nextafter(.5, 1), 1)):
+                lines = certificate(header(3), [a, b], [{"cell": [-1, -.5, -.5, end, .5, .5], "free": True}])
+                self.assertEqual(Answer(lines).code, code)
+
+
+def boxes_of_two_parts(rank):
+    """A is two boxes; contact is the union of two boxes of y that do not overlap. And P."""
+    parts = [box_part("A", [0, 0, 0], [1, 1, 1]), box_part("A", [4, 0, 0], [4.5, 1, 1]),
+             box_part("B", [.5, .25, .25], [1.25, .75, .5])]
+    first, second = ([-.5, -.75, -.75], [1.25, .75, .5]), ([-4, -.75, -.75], [-2.75, .75, .5])
+    judges = [judge_box(lo[:rank], hi[:rank], {"pair": [i, 0]}, True)
+              for i, (lo, hi) in enumerate((first, second))]
+
+    def judge(lo, hi, last):
+        said = [one(lo, hi, False) for one in judges]
+        if said[0] == {"free": True}:
+            return judges[1](lo, hi, last)
+        if said[1] == {"free": True}:
+            return judges[0](lo, hi, last)
+        return next((claim for claim in said if claim), {} if last else None)
+    cells = split_cells([-8.0] * rank, [8.0] * rank, 8, judge)
+    return (certificate(header(rank), parts, cells),
+            sum(box_mass(lo[:rank], hi[:rank]) for lo, hi in (first, second)))
+
+
+def two_spheres(solid, level=2, depth=12):
+    radius, center = 1.0, [2.5, .25, .125]
+    va, fa = sphere(radius, [0, 0, 0], level)
+    vb, fb = sphere(radius, center, level)
+    inner = 0.94  # of this level the faces' planes are farther away
+    cells = split_cells([-6.0] * 3, [6.0] * 3, depth,
+                        judge_spheres(va, vb, 1, 1, inner, [0, 0, 0], center, [1, 1, 1], solid))
+    lines = certificate(header(contact="solid" if solid else "surface"),
+                        [mesh_part("A", va, fa, solid), mesh_part("B", vb, fb, solid)], cells)
+    distance = math.sqrt(sum(c * c for c in center))
+
+    def mass(r):  # of a ball with this radius around a point at that distance, by its closed form
+        def density(x):
+            return math.exp(-x * x / 2) / math.sqrt(2 * math.pi)
+        return (0.5 * (math.erf((r - distance) / math.sqrt(2)) + math.erf((r + distance) / math.sqrt(2)))
+                - (density(r - distance) - density(r + distance)) / distance)
+    return lines, mass(2 * inner), mass(2)
+
+
+def open_box():
+    """A box without its lid, which is a cap, and a needle that comes through one of its sides."""
+    box = box_part("B", [-1, -1, -1], [1, 1, 1], convex=False)
+    lid = [[4, 5, 8], [5, 9, 8]]  # whose far corners are given once more
+    box["triangles"] = [t for t in box["triangles"] if not set(t) <= {4, 5, 6, 7}]
+    needle = mesh_part("A", [[0, 0, 0], [3, 0, 0], [3, .0625, 0]], [[0, 1, 2]])
+    caps = {"caps": "B", "part": 0, "vertices": [[-1, 1, 1], [1, 1, 1]], "triangles": lid}
+    cell = {"cell": [-.25] * 3 + [.25] * 3,
+            "contact": [{"planes": [], "by": {"inside": "A", "vertex": 0, "outside": 1}}]}
+    return certificate(header(), [needle, box], [cell], caps=[caps])
+
+
+def solid_in_solid():
+    a = box_part("A", [-.25] * 3, [.25] * 3, convex=False, solid=True)
+    b = box_part("B", [-1] * 3, [1] * 3, convex=False, solid=True)
+    cells = [{"cell": [-.5] * 3 + [.5, .5, 0.0], "contact": [{"planes": [], "by": {"contained": True}}]},
+             {"cell": [-.5, -.5, 0.0] + [.5] * 3,
+              "contact": [{"planes": [], "by": {"inside": "A", "vertex": 3, "outside": None}}]},
+             {"cell": [1.25, -1, -1, 2, 1, 1], "free": True}]
+    return certificate(header(contact="solid"), [a, b], cells)
+
+
+def cells_of(lines, key):
+    return [i for i, line in enumerate(lines) if "cell" in line and key(line)]
+
+
+def has_planes(line):
+    return isinstance(line.get("free"), list) or any(r["planes"] for r in line.get("contact", []))
+
+
+def change_number(x, rng):
+    """By the last bit, or by more."""
+    kind = rng.randrange(4)
+    if kind == 0:
+        return math.nextafter(x, math.inf)
+    if kind == 1:
+        return math.nextafter(x, -math.inf)
+    return x + rng.choice((-1, 1)) * 10.0 ** rng.uniform(-12, 0)
+
+
+class Changes:
+    """Each changes one thing in the lines; False if there is none of the kind."""
+    @staticmethod
+    def vertex_moved(lines, rng):
+        part = rng.choice([line for line in lines if "part" in line])
+        vertex = rng.choice(part["vertices"])
+        k = rng.randrange(3)
+        vertex[k] = change_number(vertex[k], rng)
+
+    @staticmethod
+    def translation_moved(lines, rng):
+        part = rng.choice([line for line in lines if "part" in line])
+        k = rng.randrange(3)
+        part["translation"][k] = change_number(part["translation"][k], rng)
+
+    @staticmethod
+    def mean_or_deviation_changed(lines, rng):
+        numbers = lines[0][rng.choice(("mean", "deviations"))]
+        k = rng.randrange(len(numbers))
+        numbers[k] = change_number(numbers[k], rng)
+
+    @staticmethod
+    def level_changed(lines, rng):
+        line = lines[rng.choice(cells_of(lines, has_planes))]
+        planes = [p for p in line["free"] if isinstance(line.get("free"), list)]
+        planes += [p for region in line["contact"] for p in region["planes"]]
+        plane = rng.choice(planes)
+        plane[-1] = change_number(plane[-1], rng)
+
+    @staticmethod
+    def plane_dropped(lines, rng):
+        line = lines[rng.choice(cells_of(lines, has_planes))]
+        planes = rng.choice([line["free"]] + [region["planes"] for region in line["contact"]])
+        planes.pop(rng.randrange(len(planes)))
+
+    @staticmethod
+    def plane_turned(lines, rng):
+        line = lines[rng.choice(cells_of(lines, has_planes))]
+        plane = rng.choice(rng.choice([line["free"]] + [region["planes"] for region in line["contact"]]))
+        plane[:] = [-x for x in plane]
+
+    @staticmethod
+    def claim_flipped(lines, rng):
+        i = rng.choice(cells_of(lines, lambda line: ("free" in line) != ("contact" in line)))
+        line = lines[i]
+        if "free" in line:
+            line["contact"] = [{"planes": [], "by": {"pair": [0, 0]}}]
+            del line["free"]
+        else:
+            line["free"] = True
+            del line["contact"]
+
+    @staticmethod
+    def side_moved(lines, rng):
+        line = lines[rng.choice(cells_of(lines, lambda _: True))]
+        k = rng.randrange(len(line["cell"]))
+        line["cell"][k] = change_number(line["cell"][k], rng)
+
+    @staticmethod
+    def cell_repeated(lines, rng):
+        i = rng.choice(cells_of(lines, lambda _: True))
+        lines.insert(-1, copy.deepcopy(lines[i]))
+        lines[-1]["cells"] += 1
+
+    @staticmethod
+    def cell_dropped(lines, rng):
+        lines.pop(rng.choice(cells_of(lines, lambda _: True)))
+        lines[-1]["cells"] -= rng.randrange(2)
+
+    @staticmethod
+    def bound_bettered(lines, rng):
+        last = lines[-1]
+        key = rng.choice(("lower", "upper"))
+        factor = 10.0 ** rng.uniform(-12, -1)
+        last[key] *= 1 + factor if key == "lower" else 1 - factor
+
+    @staticmethod
+    def pair_changed(lines, rng):
+        line = lines[rng.choice(cells_of(lines, lambda line: line.get("contact")))]
+        pair = rng.choice(line["contact"])["by"]["pair"]
+        if rng.randrange(3) == 0:
+            pair.reverse()
+        pair[rng.randrange(2)] += rng.choice((-1, 1, 1))
+
+    @staticmethod
+    def part_dropped(lines, rng):
+        lines.pop(rng.choice([i for i, line in enumerate(lines) if "part" in line]))
+
+    @staticmethod
+    def triangle_dropped_or_turned(lines, rng):
+        triangles = rng.choice([line for line in lines if "part" in line])["triangles"]
+        i = rng.randrange(len(triangles))
+        if rng.randrange(2):
+            triangles[i] = triangles[i][::-1]
+        else:
+            triangles.pop(i)
+
+
+class FalseCertificates(unittest.TestCase):
+    def test_changes_of_boxes(self):
+        count = int(os.environ.get("FCL_PROB_VERIFY_CHANGES", "40"))
+        rng = random.Random(20261128)
+        refused, passed = collections.Counter(), collections.Counter()
+        scenes = [two_boxes(2, depth=5)[0], two_boxes(3, (.5, -.25, .0625), (.5, .25, 2), depth=5)[0],
+                  boxes_of_two_parts(2)[0]]
+        for lines in scenes:
+            answer = Answer(lines)
+            self.assertEqual(answer.code, 0, answer.text)
+            # As tight as can be shown, so that nothing that is taken away goes unnoticed.
+            lines[-1]["lower"], lines[-1]["upper"] = answer.lower, answer.upper
+            self.assertTrue(is_true(lines))
+        for name in [n for n in vars(Changes) if not n.startswith("_")]:
+            for k in range(count):
+                # Where the rank is below three a vertex may be moved without anything becoming false.
+                lines = copy.deepcopy(scenes[1 if name == "vertex_moved" else k % len(scenes)])
+                getattr(Changes, name)(lines, rng)
+                answer = Answer(lines)
+                (passed if answer.code == 0 else refused)[name] += 1
+                if answer.code == 0:
+                    self.assertTrue(is_true(lines), f"{name}: {answer.text}")
+        for name in sorted(set(refused) | set(passed)):
+            print(f"{name}: {refused[name]} refused, {passed[name]} harmless")
+
+    def test_flips_of_spheres(self):
+        rng = random.Random(1)
+        for solid in (False, True):
+            lines, _, _ = two_spheres(solid)
+            for i in rng.sample(cells_of(lines, lambda line: "contact" in line), 4 if solid else 1):
+                changed = copy.deepcopy(lines)
+                del changed[i]["contact"]
+                changed[i]["free"] = True
+                self.assertEqual(Answer(changed).code, 1)
+            for i in rng.sample(cells_of(lines, lambda line: "free" in line), 15):
+                changed = copy.deepcopy(lines)
+                del changed[i]["free"]
+                by = rng.choice(({"pair": [rng.randrange(128), rng.randrange(128)]}, {"contained": True},
+                                 {"inside": "A", "vertex": rng.randrange(66), "outside": rng.randrange(66)}))
+                changed[i]["contact"] = [{"planes": [], "by": by}]
+                self.assertEqual(Answer(changed).code, 1)
+
+    def test_spheres_that_miss_a_triangle(self):
+        rng = random.Random(2)
+        for solid in (False, True):
+            lines, _, _ = two_spheres(solid)
+            lines[2]["triangles"].pop(rng.randrange(128))
+            self.assertNotEqual(Answer(lines).code, 0)
+
+    def test_changes_of_caps_and_needles(self):
+        def change(where):
+            lines = open_box()
+            where(lines)
+            return Answer(lines).code
+        witness = lambda lines: lines[-2]["contact"][0]["by"]
+        self.assertEqual(change(lambda lines: None), 0)
+        self.assertEqual(change(lambda lines: lines.pop(3)), 1)  # no caps
+        self.assertEqual(change(lambda lines: lines[3]["triangles"].pop()), 2)
+        self.assertEqual(change(lambda lines: witness(lines).update(vertex=1, outside=0)), 1)
+        self.assertEqual(change(lambda lines: witness(lines).update(outside=0)), 1)
+        self.assertEqual(change(lambda lines: witness(lines).update(vertex=2)), 1)
+        self.assertEqual(change(lambda lines: witness(lines).update(vertex=7)), 1)
+        self.assertEqual(change(lambda lines: witness(lines).pop("outside")), 1)
+        self.assertEqual(change(lambda lines: witness(lines).update(inside="B")), 1)
+        # Through the lid rather than a side, where there is nothing.
+        self.assertEqual(change(lambda lines: lines[1].update(
+            vertices=[[0, 0, 0], [0, 0, 3], [.0625, 0, 3]])), 1)
+        # The vertex may be on a side, or beyond.
+        self.assertEqual(change(lambda lines: lines[-2].update(cell=[-.25] * 3 + [1.5, .25, .25])), 1)
+
+    def test_solids_that_are_not_inside(self):
+        for change in (lambda lines: lines[1].update(translation=[.5, 0, 0]),
+                       lambda lines: lines[2].update(translation=[5, 0, 0]),
+                       lambda lines: lines[2]["triangles"].reverse() or lines[2]["triangles"].pop(),
+                       lambda lines: lines[-2].update(cell=[.75, -1, -1, 2, 1, 1]),
+                       lambda lines: lines[-2].update(cell=[.51, -.2, -.2, .6, .2, .2]),
+                       lambda lines: lines[-4]["contact"][0].update(by={"pair": [0, 0]}),
+                       lambda lines: lines[2].update(solid=False)):
+            lines = solid_in_solid()
+            change(lines)
+            self.assertNotEqual(Answer(lines).code, 0)
+
+    def test_regions_that_overlap(self):
+        lines, _, _ = two_boxes(2, depth=9)
+        i = cells_of(lines, lambda line: line.get("contact") and not line["contact"][0]["planes"])[0]
+        pair = {"pair": [0, 0]}
+        middle = 0.5 * (lines[i]["cell"][0] + lines[i]["cell"][2])
+        for level, code in ((middle, 0), (math.nextafter(middle, -9), 1)):
+            lines[i]["contact"] = [{"planes": [[1.0, 0.0, middle]], "by": pair},
+                                   {"planes": [[-1.0, 0.0, -level]], "by": pair}]
+            self.assertEqual(Answer(lines).code, code)
+
+
+class Malformed(unittest.TestCase):
+    def test_files_that_are_cut_off(self):
+        lines, _, _ = two_boxes(2, depth=5)
+        text = "".join(json.dumps(line) + "\n" for line in lines)
+        rng = random.Random(3)
+        for _ in range(60):
+            self.assertEqual(Answer(text[:rng.randrange(len(text) - 2)]).code, 2)
+        self.assertEqual(Answer(text + text.splitlines()[-1]).code, 2)
+
+    def test_fields(self):
+        lines, _, _ = two_boxes(2, depth=5)
+        text = "".join(json.dumps(line) + "\n" for line in lines)
+        for before, after in (('"cells": ', '"cells": 1'), ('"contact": "surface"', '"contact": "all"'),
+                              ('certificate": 1', 'certificate": 2'), ('"convex": true', '"convex": 1'),
+                              ('"mean": [0, ', '"mean": [1e999, '), ('"mean": [0, ', '"mean": ['),
+                              ('[0, 2, 1]', '[0, 2, 8]'), ('[0, 2, 1]', '[0, 2, -1]'),
+                              ('"pair"', '"pear"'), ('"lower": ', '"lower": null, "x": ')):
+            self.assertIn(before, text)
+            answer = Answer(text.replace(before, after, 1))
+            self.assertEqual(answer.code, 2, f"{after}: {answer.text}")
+            self.assertIn("line", answer.text)
+        self.assertEqual(subprocess.run([VERIFIER, "/no/such/file"], capture_output=True).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
