@@ -20,6 +20,8 @@
 using namespace fcl_prob;
 using namespace fcl_prob_test;
 
+// Named: files of a room may be compiled as one.
+namespace certificate_test {
 namespace {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
@@ -142,3 +144,5 @@ TEST_CASE("What no certificate can be written of") {
   request.gradient = true;
   CHECK_THROWS_AS(certify({at(box)}, {at(box)}, error, request), InvalidRequest);
 }
+
+}  // namespace certificate_test
