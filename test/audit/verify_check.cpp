@@ -90,7 +90,8 @@ void checkByVerifier(const Scene& scene, const std::string& verifier, Tally& tal
     std::string said;
     const int code = run("'" + verifier + "' '" + path + "'", said);
     if (code != 0) {
-      found.push_back({"certificate", "exit code " + std::to_string(code) + ": " + said});
+      found.push_back({"certificate", path + ": exit code " + std::to_string(code) + ": " + said});
+      return;  // the file stays
     }
   }
   std::filesystem::remove(path);
