@@ -92,7 +92,8 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
   }
   front_.take(cell, inherited);
   const std::optional<CuttingPair> leader = findLeader();
-  for (const CoveredSlice& slice : front_.covered()) settle({"one pair", true, slice.cell, {}}, slice.by);
+  for (const CoveredSlice& slice : front_.covered())
+    settle({"one pair", true, slice.cell, {}}, slice.by);
   if (front_.cell().empty()) return std::move(result_);
   if (front_.coarse().empty() && front_.cutting().empty()) {
     settleFree(front_.cell());
@@ -212,7 +213,8 @@ void CellExaminer::settlePart(const Cell& cell, const CellPlane& plane, double s
 // No surfaces meet anywhere in `cell`, but for slivers at its sides that were settled with layers:
 // one point of the rest tells whether the solids overlap.
 void CellExaminer::settleFree(const Cell& cell) {
-  if (!solids_ || cell.empty() || !solids_->possible(cell)) return claim({"no pair", false, cell, {}});
+  if (!solids_ || cell.empty() || !solids_->possible(cell))
+    return claim({"no pair", false, cell, {}});
   const bool is_thin = cell.leastWidth() < kThinBesideSlivers;
   switch (is_thin ? Containment::unknown : solids_->at(0.5 * (cell.lo + cell.hi))) {
     case Containment::inside:
@@ -297,8 +299,7 @@ void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, doubl
                                bool nothing_below) const {
   const Cell& cell = front_.cell();
   const Eigen::Vector3d& m = leader.inner.m;
-  const auto above =
-      leader.pair.isLayer() ? "plane of crossing surfaces" : "plane of a pair";
+  const auto above = leader.pair.isLayer() ? "plane of crossing surfaces" : "plane of a pair";
   if (settled_from < leader.inner.s) observer_->excuse(cell, m, settled_from, leader.inner.s);
   const CellPlane from{m, settled_from};
   if (nothing_below) claimBelow("nothing below a plane", cell, from);

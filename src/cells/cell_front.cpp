@@ -403,10 +403,6 @@ double CellFront::lowestInLayer(const NodeLayer& layer, const NodeBox& box,
   return lowestBeyond(lo, hi, m, -layer.n, -layer.hi);
 }
 
-double CellFront::lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
-  return lowestInCell(obstacleBoxOf(pair), m);
-}
-
 double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const {
   const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
   const double lowest = kernels_.minimumAlong(slabs, box_, m.data());

@@ -70,7 +70,9 @@ class CellFront {
   Eigen::Vector3d acrossNearest(const Eigen::Vector3d& point) const;
 
   /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
-  double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const;
+  double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
+    return lowestInCell(obstacleBoxOf(pair), m);
+  }
 
   /// The same from the slabs of a pair of leaves.
   double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;

@@ -33,8 +33,8 @@ class ClaimObserver {
 
   virtual void claim(const Claim& claim) = 0;
 
-  /// A cell of which something was claimed is divided: other claims, of its parts, take the place of
-  /// those.
+  /// A cell of which something was claimed is divided: other claims, of its parts, take the place
+  /// of those.
   virtual void divided(const Cell& /*cell*/) {}
 
   /// Whether the claims that stand at the end must account for all that is known of P: excuse() is

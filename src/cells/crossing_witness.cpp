@@ -72,10 +72,6 @@ std::vector<int> spreadVertices(const PieceTree& tree, std::size_t count) {
   return vertices;
 }
 
-int componentOf(const CappedTree& mesh, int vertex) {
-  return mesh.caps().components.of_vertex[vertex];
-}
-
 // The vertex of a node that lies about farthest along m.
 int extremeVertex(const WhitenedTree& mesh, int node, const Eigen::Vector3d& m) {
   while (!mesh.tree->nodes[node].isLeaf()) {
@@ -288,7 +284,7 @@ std::optional<bool> CrossingWitness::isInside(Side& side, const SweptVertex& swe
 bool CrossingWitness::crosses(Side& side, int vertex, const Cell& cell) {
   proof_ = {side.sign > 0, vertex, -1};
   if (solid_) return true;
-  proof_.outside = staysOutside(side, componentOf(side.inner, vertex), cell);
+  proof_.outside = staysOutside(side, side.inner.componentOf(vertex), cell);
   return proof_.outside >= 0 && avoidsCaps(side, cell);
 }
 
@@ -323,7 +319,7 @@ std::optional<CrossingLayer> CrossingWitness::layer(const Cell& cell,
   best_.reset();
   for (Side& side : sides_) trySide(side, cell, near);
   if (!best_) return std::nullopt;
-  best_->side->last_found = best_->vertex;
+  best_->side->last_found = best_->layer.proof.inside;
   return best_->layer;
 }
 
@@ -333,7 +329,7 @@ void CrossingWitness::trySide(Side& side, const Cell& cell, const std::vector<Fr
   for (int round = 0; round < kRounds && !m.isZero(0.0); ++round) {
     tryAlong(side, cell, near, m);
     if (!best_ || best_->side != &side) return;
-    if (!findTouched(side, sweep(side, best_->vertex, cell))) return;
+    if (!findTouched(side, sweep(side, best_->layer.proof.inside, cell))) return;
     m = acrossTouched(side);
   }
 }
@@ -385,8 +381,8 @@ void CrossingWitness::tryAlong(Side& side, const Cell& cell, const std::vector<F
     const double share = (std::min(to, most) - from) / (most - least);
     if (!(share > (best_ ? best_->share : kLeastShareOfLayer))) continue;
     // A plane that only touches the cell is none.
-    best_ = Attempt{
-        &side, vertex, {m, from > least ? from : -kInfinity, to < most ? to : kInfinity, proof}, share};
+    const double below = from > least ? from : -kInfinity, above = to < most ? to : kInfinity;
+    best_ = Attempt{&side, {m, below, above, proof}, share};
   }
 }
 
@@ -411,11 +407,10 @@ double CrossingWitness::sideFrom(Side& side, int vertex, const Cell& cell, const
 // that is not above `from`.
 double CrossingWitness::outsideTo(Side& side, CrossingProof& proof, const Cell& cell,
                                   const Eigen::Vector3d& m, double from) {
-  const int component = componentOf(side.inner, proof.inside);
-  const auto& six = side.extremes[component];
-  std::vector<int> vertices(six.begin(), six.end());
+  const int component = side.inner.componentOf(proof.inside);
+  std::vector<int> vertices(side.extremes[component].begin(), side.extremes[component].end());
   const int farthest = extremeVertex(side.inner.mesh(), 0, -side.sign * m);
-  if (componentOf(side.inner, farthest) == component) vertices.insert(vertices.begin(), farthest);
+  if (side.inner.componentOf(farthest) == component) vertices.insert(vertices.begin(), farthest);
   const double most = m.dot(cell.lowestCorner(-m));
   double to = -kInfinity;
   for (const int vertex : vertices) {

@@ -94,7 +94,6 @@ class CrossingWitness {
 
   struct Attempt {
     Side* side;
-    int vertex;
     CrossingLayer layer;
     double share;  ///< of the cell's extent along m
   };

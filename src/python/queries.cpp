@@ -356,12 +356,14 @@ void bindQueries(py::module_& module) {
   bindGradient(module);
   module.def("collision_probability", &askOnce, py::arg("a"), py::arg("b"), py::arg("displacement"),
              py::arg("pose_a") = none, py::arg("pose_b") = none, kAskDocumentation);
-  module.def("certified_probability", &certify, py::arg("a"), py::arg("b"), py::arg("displacement"),
-             py::arg("pose_a") = none, py::arg("pose_b") = none,
-             "An interval that somebody else can check: (ProbabilityResult, certificate as text).\n\n"
-             "a, b: meshes and boxes; displacement: a GaussianDisplacement. The text goes to a file\n"
-             "for fcl_prob_verify. Takes longer than collision_probability().\n\n" FCL_PROB_REQUEST_KEYWORDS
-             "Raises UnsupportedGeometry, InvalidRequest, InvalidPose, OpenMesh.");
+  module.def(
+      "certified_probability", &certify, py::arg("a"), py::arg("b"), py::arg("displacement"),
+      py::arg("pose_a") = none, py::arg("pose_b") = none,
+      "An interval that somebody else can check: (ProbabilityResult, certificate as text).\n\n"
+      "a, b: meshes and boxes; displacement: a GaussianDisplacement. The text goes to a file\n"
+      "for fcl_prob_verify. Takes longer than "
+      "collision_probability().\n\n" FCL_PROB_REQUEST_KEYWORDS
+      "Raises UnsupportedGeometry, InvalidRequest, InvalidPose, OpenMesh.");
   module.def("collision_probabilities", &askAllOnce, py::arg("a"), py::arg("b"),
              py::arg("displacement") = none, py::arg("pose_a") = none, py::arg("pose_b") = none,
              py::kw_only(), py::arg("covariances") = none, py::arg("means") = none,

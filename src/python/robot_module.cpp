@@ -353,14 +353,12 @@ RobotResult motion(const RobotQuery& query, const py::object& waypoints, const s
   });
 }
 
-py::tuple certify(const RobotQuery& query, const py::object& waypoints,
-                  const py::kwargs& request) {
+py::tuple certify(const RobotQuery& query, const py::object& waypoints, const py::kwargs& request) {
   const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
   std::ostringstream certificate;
-  RobotResult result =
-      run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
-        return query.certified(all, of, certificate);
-      });
+  RobotResult result = run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
+    return query.certified(all, of, certificate);
+  });
   return py::make_tuple(std::move(result), certificate.str());
 }
 

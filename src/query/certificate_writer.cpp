@@ -117,8 +117,8 @@ void CertificateWriter::frame(const Whitening& whitening,
                          std::to_string(rank_) + " axes");
   }
   out_ << R"({"fcl_prob_certificate":1,"name":)" << quoted(a_.name + " and " + b_.name)
-       << R"(,"contact":")"
-       << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
+       << R"(,"contact":")" << (contact_ == ContactMeaning::solid ? "solid" : "surface")
+       << R"(","mean":)";
   writeVector(out_, displacement.mean());
   out_ << R"(,"axes":)";
   writeVectors(out_, rowsOf(displacement.axes().transpose(), rank_));

@@ -66,10 +66,9 @@ RobotResult certifiedMotion(const RobotAmongObstacles& among,
   for (std::size_t i = 0; i < relative.size(); ++i) {
     events.push_back(eventOf(among, i, relative[i]));
   }
-  RobotResult result = anyOfAsked(std::vector<Bounds>(events.size(), Bounds{0.0, 1.0}), request,
-                                  [&](std::size_t i, const ProbabilityRequest& of_one) {
-                                    return ask(events[i], of_one);
-                                  });
+  RobotResult result = anyOfAsked(
+      std::vector<Bounds>(events.size(), Bounds{0.0, 1.0}), request,
+      [&](std::size_t i, const ProbabilityRequest& of_one) { return ask(events[i], of_one); });
   for (const Event& event : events) certificate << event.certificate;
   result.plan = among.notes();
   return result;

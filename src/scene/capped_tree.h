@@ -18,6 +18,8 @@ class CappedTree {
   const WhitenedTree& mesh() const { return *mesh_; }
   const MeshCaps& caps() const { return *mesh_->tree->caps; }
 
+  int componentOf(int vertex) const { return caps().components.of_vertex[vertex]; }
+
   /// Around each cap.
   const std::vector<NodeBox>& capBoxes() const { return cap_boxes_; }
 

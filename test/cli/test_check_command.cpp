@@ -476,3 +476,25 @@ TEST_CASE("output that does not arrive exits with 2", "[cli]") {
   CHECK(help.exit_code == 0);
   CHECK(help.err.empty());
 }
+
+TEST_CASE("check writes a certificate, whole or not at all", "[cli]") {
+  const Cubes cubes;
+  const std::string file = cubes.folder.path("cubes.jsonl");
+  const std::vector<std::string> arguments{cubes.file, cubes.file,    "--pose-a",      "1.2,0,0",
+                                           "--sigma",  "0.2,0.1,0.1", "--certificate", file};
+  const json answer = checkJson(arguments, cubes.folder);
+  std::ifstream lines(file);
+  std::string first, line, last;
+  std::getline(lines, first);
+  while (std::getline(lines, line)) last = line;
+  CHECK(json::parse(first).at("fcl_prob_certificate") == 1);
+  CHECK(json::parse(last).at("lower") == answer.at("lower"));
+  CHECK(json::parse(last).at("upper") == answer.at("upper"));
+  std::filesystem::remove(file);
+  std::vector<std::string> refused = arguments;
+  refused.insert(refused.begin(), "check");
+  refused.insert(refused.end(), {"--band-a", "0.01"});
+  const CommandResult result = runCommand(refused, cubes.folder);
+  CHECK((result.exit_code == 2 && !std::filesystem::exists(file)));
+  CHECK(result.err.find("no certificate with bands") != std::string::npos);
+}

@@ -363,3 +363,15 @@ def test_errors_of_joints_and_base():
             query.state(values, **wrong)
     with pytest.raises(ValueError):
         query.state(values, joint_error=np.eye(2))
+
+
+def test_certificates():
+    box = fcl_prob.Box(0.2, 0.2, 0.2)
+    error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.1, 0.1, 0.1])
+    result, certificate = fcl_prob.certified_probability(box, box, error, pose_a=[0.25, 0, 0])
+    lines = [json.loads(line) for line in certificate.splitlines()]
+    assert lines[0]["fcl_prob_certificate"] == 1 and lines[0]["deviations"] == [0.1, 0.1, 0.1]
+    assert (lines[-1]["lower"], lines[-1]["upper"]) == (result.lower, result.upper)
+    assert lines[-1]["cells"] == sum("cell" in line for line in lines)
+    with pytest.raises(fcl_prob.UnsupportedGeometry, match="Sphere"):
+        fcl_prob.certified_probability(fcl_prob.Sphere(0.1), box, error)

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Obstacles of several bodies, contacts that are allowed, and obstacles that change.
+#include <fcl/geometry/shape/box.h>
+
+#include <sstream>
+
 #include "arm_motions.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
@@ -174,4 +178,42 @@ TEST_CASE("scenes have obstacles of several bodies, robots as obstacles, and all
   CHECK_THROWS_AS(sceneWith(R"("bodies": [], "pose": [1, 0, 0])", ""), FileError);
   CHECK_THROWS_AS(sceneWith(R"("sphere": 1, "bodies": [{"sphere": 1}])", ""), FileError);
   CHECK_THROWS_AS(sceneWith(R"("sphere": 1)", R"({"body": "*"})"), FileError);
+}
+
+TEST_CASE("certificates of a state and a motion: one an obstacle, the same intervals") {
+  const TemporaryFolder folder;
+  const std::string box = R"(<collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.1 0.1"/>)"
+                          R"(</geometry></collision>)";
+  folder.write("arm.urdf",
+               R"(<robot name="two"><link name="base"/><link name="upper">)" + box +
+                   R"(</link><link name="lower">)" + box +
+                   R"(</link><joint name="one" type="continuous"><parent link="base"/>)"
+                   R"(<child link="upper"/><axis xyz="0 0 1"/></joint>)"
+                   R"(<joint name="two" type="continuous"><parent link="upper"/>)"
+                   R"(<child link="lower"/><origin xyz="0.4 0 0"/><axis xyz="0 0 1"/></joint>)"
+                   R"(</robot>)");
+  const auto crate = [](const char* name, const fcl::Transform3d& pose) {
+    return Obstacle{name, std::make_shared<fcl::Boxd>(0.1, 0.1, 0.1), pose,
+                    sigma(0.03, 0.05, 0.02)};
+  };
+  const Robot robot(folder.path("arm.urdf"));
+  const RobotQuery query(robot, {crate("near", at(0.5, 0.2, 0)), crate("far", at(-0.3, 0.1, 0))},
+                         {{"*", "far"}});
+  std::ostringstream state, motion;
+  const Eigen::VectorXd values = Eigen::Vector2d(0.1, 0.2);
+  const RobotResult one = query.certified({values}, withTolerance(0.02), state);
+  const RobotResult same = query.state(values, withTolerance(0.02));
+  CHECK(one.any.lower <= same.any.upper);
+  CHECK(one.any.upper >= same.any.lower);
+  CHECK(one.any.width() <= 0.02 * one.any.upper);
+  CHECK(one.parts.size() == 2);
+  CHECK(*one.parts[1].upper == 0.0);
+  CHECK(state.str().find("\"obstacle near and the robot\"") != std::string::npos);
+  CHECK(state.str().find("obstacle far") == std::string::npos);
+  const RobotResult three =
+      query.certified({values, 1.5 * values, 2.0 * values}, withTolerance(0.05), motion);
+  CHECK(three.any.upper >= one.any.lower);
+  const RobotQuery ball(robot, ballAndBox());
+  std::ostringstream unused;
+  CHECK_THROWS_AS(ball.certified({values}, {}, unused), UnsupportedGeometry);
 }
