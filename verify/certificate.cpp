@@ -88,6 +88,10 @@ struct Field {
 Header read_header(const Field& line) {
   if (line["fcl_prob_certificate"].json != 1) line["fcl_prob_certificate"].fail("must be 1");
   Header header;
+  if (line.has("name")) {
+    if (!line["name"].json.is_string()) line["name"].fail("must be a string");
+    header.name = line["name"].json.get<std::string>();
+  }
   const Field contact = line["contact"];
   if (contact.json != "surface" && contact.json != "solid") {
     contact.fail("must be \"surface\" or \"solid\"");
@@ -206,8 +210,14 @@ bool Reader::next_line() {
   return static_cast<bool>(std::getline(in_, text_));
 }
 
+bool Reader::more() {
+  while (in_ && text_.empty()) next_line();
+  return static_cast<bool>(in_);
+}
+
 void Reader::read_objects() {
-  if (!next_line()) throw Malformed(line_, "", "missing");
+  parts = {};
+  caps = {};
   const Json first = parse(text_, line_);
   header = read_header({first, line_, ""});
   while (next_line()) {
@@ -229,7 +239,6 @@ void Reader::read_objects() {
 }
 
 bool Reader::next_cell(Cell& cell) {
-  // The first line that is no part was read by read_objects, and the one after a cell by this.
   if (!in_) throw Malformed(line_, "lower", "the last line is missing");
   const Json json = parse(text_, line_);
   const Field line{json, line_, ""};
@@ -241,9 +250,7 @@ bool Reader::next_cell(Cell& cell) {
   footer.lower = line["lower"].number();
   footer.upper = line["upper"].number();
   footer.cells = static_cast<std::size_t>(line["cells"].index());
-  while (next_line()) {
-    if (!text_.empty()) throw Malformed(line_, "", "comes after the last line");
-  }
+  next_line();
   return false;
 }
 

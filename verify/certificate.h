@@ -22,6 +22,7 @@ struct Malformed : std::runtime_error {
 using Triangle = std::array<int, 3>;
 
 struct Header {
+  std::string name;  // empty if it has none
   bool solid_contact = false;
   int rank = 0;
   Vec mean{};
@@ -80,14 +81,18 @@ struct Footer {
   std::size_t cells = 0;
 };
 
-/// The lines in their order. Every method throws Malformed.
+/// The certificates of a file, one after the other. Every method throws Malformed.
 class Reader {
  public:
-  explicit Reader(std::istream& in) : in_(in) {}
-  /// Reads the header, the parts and the caps; stops before the first cell.
+  explicit Reader(std::istream& in) : in_(in) { next_line(); }
+  /// Whether there is another certificate.
+  bool more();
+  /// Reads its header, its parts and its caps; stops before the first cell.
   void read_objects();
-  /// False at the footer, which has to be the last line.
+  /// False at the footer.
   bool next_cell(Cell& cell);
+  /// Of the line that comes next, or would.
+  std::size_t line() const { return line_; }
 
   Header header;
   std::array<std::vector<Part>, 2> parts;

@@ -45,13 +45,9 @@ int crossing(const Sign& sign, bool& unclear) {
 }  // namespace
 
 Scene::Crossings Scene::crossings(int x, int vertex, const Object& surface,
-                                  const RationalVec& exact_y) const {
+                                  const BallVec& exact_y) const {
   Vec y;
-  BallVec ball_y;
-  for (int i = 0; i < 3; ++i) {
-    y[i] = exact_y[i].get_d();
-    ball_y[i] = Ball(exact_y[i].get_num()) / Ball(exact_y[i].get_den());
-  }
+  for (int i = 0; i < 3; ++i) y[i] = exact_y[i].nearest();
   const Object& object = objects[x];
   const double s = x == 0 ? 1 : -1;  // A moves by y; as seen from A, B moves by -y
   Vec eye, error;
@@ -62,7 +58,7 @@ Scene::Crossings Scene::crossings(int x, int vertex, const Object& surface,
     error[i] = error[i] * (1 + 1e-10) + DBL_MIN;
   }
   BallVec exact_eye = object.world(vertex);
-  const BallVec moved = plus(frame.to_world(ball_y), frame.mean);
+  const BallVec moved = plus(frame.to_world(exact_y), frame.mean);
   exact_eye = x == 0 ? plus(exact_eye, moved) : minus(exact_eye, moved);
 
   // No direction that a modeller would draw an edge along.

@@ -88,43 +88,57 @@ Bounds add_up(const std::vector<Tally>& tallies) {
           std::min((Ball(1) - cells + undecided).outward(1), 1.0)};
 }
 
-void check_bounds(const Footer& footer, const Bounds& bounds) {
+void check_bounds(const Footer& footer, const Bounds& shown, std::size_t line) {
+  const bool lower = !(footer.lower <= shown.lower);
+  if (!lower && footer.upper >= shown.upper) return;
   char text[200];
-  if (!(footer.lower <= bounds.lower)) {
-    std::snprintf(text, sizeof text, "last line: \"lower\" is %.17g, but shown is %.17g",
-                  footer.lower, bounds.lower);
-    throw Refused(text);
-  }
-  if (!(footer.upper >= bounds.upper)) {
-    std::snprintf(text, sizeof text, "last line: \"upper\" is %.17g, but shown is %.17g",
-                  footer.upper, bounds.upper);
-    throw Refused(text);
-  }
+  std::snprintf(text, sizeof text, "line %zu: \"%s\" is %.17g, but shown is %.17g", line,
+                lower ? "lower" : "upper", lower ? footer.lower : footer.upper,
+                lower ? shown.lower : shown.upper);
+  throw Refused(text);
 }
 
-// Bits for 1 - Σ μ(cell) to be known to 256 of what the last line claims of it: that line is looked
-// at before its turn for this only.
-slong bits_needed(std::ifstream& in) {
-  in.seekg(0, std::ios::end);
-  in.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(in.tellg()) - 400));
-  std::string tail((std::istreambuf_iterator<char>(in)), {});
-  in.clear();
-  in.seekg(0);
-  const std::size_t found = tail.rfind("\"upper\":");
-  const double upper =
-      found == std::string::npos ? 1 : std::strtod(tail.c_str() + found + 8, nullptr);
-  return 256 + (upper > 0 && upper < 1 ? static_cast<slong>(-std::log2(upper)) : 0);
+// Bits for 1 - Σ μ(cell) to be known to 256 of what the last lines claim of it: they are looked at
+// before their turn for this only.
+slong bits_needed(const std::string& file) {
+  std::ifstream in(file);
+  double least = 1;
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t found = line.size() < 400 ? line.find("\"upper\":") : std::string::npos;
+    if (found == std::string::npos) continue;
+    const double upper = std::strtod(line.c_str() + found + 8, nullptr);
+    if (upper > 0) least = std::min(least, upper);
+  }
+  return 256 - static_cast<slong>(std::log2(least));
 }
 
-void run(const Options& options) {
+struct Verified {
+  Bounds bounds{};
+  std::size_t cells = 0, claims = 0;
+
+  void print(const std::string& of, double seconds) const {
+    std::printf("verified [%.17g, %.17g]%s\n%zu cells, %zu claims, %.2f s\n", bounds.lower,
+                bounds.upper, of.c_str(), cells, claims, seconds);
+  }
+};
+
+// Of any of independent events.
+Bounds bounds_of_any(const std::vector<Verified>& all) {
+  const Precision precision(2400);
+  Ball none_lower(1), none_upper(1);
+  for (const Verified& one : all) {
+    none_lower = none_lower * (Ball(1) - Ball(one.bounds.upper));
+    none_upper = none_upper * (Ball(1) - Ball(one.bounds.lower));
+  }
+  return {std::max((Ball(1) - none_upper).outward(-1), 0.0),
+          std::min((Ball(1) - none_lower).outward(1), 1.0)};
+}
+
+// Checks the next certificate of the file.
+Verified check_certificate(Reader& reader, const Options& options, slong bits) {
   const auto start = std::chrono::steady_clock::now();
-  std::ifstream in(options.file);
-  if (!in) throw std::runtime_error(options.file + ": cannot be read");
-  const slong bits = bits_needed(in);
-  Reader reader(in);
   reader.read_objects();
   const Scene scene(reader);
-
   std::vector<Tally> tallies(options.threads, Tally(bits));
   std::vector<Box> boxes;
   std::vector<Cell> batch;
@@ -139,11 +153,11 @@ void run(const Options& options) {
     batch.clear();
     if (options.progress && seconds_since(start) > last_told + 1) {
       last_told = seconds_since(start);
-      std::fprintf(stderr, "%zu cells, %.0f s\n", boxes.size(), last_told);
+      std::fprintf(stderr, "line %zu, %zu cells, %.0f s\n", reader.line(), boxes.size(), last_told);
     }
   }
   if (reader.footer.cells != boxes.size()) {
-    throw Malformed(boxes.empty() ? 0 : boxes.back().line + 1, "cells",
+    throw Malformed(reader.line() - 1, "cells",
                     "is " + std::to_string(reader.footer.cells) + ", but there are " +
                         std::to_string(boxes.size()));
   }
@@ -152,13 +166,35 @@ void run(const Options& options) {
     throw Refused("line " + std::to_string(lines.second) + ": the cell overlaps that of line " +
                   std::to_string(lines.first));
   }
-  const Bounds bounds = add_up(tallies);
-  check_bounds(reader.footer, bounds);
-  std::size_t claims = 0;
-  for (const Tally& tally : tallies) claims += tally.claims;
-  if (options.quiet) return;
-  std::printf("verified [%.17g, %.17g]\n%zu cells, %zu claims, %.2f s\n", bounds.lower,
-              bounds.upper, boxes.size(), claims, seconds_since(start));
+  Verified result{add_up(tallies), boxes.size(), 0};
+  for (const Tally& tally : tallies) result.claims += tally.claims;
+  check_bounds(reader.footer, result.bounds, reader.line() - 1);
+  return result;
+}
+
+void run(const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  std::ifstream in(options.file);
+  if (!in) throw std::runtime_error(options.file + ": cannot be read");
+  const slong bits = bits_needed(options.file);
+  Reader reader(in);
+  std::vector<Verified> all;
+  Verified any;
+  do {
+    const std::size_t first = reader.line();
+    all.push_back(check_certificate(reader, options, bits));
+    any.cells += all.back().cells;
+    any.claims += all.back().claims;
+    const bool only = all.size() == 1 && !reader.more();
+    if (options.quiet || only) continue;
+    const std::string name = reader.header.name.empty() ? "" : " \"" + reader.header.name + "\"";
+    all.back().print(
+        name + " lines " + std::to_string(first) + " to " + std::to_string(reader.line() - 1),
+        seconds_since(start));
+  } while (reader.more());
+  any.bounds = all.size() == 1 ? all[0].bounds : bounds_of_any(all);
+  const std::string of = all.size() == 1 ? "" : " any of " + std::to_string(all.size());
+  if (!options.quiet) any.print(of, seconds_since(start));
 }
 
 }  // namespace

@@ -69,32 +69,26 @@ inline double exponential(double x) {
   return sum;
 }
 
-// A simplex as seen from the center, its volume times rank!, and the bounds of what is summed up.
+// A simplex as seen from the center.
 struct Simplex {
   Vec corner[4];
-  double determinant;
 };
 
 class Integral {
  public:
   Integral(int rank, const Vec& center)
       : rank_(rank), center_(center), distance_(std::sqrt(dot(center, center))) {}
-  /// Adds the integral of exp(-center · s - |s|²/2) over the simplex.
-  void add(const Simplex& simplex, int depth = 0);
-  double sum() const { return sum_; }
-  /// A bound of the relative error of the sum.
-  double error() const { return error_; }
+  /// The integral of exp(-center · s - |s|²/2) over the simplex, divided by its volume times rank!.
+  Ball of(const Simplex& simplex, int depth = 0) const;
 
  private:
   double log_density(const Vec& s) const { return -dot(center_, s) - 0.5 * dot(s, s); }
   int nodes_needed(const Simplex& simplex, double length) const;
   double quadrature(const Simplex& simplex, int count) const;
-  void halve(const Simplex& simplex, int from, int to, int depth);
 
   int rank_;
   Vec center_;
   double distance_;
-  double sum_ = 0, error_ = 0;
 };
 
 // The integrand g(u, v, w) = f(a + u b + u v c + u v w d) u² v is entire in each variable. A rule
@@ -150,22 +144,10 @@ double Integral::quadrature(const Simplex& simplex, int count) const {
     }
     total += r.weights[i] * r.nodes[i] * middle;
   }
-  return total * simplex.determinant;
+  return total;
 }
 
-void Integral::halve(const Simplex& simplex, int from, int to, int depth) {
-  Simplex part = simplex;
-  part.determinant *= 0.5;
-  Vec middle = plus(simplex.corner[from], simplex.corner[to]);
-  for (double& x : middle) x *= 0.5;
-  part.corner[from] = middle;
-  add(part, depth + 1);
-  part.corner[from] = simplex.corner[from];
-  part.corner[to] = middle;
-  add(part, depth + 1);
-}
-
-void Integral::add(const Simplex& simplex, int depth) {
+Ball Integral::of(const Simplex& simplex, int depth) const {
   double length = 0, size = 0;
   int from = 0, to = 1;
   for (int i = 0; i <= rank_; ++i) {
@@ -179,17 +161,29 @@ void Integral::add(const Simplex& simplex, int depth) {
   }
   const int count = nodes_needed(simplex, length);
   if (count > kMostNodes) {
-    halve(simplex, from, to, depth);
-    return;
+    Simplex one = simplex, other = simplex;
+    for (int k = 0; k < 3; ++k) {
+      const double middle = 0.5 * (simplex.corner[from][k] + simplex.corner[to][k]);
+      one.corner[from][k] = other.corner[to][k] = middle;
+    }
+    return (of(one, depth + 1) + of(other, depth + 1)) * Ball(0.5);
   }
-  sum_ += quadrature(simplex, count);
   // Corners are off by (depth + 2) kUnit of their size, points by some 16 more, and the logarithm
   // of the density by their product with its slope and by its own rounding; e^x as said there; sums
   // of positive terms by one kUnit a term in each of the three loops, weights and nodes by a few.
   const double slope = distance_ + size;
   const double rounding =
       kUnit * (size * slope * (depth + 48) + 16 * (1 + size * slope) + 3.0 * count + 40);
-  error_ = std::max(error_, kNegligible + rounding);
+  const double sum = quadrature(simplex, count);
+  Ball result(sum);
+  arb_add_error(result.raw(), Ball(sum * (kNegligible + rounding) * (1 + 1e-10)).raw());
+  return result;
+}
+
+Ball absolute(const Ball& x) {
+  Ball result;
+  arb_abs(result.raw(), x.raw());
+  return result;
 }
 
 Ball gaussian_constant(int rank) {
@@ -200,8 +194,6 @@ Ball gaussian_constant(int rank) {
   return result;
 }
 
-Ball rational(const mpq_class& q) { return Ball(q.get_num()) / Ball(q.get_den()); }
-
 // Of [x, ∞), x >= 0.
 Ball upper_tail(const Ball& x) {
   Ball root, result;
@@ -210,28 +202,28 @@ Ball upper_tail(const Ball& x) {
   return result * Ball(0.5);
 }
 
-Ball segment_mass(const mpq_class& lo, const mpq_class& hi) {
-  if (lo >= 0) return upper_tail(rational(lo)) - upper_tail(rational(hi));
-  if (hi <= 0) return upper_tail(rational(-hi)) - upper_tail(rational(-lo));
-  return Ball(1) - upper_tail(rational(-lo)) - upper_tail(rational(hi));
+// Of what is between a and b, whichever is less, on one side of 0 or not.
+Ball segment_mass(const Ball& a, const Ball& b) {
+  Ball result;
+  if (a.sign() * b.sign() >= 0) {
+    result = upper_tail(absolute(a)) - upper_tail(absolute(b));
+  } else {
+    result = Ball(1) - upper_tail(absolute(a)) - upper_tail(absolute(b));
+  }
+  return absolute(result);
 }
 
-mpq_class determinant(const Polytope& polytope, const Polytope::Simplex& simplex) {
-  RationalVec e[3];
+// The volume of a simplex times rank!.
+Ball volume(const std::vector<BallVec>& points, const Polytope::Simplex& simplex, int rank) {
+  BallVec e[3];
   for (int i = 0; i < 3; ++i) {
-    e[i] = {0, 0, 0};
-    e[i][i] = 1;
-    if (i >= polytope.rank()) continue;
-    const RationalVec& to = polytope.vertices()[simplex[i + 1]];
-    const RationalVec& from = polytope.vertices()[simplex[0]];
-    for (int k = 0; k < polytope.rank(); ++k) e[i][k] = to[k] - from[k];
+    if (i < rank) {
+      e[i] = minus(points[simplex[i + 1]], points[simplex[0]]);
+    } else {
+      e[i][i] = Ball(1);
+    }
   }
-  mpq_class result = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    result += e[0][i] * (e[1][j] * e[2][k] - e[1][k] * e[2][j]);
-  }
-  return abs(result);
+  return absolute(dot(e[0], cross(e[1], e[2])));
 }
 
 }  // namespace
@@ -259,30 +251,23 @@ namespace {
 
 // A polytope that is not too large for the density to vary much in it.
 Ball small_polytope(const Polytope& polytope, const Vec& center) {
-  std::vector<Vec> seen(polytope.vertices().size());
+  const std::size_t count = polytope.vertices().size();
+  std::vector<BallVec> points(count);
+  std::vector<Vec> seen(count);
   for (const int v : polytope.used()) {
-    for (int k = 0; k < polytope.rank(); ++k) {
-      seen[v][k] = mpq_class(polytope.vertices()[v][k] - mpq_class(center[k])).get_d();
-    }
+    points[v] = minus(polytope.vertices()[v].ball(), balls(center));
+    for (int k = 0; k < polytope.rank(); ++k) seen[v][k] = points[v][k].nearest();
   }
-  Integral integral(polytope.rank(), center);
-  Ball negligible;
+  const Integral integral(polytope.rank(), center);
+  Ball sum, norm, scale;
   for (const auto& s : polytope.simplices()) {
     Simplex simplex{};
     for (int i = 0; i <= polytope.rank(); ++i) simplex.corner[i] = seen[s[i]];
-    // Rounded to 2^-52 of it, unless it is next to nothing: densities are below one.
-    simplex.determinant = determinant(polytope, s).get_d();
-    if (simplex.determinant < 1e-280) {
-      arb_add_error_2exp_si(negligible.raw(), -930);
-    } else {
-      integral.add(simplex);
-    }
+    sum = sum + volume(points, s, polytope.rank()) * integral.of(simplex);
   }
-  Ball relative(integral.sum()), norm, scale;
-  arb_add_error(relative.raw(), Ball(integral.sum() * integral.error() * (1 + 1e-10)).raw());
   for (const double c : center) norm = norm + Ball(c) * Ball(c);
   arb_exp(scale.raw(), (norm * Ball(-0.5)).raw(), Ball::bits);
-  return relative * scale * gaussian_constant(polytope.rank()) + negligible;
+  return sum * scale * gaussian_constant(polytope.rank());
 }
 
 }  // namespace
@@ -328,8 +313,8 @@ Ball Masses::polytope(const Polytope& polytope, const Vec& lo, const Vec& hi) {
     return result;
   }
   for (const auto& s : polytope.simplices()) {
-    const mpq_class &a = polytope.vertices()[s[0]][0], &b = polytope.vertices()[s[1]][0];
-    result = result + segment_mass(std::min(a, b), std::max(a, b));
+    result = result +
+             segment_mass(polytope.vertices()[s[0]].ball()[0], polytope.vertices()[s[1]].ball()[0]);
   }
   return result;
 }

@@ -3,16 +3,64 @@
 #include "polytope.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 namespace verify {
+namespace {
+
+// Doubles times the smallest power of two that makes all of them integers, which comes last.
+std::vector<mpz_class> integers(const std::vector<double>& values) {
+  std::vector<mpz_class> result;
+  std::vector<int> exponents;
+  int least = 0;
+  for (const double value : values) {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    result.emplace_back(std::ldexp(mantissa, 53));
+    exponents.push_back(value == 0 ? 0 : exponent - 53);
+    if (value != 0) {
+      const auto zeros = mpz_scan1(result.back().get_mpz_t(), 0);
+      least = std::min(least, exponents.back() + static_cast<int>(zeros));
+    }
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const int shift = exponents[i] - least;
+    if (shift >= 0) {
+      result[i] <<= shift;
+    } else {
+      result[i] >>= -shift;
+    }
+  }
+  result.push_back(mpz_class(1) << -least);
+  return result;
+}
+
+// Keeps numbers short.
+void reduce(ExactPoint& point) {
+  mpz_class common = point.w;
+  for (const mpz_class& x : point.x) common = gcd(common, x);
+  if (common == 1) return;
+  for (mpz_class& x : point.x) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), common.get_mpz_t());
+  mpz_divexact(point.w.get_mpz_t(), point.w.get_mpz_t(), common.get_mpz_t());
+}
+
+}  // namespace
+
+BallVec ExactPoint::ball() const {
+  const Ball times(w);
+  return {Ball(x[0]) / times, Ball(x[1]) / times, Ball(x[2]) / times};
+}
 
 // Kuhn's simplices of a box: one for each order of the axes, along which to walk from corner to
 // corner.
 Polytope::Polytope(int rank, const Vec& lo, const Vec& hi) : rank_(rank) {
   for (int corner = 0; corner < 1 << rank; ++corner) {
-    RationalVec vertex;
-    for (int i = 0; i < rank; ++i) vertex[i] = corner >> i & 1 ? hi[i] : lo[i];
+    std::vector<double> sides;
+    for (int i = 0; i < rank; ++i) sides.push_back((corner >> i & 1) != 0 ? hi[i] : lo[i]);
+    const auto exact = integers(sides);
+    ExactPoint vertex;
+    std::copy(exact.begin(), exact.end() - 1, vertex.x.begin());
+    vertex.w = exact.back();
     vertices_.push_back(vertex);
   }
   std::array<int, 3> order{0, 1, 2};
@@ -26,10 +74,12 @@ Polytope::Polytope(int rank, const Vec& lo, const Vec& hi) : rank_(rank) {
 void Polytope::cut(const Plane& plane, int side) {
   crossings_.clear();
   heights_.assign(vertices_.size(), 0);
+  const auto exact = integers({plane.normal[0], plane.normal[1], plane.normal[2], plane.level});
   for (const int v : used()) {
-    mpq_class height = -mpq_class(plane.level);
-    for (int i = 0; i < rank_; ++i) height += mpq_class(plane.normal[i]) * vertices_[v][i];
-    heights_[v] = side > 0 ? height : mpq_class(-height);
+    mpz_class& height = heights_[v];
+    height = -exact[3] * vertices_[v].w;
+    for (int i = 0; i < rank_; ++i) height += exact[i] * vertices_[v].x[i];
+    if (side < 0) height = -height;
   }
   std::vector<Simplex> kept;
   for (const Simplex& simplex : simplices_) keep_positive(simplex, kept);
@@ -61,25 +111,22 @@ int Polytope::crossing(int positive, int negative) {
   const auto [found, is_new] =
       crossings_.try_emplace({positive, negative}, static_cast<int>(vertices_.size()));
   if (!is_new) return found->second;
-  const mpq_class part = heights_[positive] / (heights_[positive] - heights_[negative]);
-  RationalVec vertex;
-  for (int i = 0; i < rank_; ++i) {
-    const mpq_class& from = vertices_[positive][i];
-    const mpq_class& to = vertices_[negative][i];
-    vertex[i] = from == to ? from : mpq_class(from + part * (to - from));
-  }
+  const ExactPoint &from = vertices_[positive], &to = vertices_[negative];
+  const mpz_class &above = heights_[positive], &below = heights_[negative];
+  ExactPoint vertex;
+  for (int i = 0; i < rank_; ++i) vertex.x[i] = above * to.x[i] - below * from.x[i];
+  vertex.w = above * to.w - below * from.w;
+  reduce(vertex);
   vertices_.push_back(vertex);
   heights_.emplace_back(0);
   return found->second;
 }
 
-RationalVec Polytope::center() const {
-  RationalVec sum{0, 0, 0};
+BallVec Polytope::center() const {
+  BallVec sum;
   const auto which = used();
-  for (const int v : which) {
-    for (int k = 0; k < rank_; ++k) sum[k] += vertices_[v][k];
-  }
-  for (mpq_class& x : sum) x /= static_cast<unsigned long>(which.size());
+  for (const int v : which) sum = plus(sum, vertices_[v].ball());
+  for (Ball& x : sum) x = x / Ball(static_cast<double>(which.size()));
   return sum;
 }
 

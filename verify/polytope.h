@@ -12,7 +12,14 @@
 
 namespace verify {
 
-using RationalVec = std::array<mpq_class, 3>;
+/// The point `x / w`, w > 0.
+struct ExactPoint {
+  std::array<mpz_class, 3> x;
+  mpz_class w;
+
+  /// The same with an enclosure of the quotients.
+  BallVec ball() const;
+};
 
 class Polytope {
  public:
@@ -24,9 +31,9 @@ class Polytope {
   int rank() const { return rank_; }
   /// Vertices of the simplices. All lie in the polytope, and its corners are among them.
   std::vector<int> used() const;
-  /// A point of it.
-  RationalVec center() const;
-  const std::vector<RationalVec>& vertices() const { return vertices_; }
+  /// An enclosure of a point of it.
+  BallVec center() const;
+  const std::vector<ExactPoint>& vertices() const { return vertices_; }
   /// `rank + 1` vertices each; no two overlap.
   using Simplex = std::array<int, 4>;
   const std::vector<Simplex>& simplices() const { return simplices_; }
@@ -36,10 +43,11 @@ class Polytope {
   int crossing(int positive, int negative);
 
   int rank_;
-  std::vector<RationalVec> vertices_;
+  std::vector<ExactPoint> vertices_;
   std::vector<Simplex> simplices_;
-  // Of the cut under way: height over the plane, and the new vertex of each edge that crosses it.
-  std::vector<mpq_class> heights_;
+  // Of the cut under way: height over the plane times w and a constant, and the new vertex of each
+  // edge that crosses it.
+  std::vector<mpz_class> heights_;
   std::map<std::pair<int, int>, int> crossings_;
 };
 

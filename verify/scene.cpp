@@ -234,7 +234,7 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
   return "";
 }
 
-Scene::Nesting Scene::nesting(const RationalVec& y) const {
+Scene::Nesting Scene::nesting(const BallVec& y) const {
   Nesting result = Nesting::kNone;
   for (int x = 0; x < 2 && solid_contact; ++x) {
     for (const Solid& solid : solids_[1 - x]) {

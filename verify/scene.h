@@ -23,7 +23,7 @@ class Scene {
   std::string touching(const Region& region, const Object& a, const Object& b) const;
   /// Whether in contact of solids, at y, a component of one object is in a solid of the other.
   enum class Nesting { kNone, kSome, kUnknown };
-  Nesting nesting(const RationalVec& y) const;
+  Nesting nesting(const BallVec& y) const;
 
   struct Crossings {
     bool known = false;  // false if the point may be on the surface
@@ -31,7 +31,7 @@ class Scene {
     int winding = 0;
   };
   /// What a ray from a vertex of object x crosses of `surface`, of the other object, at y.
-  Crossings crossings(int x, int vertex, const Object& surface, const RationalVec& y) const;
+  Crossings crossings(int x, int vertex, const Object& surface, const BallVec& y) const;
 
   Frame frame;
   bool solid_contact;

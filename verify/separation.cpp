@@ -88,21 +88,17 @@ Region::Region(const Polytope& polytope, const Vec& low, const Vec& high,
   for (const Plane& plane : planes) normals.push_back(plane.normal);
   corners.clear();
   for (const int v : polytope.used()) {
-    rationals.push_back(polytope.vertices()[v]);
-    const RationalVec& q = rationals.back();
-    corners.push_back({q[0].get_d(), q[1].get_d(), q[2].get_d()});
+    exact.push_back(polytope.vertices()[v]);
+    const Precision enough(128);
+    const BallVec q = exact.back().ball();
+    corners.push_back({q[0].nearest(), q[1].nearest(), q[2].nearest()});
   }
 }
 
 Region::Corner Region::exact_corner(std::size_t i) const {
-  if (rationals.empty()) return {balls(corners[i]), Ball(1)};
-  mpz_class common = 1;
-  for (const mpq_class& q : rationals[i]) common = lcm(common, q.get_den());
-  BallVec result;
-  for (int k = 0; k < 3; ++k) {
-    result[k] = Ball(mpz_class(rationals[i][k].get_num() * (common / rationals[i][k].get_den())));
-  }
-  return {result, Ball(common)};
+  if (exact.empty()) return {balls(corners[i]), Ball(1)};
+  const auto& x = exact[i].x;
+  return {{Ball(x[0]), Ball(x[1]), Ball(x[2])}, Ball(exact[i].w)};
 }
 
 BallVec Separator::exact_edge(const Edge& edge) const {

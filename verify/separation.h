@@ -22,10 +22,10 @@ struct Region {
   Corner exact_corner(std::size_t i) const;
 
   Vec lo, hi;
-  Vec bound{};                         // of |y|
-  std::vector<Vec> normals;            // of axes, then planes
-  std::vector<Vec> corners;            // rounded
-  std::vector<RationalVec> rationals;  // the corners exactly; none where the region is a box
+  Vec bound{};                    // of |y|
+  std::vector<Vec> normals;       // of axes, then planes
+  std::vector<Vec> corners;       // rounded
+  std::vector<ExactPoint> exact;  // the corners exactly; none where the region is a box
 };
 
 /// A direction that can be had exactly: the normal of two edges, or one of a region.

@@ -16,7 +16,7 @@ std::string check_inside(const Scene& scene, const Polytope& polytope, const Reg
   if (!solid && !scene.is_closed[y]) return "the other object is not closed";
   if (!solid && witness.outside < 0) return "has no vertex outside";
   const auto& component = scene.component[x];
-  const RationalVec center = polytope.center();
+  const BallVec center = polytope.center();
   const Object& surface = solid ? scene.objects[y] : scene.closed[y];
   for (const bool claimed_inside : {true, false}) {
     if (!claimed_inside && solid) continue;
