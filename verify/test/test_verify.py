@@ -357,6 +357,80 @@ class Changes:
             triangles.pop(i)
 
 
+class SmallChecker(unittest.TestCase):
+    def run_on(self, lines):
+        with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
+            file.write("".join(json.dumps(x) + "\n" for x in lines))
+            file.flush()
+            return subprocess.run([sys.executable, PYTHON_VERIFIER, file.name], capture_output=True, text=True)
+
+    def test_true(self):
+        for rank in (1, 2, 3):
+            run = self.run_on(two_boxes(rank, depth=4)[0])
+            self.assertEqual(run.returncode, 0, run.stdout)
+            self.assertNotRegex(run.stdout, "not checked: .*(free|contact)")
+        run = self.run_on(two_spheres(True, depth=5)[0])
+        self.assertEqual(run.returncode, 0, run.stdout)
+
+    def test_changes(self):
+        rng = random.Random(4)
+        lines = two_boxes(2, depth=4)[0]
+        refused = 0
+        for name in ("level_changed", "plane_turned", "claim_flipped", "side_moved", "cell_repeated", "pair_changed"):
+            for _ in range(4):
+                changed = copy.deepcopy(lines)
+                getattr(Changes, name)(changed, rng)
+                code = self.run_on(changed).returncode
+                refused += code != 0
+                self.assertTrue(code != 0 or is_true(changed), name)
+        print(f"verify.py: {refused} of 24 refused")
+
+
+class BothCheckers(unittest.TestCase):
+    """On coordinates of a coarse grid, where much touches at its boundary only, both have to say the same."""
+    def test_random_triangles(self):
+        sys.path.insert(0, os.path.dirname(PYTHON_VERIFIER))
+        import verify
+        rng = random.Random(int(os.environ.get("FCL_PROB_VERIFY_SEED", "5")))
+        counts = collections.Counter()
+        for k in range(int(os.environ.get("FCL_PROB_VERIFY_SCENES", "600"))):
+            rank, free = 1 + k % 3, k % 2 == 0
+            size = rng.choice((2, 3, 6))
+            parts = [mesh_part(x, [[float(rng.randrange(-size, size + 1)) for _ in range(3)] for _ in range(3)],
+                               [[0, 1, 2]]) for x in "AB"]
+            for part in parts if k % 5 < 2 else []:  # a parallelepiped in place of the triangle
+                turn = [[rng.randrange(-1, 2) for _ in range(3)] for _ in range(3)]
+                if verify.dot(turn[0], verify.cross(turn[1], turn[2])) > 0:
+                    side = [rng.randrange(1, 3) for _ in range(3)]
+                    part.update(box_part(part["part"], [0, 0, 0], side), rotation=turn)
+                    part["translation"] = [rng.randrange(-2, 3) for _ in range(3)]
+            lo = [float(rng.randrange(-size, size)) for _ in range(rank)]
+            step = rng.choice((1, 1, .25, 2, 2 ** -44))
+            cell = lo + [x + step * rng.choice((1, 1, .5)) for x in lo]
+            planes = [[float(rng.randrange(-2, 3)) for _ in range(rank + 1)] for _ in range(rng.randrange(3))]
+            axes = [[float(rng.randrange(-2, 3)) for _ in range(3)] for _ in range(3)]
+            if verify.dot(axes[0], verify.cross(axes[1], axes[2])) == 0:
+                axes = IDENTITY
+            mean = [rng.choice((0, .5, 1)) for _ in range(3)]
+            claim = ({"free": planes or True} if free else
+                     {"contact": [{"planes": planes, "by": {"pair": [0, 0]}}]})
+            lines = certificate(header(rank, mean, rng.choice(((1, 1, 1), (2, .5, 1))), axes=axes), parts,
+                                [{"cell": cell, **claim}])
+            scene = verify.Scene(lines[0])
+            for part in parts:
+                scene.add(part)
+            checker = verify.Checker(scene, 400)
+            try:
+                checker.cell(lines[-2])
+                expected = 0
+            except verify.Refused:
+                expected = 1
+            answer = Answer(lines)
+            counts[("free" if free else "contact", expected)] += 1
+            self.assertEqual(answer.code, expected, f"{lines}: {answer.text}")
+        print("random triangles:", dict(counts))
+
+
 class FalseCertificates(unittest.TestCase):
     def test_changes_of_boxes(self):
         count = int(os.environ.get("FCL_PROB_VERIFY_CHANGES", "40"))
