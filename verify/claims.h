@@ -30,10 +30,6 @@ std::string check_cell(const Scene& scene, const Cell& cell, Tally& tally);
 std::string check_witness(const Scene& scene, const Polytope& polytope, const Region& region,
                           const Witness& witness);
 
-/// Empty, or why the displacements at which the two pieces touch do not certainly contain the
-/// region.
-std::string check_pair(const Scene& scene, const Region& region, const Piece& k, const Piece& l);
-
 struct Box {
   std::size_t line;
   Vec lo, hi;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "faces.h"
 #include "objects.h"
 #include "separation.h"
 
@@ -40,6 +41,7 @@ class Scene {
   // Of an object of one mesh: its caps, and it together with them; empty if this is not closed.
   std::vector<Object> caps, closed;
   std::array<bool, 2> is_closed{};
+  std::shared_ptr<FacesOfPairs> faces = std::make_shared<FacesOfPairs>();
   /// Connected component of each vertex; -1 for one that is in no piece.
   std::array<std::vector<int>, 2> component;
 

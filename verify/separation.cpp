@@ -27,20 +27,6 @@ Range range_of(const Vec& direction, const std::vector<Vec>& points,
   return range;
 }
 
-struct BallRange {
-  Ball lo, hi;
-};
-
-BallRange range_of(const BallVec& normal, const Object& object, const std::vector<int>& which) {
-  BallRange range;
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    const Ball value = dot(normal, object.world(which[i]));
-    range.lo = i == 0 ? value : min(range.lo, value);
-    range.hi = i == 0 ? value : max(range.hi, value);
-  }
-  return range;
-}
-
 // The vertices that reach farthest (`sign` 1) or least (-1) along a direction, but for what is next
 // to nothing: the faces between which the hyperplane is to be are among them.
 std::vector<int> extreme(const Object& object, const Piece& piece, const Vec& direction, int sign) {
@@ -101,6 +87,24 @@ Region::Corner Region::exact_corner(std::size_t i) const {
   return {{Ball(x[0]), Ball(x[1]), Ball(x[2])}, Ball(exact[i].w)};
 }
 
+Heights::Heights(const Frame& frame, const Object& a, const Piece& k, const Object& b,
+                 const Piece& l, const BallVec& normal)
+    : constant(dot(normal, frame.mean)) {
+  const auto range = [&](const Object& object, const Piece& piece, Ball& low, Ball& high) {
+    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+      const Ball height = dot(normal, object.world(piece.vertices[i]));
+      low = i == 0 ? height : min(low, height);
+      high = i == 0 ? height : max(high, height);
+    }
+  };
+  Ball k_lo, k_hi, l_lo, l_hi;
+  range(a, k, k_lo, k_hi);
+  range(b, l, l_lo, l_hi);
+  lo = l_lo - k_hi;
+  hi = l_hi - k_lo;
+  for (int i = 0; i < frame.rank; ++i) slope[i] = dot(normal, frame.columns[i]);
+}
+
 BallVec Separator::exact_edge(const Edge& edge) const {
   if (edge.of == Edge::kA) return minus(a_.world(edge.to), a_.world(edge.from));
   if (edge.of == Edge::kB) return minus(b_.world(edge.to), b_.world(edge.from));
@@ -136,24 +140,18 @@ bool Separator::proven_exactly(const Direction& direction) const {
       for (int j = 0; j < 3; ++j) normal[j] = normal[j] + frame_.cofactors[i][j] * Ball(n[i]);
     }
   }
-  const BallRange k = range_of(normal, a_, k_->vertices);
-  const BallRange l = range_of(normal, b_, l_->vertices);
-  const Ball lo = l.lo - k.hi, hi = l.hi - k.lo;
-  BallVec slope;
+  const Heights heights(frame_, a_, *k_, b_, *l_, normal);
   bool varies = false;
-  for (int i = 0; i < frame_.rank; ++i) {
-    slope[i] = dot(normal, frame_.columns[i]);
-    varies |= slope[i].sign() != 0;
-  }
-  const Ball constant = dot(normal, frame_.mean);
+  for (const Ball& x : heights.slope) varies |= x.sign() != 0;
   bool below = true, above = true;
   for (std::size_t i = 0; i < region_->corners.size() && (below || above); ++i) {
-    const auto [corner, times] = region_->exact_corner(i);
-    const Ball value = dot(slope, corner) + constant * times;
+    const Region::Corner corner = region_->exact_corner(i);
+    const Ball value = heights.at(corner);
+    const Ball lo = heights.lo * corner.times, hi = heights.hi * corner.times;
     // Regions are open: on them a function that is not constant has no value that it has at a
     // corner only.
-    below = below && (varies ? value <= lo * times : value < lo * times);
-    above = above && (varies ? hi * times <= value : hi * times < value);
+    below = below && (varies ? value <= lo : value < lo);
+    above = above && (varies ? hi <= value : hi < value);
   }
   return below || above;
 }

@@ -28,6 +28,20 @@ struct Region {
   std::vector<ExactPoint> exact;  // the corners exactly; none where the region is a box
 };
 
+/// What a normal says exactly of `L - K` and of the displacements.
+struct Heights {
+  Heights(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l,
+          const BallVec& normal);
+  /// Times the corner's factor.
+  Ball at(const Region::Corner& corner) const {
+    return dot(slope, corner.point) + constant * corner.times;
+  }
+
+  Ball lo, hi;  // of L - K
+  BallVec slope;
+  Ball constant;
+};
+
 /// A direction that can be had exactly: the normal of two edges, or one of a region.
 struct Edge {
   enum Of { kA, kB, kRegion } of;

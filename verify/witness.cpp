@@ -63,8 +63,9 @@ std::string check_witness(const Scene& scene, const Polytope& polytope, const Re
       return "there is no piece " + std::to_string(witness.pair[x]) + " of " + (x == 0 ? "A" : "B");
     }
   }
-  return check_pair(scene, region, scene.objects[0].pieces[witness.pair[0]],
-                    scene.objects[1].pieces[witness.pair[1]]);
+  return scene.faces
+      ->get(scene.frame, scene.objects[0], witness.pair[0], scene.objects[1], witness.pair[1])
+      ->contain(region);
 }
 
 }  // namespace verify

@@ -357,6 +357,29 @@ class Changes:
             triangles.pop(i)
 
 
+class SeveralCertificates(unittest.TestCase):
+    def test_any_of_them(self):
+        first, lo, hi = two_boxes(2, depth=7)
+        second, low, high = two_boxes(1, (30, 0, 0), depth=20, reach=64.0)
+        second[0]["name"] = "far"
+        p, q = box_mass(lo, hi), box_mass(low, high)
+        second[-1]["upper"] = q * (1 + 1e-11)
+        answer = Answer(first + second)
+        self.assertEqual(answer.code, 0, answer.text)
+        found = re.findall(r"verified \[(.*), (.*)\](.*)", answer.text)
+        self.assertEqual(len(found), 3)
+        self.assertIn('"far" lines ' + str(len(first) + 1), found[1][2])
+        self.assertAlmostEqual(float(found[2][0]), p, delta=1e-12)
+        # Both tiny: 1 - (1 - q)² is 2 q.
+        lower, upper = map(float, re.findall(r"verified \[(.*), (.*)\] any", Answer(second + second).text)[0])
+        self.assertAlmostEqual(lower / (2 * q), 1, delta=1e-11)
+        self.assertAlmostEqual(upper / (2 * q), 1, delta=1e-11)
+        # One that fails, or is cut off, fails all.
+        second[-1]["lower"] = 1.1 * q
+        self.assertEqual(Answer(first + second).code, 1)
+        self.assertEqual(Answer(first + second[:-1]).code, 2)
+
+
 class SmallChecker(unittest.TestCase):
     def run_on(self, lines):
         with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
