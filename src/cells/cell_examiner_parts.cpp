@@ -134,9 +134,8 @@ void CellExaminer::addPossible(OpenCell& open) {
 // The masses of an open cell with a plane that covers.
 void CellExaminer::weigh(OpenCell& open) {
   const Eigen::Vector3d& m = open.plane.m;
-  const HalfSpaceMeasure measure(open.cell, kOpenAccuracy);
-  open.lower = measure.mass(m, open.plane.s).lower;
-  open.upper = measure.mass(m, open.possible_from).upper;
+  open.lower = cellHalfSpaceMass(open.cell, m, open.plane.s, kOpenAccuracy).lower;
+  open.upper = cellHalfSpaceMass(open.cell, m, open.possible_from, kOpenAccuracy).upper;
   open.drawn = open.gap();
   claimBelow("below what is possible", open.cell, {m, open.possible_from});
   double mass = kLeastCovered * open.gap();

@@ -10,7 +10,6 @@
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/gauss_rule.h"
 #include "gaussian/normal_density.h"
-#include "mass/cut_kernels.h"
 
 namespace fcl_prob::detail {
 
@@ -18,9 +17,6 @@ namespace {
 
 // Half as wide as a piece of a quadrature may be to start with, in standard deviations.
 constexpr double kPieceWidth = 1.0;
-
-// What densities may be wrong by, of the accuracy asked for; for each axis.
-constexpr double kSeriesShare = 0.1;
 
 double density(double y) { return kInverseSqrtTwoPi * std::exp(-0.5 * y * y); }
 
@@ -36,7 +32,7 @@ double largestDensity(double lo, double hi, double margin) {
 // and u the outer axis, the one with the flattest slope. An axis that does not move is the point 0.
 class CutCell {
  public:
-  CutCell(const Cell& cell, const Eigen::Vector3d& m, double s, const CellSeries& series = {}) {
+  CutCell(const Cell& cell, const Eigen::Vector3d& m, double s) {
     order(cell, m);
     reflected_ = m[k_] < 0;
     lo_ = reflected_ ? -cell.hi[k_] : cell.lo[k_];
@@ -49,15 +45,9 @@ class CutCell {
     u_hi_ = cell.hi[u_];
     v_lo_ = cell.lo[v_];
     v_hi_ = cell.hi[v_];
-    series_k_ = seriesOf(series[k_]);
-    series_u_ = u_moves_ ? seriesOf(series[u_]) : nullptr;
-    series_v_ = v_moves_ ? seriesOf(series[v_]) : nullptr;
     side_ = lo_ + hi_ >= 0 ? 1.0 : -1.0;
-    tail_hi_ = series_k_ ? massUpTo(hi_) : tail(side_ * hi_);
+    tail_hi_ = tail(side_ * hi_);
     full_ = above(lo_);
-    if (series_k_ && series_v_) prepareAxes();
-    mass_at_v_lo_ = series_v_ ? series_v_->massFromMiddle(v_lo_) : 0.0;
-    mass_at_v_hi_ = series_v_ ? series_v_->massFromMiddle(v_hi_) : 0.0;
   }
 
   struct Sums {
@@ -79,15 +69,6 @@ class CutCell {
   }
 
   double errorBound() const { return error_; }
-
-  // Of the densities, relative to the mass of the cell.
-  double seriesError() const {
-    double error = 0.0;
-    for (const DensitySeries* series : {series_k_, series_u_, series_v_}) {
-      if (series) error += series->error();
-    }
-    return 1.01 * error;
-  }
 
   template <bool with_moment>
   Sums integrate() const {
@@ -155,42 +136,8 @@ class CutCell {
     return u_moves_ ? nodes_ * (pieces_ + 4.0) * inner : inner;
   }
 
-  static const DensitySeries* seriesOf(const std::optional<DensitySeries>& series) {
-    return series ? &*series : nullptr;
-  }
-
-  static double densityAt(double y, const DensitySeries* series) {
-    return series ? series->density(y) : density(y);
-  }
-
-  double massUpTo(double y) const {
-    return reflected_ ? -series_k_->massFromMiddle(-y) : series_k_->massFromMiddle(y);
-  }
-
-  // Mass of [l, hi] along the closed axis; without a series computed on the side of the tail.
-  double above(double l) const {
-    return series_k_ ? tail_hi_ - massUpTo(l) : side_ * (tail(side_ * l) - tail_hi_);
-  }
-
-  // What all pieces of v have in common.
-  void prepareAxes() {
-    axes_ = {slope_v_,
-             lo_,
-             hi_,
-             reflected_ ? -1.0 : 1.0,
-             tail_hi_ / series_k_->massScale(),
-             {series_v_->densityTerms(), series_v_->terms(), series_v_->middle(),
-              series_v_->inverseHalf()},
-             {series_k_->massTerms(), series_k_->terms(), series_k_->middle(),
-              series_k_->inverseHalf()}};
-    axes_scale_ = series_v_->scale() * series_k_->massScale();
-  }
-
-  double intervalMassOfV(double begin, double end) const {
-    if (!series_v_) return normalIntervalMass(begin, end);
-    const double at_end = end == v_hi_ ? mass_at_v_hi_ : series_v_->massFromMiddle(end);
-    return at_end - (begin == v_lo_ ? mass_at_v_lo_ : series_v_->massFromMiddle(begin));
-  }
+  // Mass of [l, hi] along the closed axis, computed on the side of the tail.
+  double above(double l) const { return side_ * (tail(side_ * l) - tail_hi_); }
 
   bool chooseNodes(double half, double accuracy) {
     const double reach = std::max({std::fabs(lo_), std::fabs(hi_), std::fabs(u_lo_),
@@ -251,7 +198,7 @@ class CutCell {
       const double middle = start + (2 * i + 1) * half;
       for (int j = 0; j < nodes_; ++j) {
         const double u = middle + half * rule.node[j];
-        const double weight = half * rule.weight[j] * densityAt(u, series_u_);
+        const double weight = half * rule.weight[j] * density(u);
         const double before = sums.mass;
         inner<with_moment>(u, weight, sums);
         if (with_moment) sums.moment_u += u * (sums.mass - before);
@@ -296,23 +243,12 @@ class CutCell {
     const double half = 0.5 * width / count;
     for (int i = 0; i < count; ++i) {
       const double middle = start + (2 * i + 1) * half;
-      if (!with_moment && series_k_ && series_v_) {
-        sums.mass += weight * half * axes_scale_ * massOfPiece(rule, middle, half, level);
-        continue;
-      }
       for (int j = 0; j < nodes_; ++j) {
         const double v = middle + half * rule.node[j];
-        const double node_weight = weight * half * rule.weight[j] * densityAt(v, series_v_);
+        const double node_weight = weight * half * rule.weight[j] * density(v);
         partial<with_moment>(level - slope_v_ * v, v, node_weight, sums);
       }
     }
-  }
-
-  double massOfPiece(const GaussRule& rule, double middle, double half, double level) const {
-    static const CutKernel kernel = cutKernel();
-    constexpr int kLanes = 4;
-    const int count = (nodes_ + kLanes - 1) / kLanes * kLanes;
-    return kernel(axes_, {rule.node.data(), rule.weight.data(), count, middle, half, level});
   }
 
   template <bool with_moment>
@@ -329,7 +265,7 @@ class CutCell {
   template <bool with_moment>
   void full(double begin, double end, double weight, Sums& sums) const {
     if (!(end > begin)) return;
-    const double interval = intervalMassOfV(begin, end);
+    const double interval = normalIntervalMass(begin, end);
     sums.mass += weight * full_ * interval;
     if (with_moment) {
       sums.moment_v += weight * full_ * normalIntervalMoment(begin, end);
@@ -342,12 +278,6 @@ class CutCell {
   double lo_, hi_, u_lo_, u_hi_, v_lo_, v_hi_;
   double offset_, slope_u_, slope_v_;
   double side_, tail_hi_, full_;
-  double mass_at_v_lo_, mass_at_v_hi_;
-  CutAxes axes_{};
-  double axes_scale_ = 0.0;
-  const DensitySeries* series_k_;
-  const DensitySeries* series_u_;
-  const DensitySeries* series_v_;
   int pieces_ = 1;
   int nodes_ = GaussRule::kFewest;
   double error_ = 0.0;
@@ -405,28 +335,16 @@ Eigen::Vector3d cellMoment(const Cell& cell) {
 }
 
 Bounds cellHalfSpaceMass(const Cell& cell, const Eigen::Vector3d& m, double s, double accuracy) {
-  return HalfSpaceMeasure(cell, accuracy).mass(m, s);
-}
-
-HalfSpaceMeasure::HalfSpaceMeasure(const Cell& cell, double accuracy)
-    : cell_(cell), accuracy_(accuracy), whole_(cellMass(cell)) {
-  for (int k = 0; k < cell.rank; ++k) {
-    if (!series_[k].emplace().make(cell.lo[k], cell.hi[k], kSeriesShare * accuracy)) {
-      series_[k].reset();
-    }
-  }
-}
-
-Bounds HalfSpaceMeasure::mass(const Eigen::Vector3d& m, double s) const {
-  const int position = side(cell_, m, s);
+  const int position = side(cell, m, s);
   if (position < 0) return {0.0, 0.0};
-  if (position > 0) return whole_;
-  if (!hasMovingNormal(cell_, m)) return {0.0, whole_.upper};
-  CutCell cut(cell_, m, s, series_);
-  cut.plan(accuracy_ * whole_.upper);
+  const Bounds whole = cellMass(cell);
+  if (position > 0) return whole;
+  if (!hasMovingNormal(cell, m)) return {0.0, whole.upper};
+  CutCell cut(cell, m, s);
+  cut.plan(accuracy * whole.upper);
   const double mass = cut.integrate<false>().mass;
-  const double error = cut.errorBound() + (cut.roundingError() + cut.seriesError()) * whole_.upper;
-  return {std::clamp(mass - error, 0.0, whole_.lower), std::clamp(mass + error, 0.0, whole_.upper)};
+  const double error = cut.errorBound() + cut.roundingError() * whole.upper;
+  return {std::clamp(mass - error, 0.0, whole.lower), std::clamp(mass + error, 0.0, whole.upper)};
 }
 
 Moment cellHalfSpaceMoment(const Cell& cell, const Eigen::Vector3d& m, double s) {

@@ -5,13 +5,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <optional>
 
 #include "base/constants.h"
 #include "convex/slab_kernels.h"
 #include "fcl_prob/bounds.h"
-#include "gaussian/density_series.h"
 
 namespace fcl_prob::detail {
 
@@ -63,32 +60,15 @@ Bounds cellMass(const Cell& cell);
 /// ∫ y φ(y) dy over the cell, to within rounding.
 Eigen::Vector3d cellMoment(const Cell& cell);
 
-/// The density along each axis of a cell, where it changes little enough.
-using CellSeries = std::array<std::optional<DensitySeries>, 3>;
-
 /// Certified mass of cell ∩ { m·y >= s }, |m| = 1.
 ///
 /// Along the axis in which m is largest the integral is closed (a difference of normal tails); over
 /// the other two it is Gauss-Legendre on the pieces where the integrand is analytic. The quadrature
 /// error is bounded through the integrand's size on a Bernstein ellipse, |error| <= 64/15 M ρ^-2n /
 /// (1 - ρ^-2) (Trefethen, Approximation Theory and Approximation Practice, theorem 19.3), never
-/// estimated. Densities over narrow axes are polynomials, whose error is bounded, too. \param
-/// accuracy  relative to the cell's mass: how many nodes to spend
+/// estimated.
+/// \param accuracy  relative to the cell's mass: how many nodes to spend
 Bounds cellHalfSpaceMass(const Cell& cell, const Eigen::Vector3d& m, double s, double accuracy);
-
-/// The same for several planes in one cell, which is prepared once.
-class HalfSpaceMeasure {
- public:
-  HalfSpaceMeasure(const Cell& cell, double accuracy);
-
-  Bounds mass(const Eigen::Vector3d& m, double s) const;
-
- private:
-  Cell cell_;
-  double accuracy_;
-  Bounds whole_;
-  CellSeries series_;
-};
 
 /// ∫ y φ(y) dy over a set, with a bound on the error of every component.
 struct Moment {
