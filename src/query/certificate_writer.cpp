@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/certificate_writer.h"
 
+#include <fcl/geometry/shape/box.h>
+
 #include <Eigen/Geometry>
 #include <ostream>
 #include <string>
@@ -73,28 +75,41 @@ bool isBox(const fcl::CollisionGeometryd& geometry) {
   return geometry.getNodeType() == fcl::GEOM_BOX;
 }
 
+// A box, or a cell of an octree, which is one about its middle.
+TriangleMesh boxOf(const PieceTree& tree, const PieceTree::Part& part, int body,
+                   const fcl::CollisionGeometryd& geometry) {
+  const OuterMeshRequest exactly{0.0, Eigen::Vector3d::Zero(), 0.0};
+  if (isBox(geometry)) return outerMesh(geometry, exactly);
+  const PieceTree::Body& cell = tree.bodies[static_cast<std::size_t>(body)];
+  const auto& corners = tree.shapes[static_cast<std::size_t>(cell.shape)].body.points;
+  TriangleMesh box = outerMesh(fcl::Boxd(2.0 * corners.front().cwiseAbs()), exactly);
+  for (Eigen::Vector3d& vertex : box.vertices) vertex += cell.position + part.origin;
+  return box;
+}
+
 // The boundary of a box, normals outwards.
 std::vector<Eigen::Vector3i> outwardTriangles(const TriangleMesh& box) {
+  const Eigen::Vector3d middle = 0.5 * (box.vertices.front() + box.vertices.back());
   std::vector<Eigen::Vector3i> triangles;
   for (const fcl::Triangle& t : box.triangles) {
     Eigen::Vector3i corners(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
     const Eigen::Vector3d& p = box.vertices[t[0]];
-    const Eigen::Vector3d normal = (box.vertices[t[1]] - p).cross(box.vertices[t[2]] - p);
-    if (normal.dot(p) < 0.0) std::swap(corners[1], corners[2]);  // the box is around its origin
+    const Eigen::Vector3d normal =
+        (box.vertices[t[1]] - p).normalized().cross((box.vertices[t[2]] - p).normalized());
+    if (normal.dot((p - middle).normalized()) < 0.0) std::swap(corners[1], corners[2]);
     triangles.push_back(corners);
   }
   return triangles;
 }
 
-const OuterMeshRequest kExactly{0.0, Eigen::Vector3d::Zero(), 0.0};
-
 void requireCertifiable(const CertifiedObject& object) {
   for (std::size_t i = 0; i < object.geometries.size(); ++i) {
     const fcl::CollisionGeometryd& geometry = *object.geometries[i];
-    if (kindOf(geometry) == GeometryKind::mesh || isBox(geometry)) continue;
+    const GeometryKind kind = kindOf(geometry);
+    if (kind == GeometryKind::mesh || kind == GeometryKind::octree || isBox(geometry)) continue;
     throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " +
                               object.name + ": " + nodeTypeName(geometry.getNodeType()) +
-                              " is neither a mesh nor a Box");
+                              " is neither a mesh nor a Box or OcTree");
   }
 }
 
@@ -138,50 +153,64 @@ void CertificateWriter::frame(const Whitening& whitening,
   writeCaps(b_, "B", of_b_);
 }
 
-// In the order of the geometry's own vertices, and of the tree's triangles.
 CertificateWriter::Numbers CertificateWriter::writeObject(const CertifiedObject& object,
                                                           const char* name) {
   const PieceTree& tree = *object.placed.tree;
   Numbers numbers{std::vector<int>(tree.vertices.size(), -1),
                   std::vector<int>(tree.triangles.size() + tree.bodies.size(), -1)};
-  int pieces = 0;
-  int vertex_count = 0;
   for (std::size_t i = 0; i < object.geometries.size(); ++i) {
     const PieceTree::Part& part = tree.parts[i];
     const fcl::CollisionGeometryd& geometry = *object.geometries[i];
-    const TriangleMesh mesh = outerMesh(geometry, kExactly);
-    std::vector<Eigen::Vector3i> triangles;
-    if (isBox(geometry)) {
-      triangles = outwardTriangles(mesh);
-      numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(part.bodies.begin)] =
-          pieces++;
-    } else {
-      std::vector<int> within(tree.vertices.size(), -1);
-      for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const auto in_tree = static_cast<std::size_t>(PieceTree::vertexOf(part, v));
-        within[in_tree] = static_cast<int>(v);
-        numbers.of_vertex[in_tree] = vertex_count + static_cast<int>(v);
-      }
-      for (int t = part.triangles.begin; t < part.triangles.end; ++t) {
-        const Eigen::Vector3i& corners = tree.triangles[static_cast<std::size_t>(t)];
-        triangles.emplace_back(within[corners[0]], within[corners[1]], within[corners[2]]);
-        numbers.of_piece[static_cast<std::size_t>(t)] = pieces++;
-      }
+    if (kindOf(geometry) == GeometryKind::mesh) {
+      writeMesh(tree, part, geometry, {name, object.placed.parts[i]}, numbers);
+      continue;
     }
-    vertex_count += static_cast<int>(mesh.vertices.size());
-    const PlacedPart& placed = object.placed.parts[i];
-    out_ << R"({"part":")" << name << R"(","rotation":)";
-    writeVectors(out_, rowsOf(placed.pose.linear(), 3));
-    out_ << R"(,"translation":)";
-    writeVector(out_, placed.pose.translation());
-    out_ << R"(,"vertices":)";
-    writeVectors(out_, {mesh.vertices.begin(), mesh.vertices.end()});
-    out_ << R"(,"triangles":)";
-    writeTriangles(out_, triangles);
-    out_ << R"(,"convex":)" << (isBox(geometry) ? "true" : "false") << R"(,"solid":)"
-         << (placed.solid ? "true" : "false") << "}\n";
+    for (int body = part.bodies.begin; body < part.bodies.end; ++body) {
+      TriangleMesh box = boxOf(tree, part, body, geometry);
+      numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(body)] = numbers.pieces++;
+      numbers.vertices += static_cast<int>(box.vertices.size());
+      writePart({name, object.placed.parts[i]}, box.vertices, outwardTriangles(box), true);
+    }
   }
   return numbers;
+}
+
+// In the order of the geometry's own vertices, and of the tree's triangles.
+void CertificateWriter::writeMesh(const PieceTree& tree, const PieceTree::Part& part,
+                                  const fcl::CollisionGeometryd& geometry, const NamedPart& named,
+                                  Numbers& numbers) {
+  const MeshView mesh = meshView(geometry);
+  const std::vector<Eigen::Vector3d> vertices(mesh.vertices, mesh.vertices + mesh.vertex_count);
+  std::vector<Eigen::Vector3i> triangles;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    numbers.of_vertex[static_cast<std::size_t>(PieceTree::vertexOf(part, v))] =
+        numbers.vertices + static_cast<int>(v);
+  }
+  for (int t = part.triangles.begin; t < part.triangles.end; ++t) {
+    Eigen::Vector3i corners = tree.triangles[static_cast<std::size_t>(t)];
+    for (int& corner : corners) {
+      corner = numbers.of_vertex[static_cast<std::size_t>(corner)] - numbers.vertices;
+    }
+    triangles.push_back(corners);
+    numbers.of_piece[static_cast<std::size_t>(t)] = numbers.pieces++;
+  }
+  numbers.vertices += mesh.vertex_count;
+  writePart(named, vertices, triangles, false);
+}
+
+void CertificateWriter::writePart(const NamedPart& named,
+                                  const std::vector<Eigen::Vector3d>& vertices,
+                                  const std::vector<Eigen::Vector3i>& triangles, bool convex) {
+  out_ << R"({"part":")" << named.object << R"(","rotation":)";
+  writeVectors(out_, rowsOf(named.placed.pose.linear(), 3));
+  out_ << R"(,"translation":)";
+  writeVector(out_, named.placed.pose.translation());
+  out_ << R"(,"vertices":)";
+  writeVectors(out_, vertices);
+  out_ << R"(,"triangles":)";
+  writeTriangles(out_, triangles);
+  out_ << R"(,"convex":)" << (convex ? "true" : "false") << R"(,"solid":)"
+       << (named.placed.solid ? "true" : "false") << "}\n";
 }
 
 // Of a single mesh: the apexes are the vertices of its tree that are none of its own.

@@ -27,7 +27,7 @@ struct CertifiedObject {
 class CertificateWriter : public ClaimObserver {
  public:
   /// Keeps references to all arguments.
-  /// \throws UnsupportedGeometry naming a part that is neither a mesh nor a box.
+  /// \throws UnsupportedGeometry naming a part that is no mesh, box or octree.
   CertificateWriter(std::ostream& out, const CertifiedObject& a, const CertifiedObject& b,
                     ContactMeaning contact);
   ~CertificateWriter() override { claim_observer = nullptr; }
@@ -57,9 +57,21 @@ class CertificateWriter : public ClaimObserver {
   struct Numbers {
     std::vector<int> of_vertex;
     std::vector<int> of_piece;
+    int vertices = 0;  ///< written
+    int pieces = 0;    ///< written
+  };
+
+  /// A part, and the letter of its object.
+  struct NamedPart {
+    const char* object;
+    const PlacedPart& placed;
   };
 
   Numbers writeObject(const CertifiedObject& object, const char* name);
+  void writeMesh(const PieceTree& tree, const PieceTree::Part& part,
+                 const fcl::CollisionGeometryd& geometry, const NamedPart& named, Numbers& numbers);
+  void writePart(const NamedPart& named, const std::vector<Eigen::Vector3d>& vertices,
+                 const std::vector<Eigen::Vector3i>& triangles, bool convex);
   void writeCaps(const CertifiedObject& object, const char* name, Numbers& numbers);
   void writeCell(const Corners& corners, const CellClaims& claims);
   void writePlane(const CellPlane& plane, double sign);

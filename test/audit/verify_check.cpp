@@ -23,7 +23,8 @@ constexpr std::size_t kMostCells = 2000;
 
 bool mayHaveCertificate(const Scene& scene) {
   const auto isSimple = [](const Member& member) {
-    return (member.shape.kind == Kind::mesh || member.shape.kind == Kind::box) &&
+    const Kind kind = member.shape.kind;
+    return (kind == Kind::mesh || kind == Kind::box || kind == Kind::octree) &&
            member.shape.isOccupied();
   };
   return (scene.question == Question::pair || scene.question == Question::group) &&
