@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench random-states: whole robots in any state beside a person, as a planner asks.
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <limits>
 
 #include "base/stopwatch.h"
 #include "bench/benchmark.h"
@@ -19,7 +22,8 @@ namespace {
 
 constexpr double kThresholdOfStates = 0.05;
 constexpr double kHalfTurn = 3.14159265358979323846;
-constexpr double kStepAside = 1e-3;  // metres, of an obstacle between two questions
+constexpr double kPaddings[] = {2.0, 3.0};  // largest standard deviations
+constexpr double kStepAside = 1e-3;         // metres, of an obstacle between two questions
 
 /// Places of the person for each robot, states for each place.
 constexpr int kPlaces = 10;
@@ -62,7 +66,39 @@ struct StateCosts {
   std::vector<double> certified, moved, collide, probable;  ///< milliseconds a state
   std::vector<std::string> decisions;
   int below = 0, above = 0, open = 0;
+  std::vector<double> distance;  ///< milliseconds a state
+  /// By padding: states that it refuses and that are below, and that it allows and that are above.
+  std::array<int, std::size(kPaddings)> false_alarms{}, missed{};
 };
+
+/// The least distance of any body from the person where it is expected, metres.
+double leastDistance(const RobotQuery& query, const Eigen::VectorXd& values) {
+  const auto poses = query.robot().poses(values);
+  const Obstacle& obstacle = query.obstacles()[0];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < poses.size() && least > 0.0; ++i) {
+    fcl::DistanceResultd result;
+    result.min_distance = least;  // what is farther need not be known
+    fcl::distance(query.robot().bodies()[i].geometry.get(), poses[i], obstacle.geometry.get(),
+                  obstacle.pose, fcl::DistanceRequestd(), result);
+    least = std::min(least, result.min_distance);
+  }
+  return least;
+}
+
+/// What teams do today: a state is safe where everything is farther than some deviations.
+void addPadding(const RobotQuery& query, const Eigen::VectorXd& values, ProbableDecision decision,
+                StateCosts& costs) {
+  const detail::Stopwatch watch;
+  const double distance = leastDistance(query, values);
+  costs.distance.push_back(watch.milliseconds());
+  const auto& error = std::get<GaussianDisplacement>(query.obstacles()[0].displacement);
+  for (std::size_t i = 0; i < std::size(kPaddings); ++i) {
+    const bool allows = distance > kPaddings[i] * error.standardDeviations()[0];
+    costs.false_alarms[i] += !allows && decision == ProbableDecision::certainly_below;
+    costs.missed[i] += allows && decision == ProbableDecision::certainly_above;
+  }
+}
 
 double msOfCollide(const RobotQuery& query, const Eigen::VectorXd& values) {
   const auto poses = query.robot().poses(values);
@@ -95,6 +131,7 @@ void addRandomState(const RobotQuery& query, const Eigen::VectorXd& values, Stat
   query.withObstacles(std::move(moved)).decideStates(values, request);
   costs.moved.push_back(of_moved.milliseconds());
   costs.collide.push_back(msOfCollide(query, values));
+  addPadding(query, values, decision, costs);
 }
 
 std::string perSecond(const std::vector<double>& milliseconds) {
@@ -110,7 +147,11 @@ void addRobotRow(const std::string& name, const StateCosts& costs, BenchReport& 
                                perSecond(costs.certified),
                                perSecond(costs.probable),
                                perSecond(costs.moved),
-                               perSecond(costs.collide)};
+                               perSecond(costs.collide),
+                               perSecond(costs.distance)};
+  for (std::size_t i = 0; i < std::size(kPaddings); ++i) {
+    row.push_back(std::to_string(costs.false_alarms[i]) + " / " + std::to_string(costs.missed[i]));
+  }
   for (const double share : {0.5, 0.9, 0.99, 1.0}) {
     row.push_back(numberText(quantile(costs.certified, share), 3));
   }
@@ -123,7 +164,10 @@ void addRobotRow(const std::string& name, const StateCosts& costs, BenchReport& 
                             {"certified_ms", costs.certified},
                             {"probable_ms", costs.probable},
                             {"moved_ms", costs.moved},
-                            {"collide_ms", costs.collide}});
+                            {"collide_ms", costs.collide},
+                            {"distance_ms", costs.distance},
+                            {"false_alarms", costs.false_alarms},
+                            {"missed", costs.missed}});
 }
 
 }  // namespace
@@ -131,18 +175,20 @@ void addRobotRow(const std::string& name, const StateCosts& costs, BenchReport& 
 BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& progress) {
   BenchReport report;
   report.title = "Random states of whole robots beside a person: P < 5 % or not";
-  report.table =
-      TextTable({"robot", "below / above / open", "certified / s", "probable / s", "moved / s",
-                 "fcl::collide / s", "ms: median", "90 %", "99 %", "worst"});
+  report.table = TextTable({"robot", "below / above / open", "certified / s", "probable / s",
+                            "moved / s", "fcl::collide / s", "fcl::distance / s", "2 sigma",
+                            "3 sigma", "ms: median", "90 %", "99 %", "worst"});
   report.notes =
       "States a second, one thread, of a whole robot beside a person of 4,980 triangles, who "
       "stands\n"
       "0.4 to 1 m away with standard deviations of 10 to 50 mm along random axes. Joint values "
       "are\n"
       "uniform within their limits. `moved`: the person is 1 mm aside of where the query had it;\n"
-      "`fcl::collide`: all bodies once, where the person is expected. The times at the right are "
-      "of\n"
-      "certified decisions.\n";
+      "`fcl::collide`: all bodies once, where the person is expected. `2 sigma`, `3 sigma`:\n"
+      "padding by so many of the largest deviations (fcl::distance): states that it refuses though "
+      "P\n"
+      "is below, and that it allows though P is above. The times at the right are of certified\n"
+      "decisions.\n";
   const Geometry mesh = buildTree(
       loadMeshIsolated(
           (std::filesystem::path(options.models_folder) / "human/human_man_4980.obj").string()),
