@@ -272,10 +272,31 @@ Ball small_polytope(const Polytope& polytope, const Vec& center) {
 
 }  // namespace
 
+namespace {
+
+// To the box of the polytope's corners, rounded outwards.
+void shrink(const Polytope& polytope, Vec& lo, Vec& hi) {
+  Vec least{DBL_MAX, DBL_MAX, DBL_MAX}, most{-DBL_MAX, -DBL_MAX, -DBL_MAX};
+  for (const int v : polytope.used()) {
+    const BallVec point = polytope.vertices()[v].ball();
+    for (int i = 0; i < polytope.rank(); ++i) {
+      least[i] = std::min(least[i], point[i].outward(-1));
+      most[i] = std::max(most[i], point[i].outward(1));
+    }
+  }
+  for (int i = 0; i < polytope.rank(); ++i) {
+    lo[i] = std::max(lo[i], least[i]);
+    hi[i] = std::min(hi[i], most[i]);
+  }
+}
+
+}  // namespace
+
 // Halves what is large, the half nearer to the origin first: beside it the other one may be
 // negligible.
-void Masses::add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi, Ball& sum) {
+void Masses::add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum) {
   if (polytope.empty()) return;
+  shrink(polytope, lo, hi);
   Vec center{}, half{};
   int longest = 0;
   for (int i = 0; i < polytope.rank(); ++i) {
@@ -289,7 +310,7 @@ void Masses::add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi
     return;
   }
   const Ball most = box(polytope.rank(), lo, hi);
-  if (most <= sum * Ball(1e-18)) {
+  if (most <= sum * Ball(1e-17)) {
     arb_add_error(sum.raw(), most.raw());
     return;
   }

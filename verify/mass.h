@@ -23,7 +23,7 @@ class Masses {
  private:
   Ball interval(double lo, double hi);
   const Ball& above(double x);  // of x >= 0
-  void add_polytope(const Polytope& polytope, const Vec& lo, const Vec& hi, Ball& sum);
+  void add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum);
   slong bits_;
   std::unordered_map<double, Ball> above_;
 };

@@ -165,6 +165,20 @@ class TrueCertificates(unittest.TestCase):
         lines[0]["contact"] = "surface"
         self.assertEqual(Answer(lines).code, 1)
 
+    def test_masses_of_polytopes(self):
+        # Boxes that never touch; free are half-spaces of a large cell along oblique directions at right angles.
+        a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [500, 0, 0], [501, 1, 1])
+        for rank, normals in ((2, [[3, 4], [-4, 3]]), (3, [[1, 2, 2], [2, 1, -2], [-2, 2, -1]])):
+            length = math.sqrt(sum(x * x for x in normals[0]))
+            for levels in ([1.5, -2, .25], [6, 0, -1]):
+                for count in range(1, rank + 1):
+                    planes = [n + [length * t] for n, t in zip(normals, levels)][:count]
+                    mass = math.prod(math.erfc(t / math.sqrt(2)) / 2 for t in levels[:count])
+                    cell = {"cell": [-12.0] * rank + [11.0] * rank, "free": planes}
+                    lines = certificate(header(rank), [a, b], [cell], upper=mass * (1 + 1e-11))
+                    answer = self.verify(lines)
+                    self.assertAlmostEqual(answer.upper / mass, 1, delta=2e-12)
+
     def test_touching_at_the_boundary_only(self):
         # Boxes that slide along each other touch always; by the next double apart they never do.
         for gap, code in ((0.0, 1), (2.0 ** -52, 0), (-2.0 ** -52, 1)):
