@@ -14,7 +14,6 @@
 #include "fcl_prob/parts_bounds.h"
 #include "query/partition.h"
 #include "query/single_collide.h"
-#include "query/union_of_pairs.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -48,9 +47,6 @@ class GroupsAnswer {
  private:
   bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
 
-  // Bounds of whole members are of contact, not of contact within an ellipsoid.
-  bool areWhole() const { return !ball_ && !request_.hasBand(); }
-
   // The sum over all pairs, of which each is bounded by its root volumes.
   bool mayBeFar() const;
   bool sumRootBounds();
@@ -58,8 +54,6 @@ class GroupsAnswer {
   // Sums and products of masses of pairs of convex members, which may decide a threshold.
   bool mayBeDecidedByPairs() const;
   bool decideByPairs();
-  bool isForUnionOfPairs() const { return kHasExact && areWhole(); }
-  bool unitePairs();
 
   bool always() const { return true; }
   bool divide();
@@ -85,7 +79,6 @@ class GroupsAnswer {
 const std::vector<Rung<GroupsAnswer>> GroupsAnswer::kLadder{
     {"root volumes", &GroupsAnswer::mayBeFar, &GroupsAnswer::sumRootBounds},
     {"pairs", &GroupsAnswer::mayBeDecidedByPairs, &GroupsAnswer::decideByPairs},
-    {"union of pairs", &GroupsAnswer::isForUnionOfPairs, &GroupsAnswer::unitePairs},
     {"partition", &GroupsAnswer::always, &GroupsAnswer::divide, true},
     {"one fcl::collide", &GroupsAnswer::isStillUnknown, &GroupsAnswer::collideAll, true},
 };
@@ -122,10 +115,11 @@ bool GroupsAnswer::sumRootBounds() {
   return true;
 }
 
-// Convex members in one place, as the parts of a mesh are.
+// Convex members in one place, as the parts of a mesh are. Bounds of whole members are of contact,
+// not of contact within an ellipsoid.
 bool GroupsAnswer::mayBeDecidedByPairs() const {
-  return kHasDecomposition && areWhole() && request_.threshold && !request_.gradient &&
-         !isEstimate() && groups_.a.areConvex() && groups_.b.areConvex() &&
+  return kHasDecomposition && !ball_ && !request_.hasBand() && request_.threshold &&
+         !request_.gradient && !isEstimate() && groups_.a.areConvex() && groups_.b.areConvex() &&
          groups_.a.onePlace(groups_.poses_a) && groups_.b.onePlace(groups_.poses_b);
 }
 
@@ -150,19 +144,6 @@ bool GroupsAnswer::decideByPairs() {
     result_.plan = {groups_.note,
                     "decided by Hunter's and Bonferroni's bounds on pairs of convex members"};
     return true;
-  }
-}
-
-bool GroupsAnswer::unitePairs() {
-  if constexpr (kHasExact) {
-    auto sum = unionOfPairs(groups_.a, groups_.poses_a, groups_.b, groups_.poses_b, displacement_,
-                            request_);
-    if (!sum) return false;
-    result_ = std::move(*sum);
-    result_.plan.insert(result_.plan.begin(), groups_.note);
-    return true;
-  } else {
-    return false;
   }
 }
 
