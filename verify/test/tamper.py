@@ -101,7 +101,7 @@ def level_into(of, lines, draw, which):
         free[-1] = 0.5 * (contact[-1] + top)
         return True
     if which == "contact" and free[-1] > bottom:
-        contact[-1] = 0.5 * (free[-1] + bottom)
+        contact[-1] = 0.5 * (min(free[-1], top) + bottom)
         return True
     return False
 
