@@ -6,6 +6,7 @@
 #include <arb.h>
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -14,7 +15,8 @@ namespace verify {
 /// Comparisons hold for every number of the balls, so that `not (a < b)` says nothing.
 class Ball {
  public:
-  /// Working precision of this thread. Sums and products of doubles are exact with the default.
+  /// Working precision of this thread. With ARF_PREC_EXACT, the default, sums and products are
+  /// exact; quotients have some 2400 bits at most.
   static thread_local slong bits;
 
   Ball() { arb_init(x_); }
@@ -31,7 +33,11 @@ class Ball {
   friend Ball operator+(const Ball& a, const Ball& b) { return apply(arb_add, a, b); }
   friend Ball operator-(const Ball& a, const Ball& b) { return apply(arb_sub, a, b); }
   friend Ball operator*(const Ball& a, const Ball& b) { return apply(arb_mul, a, b); }
-  friend Ball operator/(const Ball& a, const Ball& b) { return apply(arb_div, a, b); }
+  friend Ball operator/(const Ball& a, const Ball& b) {
+    Ball result;
+    arb_div(result.x_, a.x_, b.x_, std::min<slong>(bits, 2400));
+    return result;
+  }
   friend Ball max(const Ball& a, const Ball& b) { return apply(arb_max, a, b); }
   friend Ball min(const Ball& a, const Ball& b) { return apply(arb_min, a, b); }
   Ball operator-() const {

@@ -8,7 +8,7 @@
 
 namespace verify {
 
-thread_local slong Ball::bits = 2048;
+thread_local slong Ball::bits = ARF_PREC_EXACT;
 
 const std::array<Vec, kSlabs> kSlabNormals = {{{1, 0, 0},
                                                {0, 1, 0},
@@ -48,23 +48,26 @@ std::vector<BallVec> gram_schmidt(std::vector<BallVec> rows) {
 }
 
 // Fills up the columns of the displacement to a basis, by any vectors that are exact and not too
-// small.
+// small: as long as the first one.
 void complete(std::array<BallVec, 3>& columns, int rank) {
-  const auto rounded = [&](int i) {
-    return Vec{columns[i][0].nearest(), columns[i][1].nearest(), columns[i][2].nearest()};
+  double length = 0;
+  const auto direction = [&](int i) {
+    Vec v{columns[i][0].nearest(), columns[i][1].nearest(), columns[i][2].nearest()};
+    length = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+    for (double& x : v) x /= length;
+    return v;
   };
-  const Vec first = rounded(0);
-  const double length = std::sqrt(dot(first, first));
   for (int i = rank; i < 3; ++i) {
-    Vec other = i == 2 ? rounded(1) : Vec{};
+    Vec other = i == 2 ? direction(1) : Vec{};
+    const Vec first = direction(0);
     if (i == 1) {
       const auto small = std::min_element(
           first.begin(), first.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
       other[small - first.begin()] = 1;
     }
     Vec normal = cross(first, other);
-    const double scale = length / std::sqrt(dot(normal, normal));
-    for (double& n : normal) n *= scale;
+    const double scale = std::sqrt(dot(normal, normal));
+    for (double& n : normal) n = n / scale * length;
     columns[i] = balls(normal);
   }
 }
@@ -72,7 +75,9 @@ void complete(std::array<BallVec, 3>& columns, int rank) {
 }  // namespace
 
 Frame::Frame(const Header& header)
-    : rank(header.rank), bits(header.whitening.empty() ? 2048 : 320), mean(balls(header.mean)) {
+    : rank(header.rank),
+      bits(header.whitening.empty() ? ARF_PREC_EXACT : 320),
+      mean(balls(header.mean)) {
   Ball::bits = bits;
   std::array<BallVec, 3> scaled_axes;
   for (int j = 0; j < rank; ++j) {

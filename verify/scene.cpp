@@ -180,7 +180,7 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
   if (a.nodes.empty() || b.nodes.empty()) return "";
   // How far the region reaches along each slab's normal and those of its planes, rounded outwards.
   std::vector<Vec> normals(kSlabNormals.begin(), kSlabNormals.end());
-  normals.insert(normals.end(), region.normals.begin() + 3, region.normals.end());
+  normals.insert(normals.end(), region.normals.begin(), region.normals.end());
   std::vector<double> lo(normals.size(), DBL_MAX), hi(normals.size(), -DBL_MAX);
   for (std::size_t d = 0; d < normals.size(); ++d) {
     double margin = DBL_MIN;
@@ -209,7 +209,6 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
     }
     return false;
   };
-  Separator separator(frame, a, b);
   std::vector<std::pair<int, int>> open{{0, 0}};
   while (!open.empty()) {
     const auto [i, j] = open.back();
@@ -217,7 +216,7 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
     const Node &k = a.nodes[i], &l = b.nodes[j];
     if (apart(k, l)) continue;
     if (k.piece >= 0 && l.piece >= 0) {
-      if (separator.separates(region, a.pieces[k.piece], b.pieces[l.piece])) continue;
+      if (separates(frame, region, a, a.pieces[k.piece], b, b.pieces[l.piece])) continue;
       return "piece " + std::to_string(k.piece) + " of A and piece " + std::to_string(l.piece) +
              " of B may touch";
     }

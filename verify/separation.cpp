@@ -4,66 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "nearest.h"
+#include <set>
 
 namespace verify {
-namespace {
 
-constexpr std::size_t kSmall = 4;  // pieces of no more vertices have all their edges looked at
-
-struct Range {
-  double lo = DBL_MAX, hi = -DBL_MAX;
-  void add(double value) {
-    lo = std::min(lo, value);
-    hi = std::max(hi, value);
-  }
-};
-
-Range range_of(const Vec& direction, const std::vector<Vec>& points,
-               const std::vector<int>& which) {
-  Range range;
-  for (const int v : which) range.add(dot(direction, points[v]));
-  return range;
-}
-
-// The vertices that reach farthest (`sign` 1) or least (-1) along a direction, but for what is next
-// to nothing: the faces between which the hyperplane is to be are among them.
-std::vector<int> extreme(const Object& object, const Piece& piece, const Vec& direction, int sign) {
-  std::vector<std::pair<double, int>> heights;
-  double size = 0;
-  for (const int v : piece.vertices) {
-    heights.emplace_back(-sign * dot(direction, object.points[v]), v);
-    size = std::max(size, std::abs(heights.back().first - heights.front().first));
-  }
-  std::sort(heights.begin(), heights.end());
-  std::vector<int> result;
-  for (const auto& [height, v] : heights) {
-    if (result.size() >= 3 && height > heights.front().first + 1e-6 * size) break;
-    if (result.size() == 8) break;
-    result.push_back(v);
-  }
-  return result;
-}
-
-void add_edges(const Object& object, const std::vector<int>& vertices, Edge::Of of,
-               std::vector<Edge>& edges) {
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      edges.push_back({of, vertices[j], vertices[i],
-                       minus(object.points[vertices[i]], object.points[vertices[j]])});
-    }
-  }
-}
-
-}  // namespace
-
-Region::Region(int rank, const Vec& low, const Vec& high)
-    : lo(low), hi(high), normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}} {
-  for (int i = 0; i < 3; ++i) bound[i] = std::max(std::abs(lo[i]), std::abs(hi[i]));
+Region::Region(int rank, const Vec& low, const Vec& high) {
+  for (int i = 0; i < 3; ++i) bound[i] = std::max(std::abs(low[i]), std::abs(high[i]));
   for (int corner = 0; corner < 1 << rank; ++corner) {
-    Vec point = lo;
-    for (int i = 0; i < rank; ++i) point[i] = corner >> i & 1 ? hi[i] : lo[i];
+    Vec point = low;
+    for (int i = 0; i < rank; ++i) point[i] = corner >> i & 1 ? high[i] : low[i];
     corners.push_back(point);
   }
 }
@@ -105,124 +54,190 @@ Heights::Heights(const Frame& frame, const Object& a, const Piece& k, const Obje
   for (int i = 0; i < frame.rank; ++i) slope[i] = dot(normal, frame.columns[i]);
 }
 
-BallVec Separator::exact_edge(const Edge& edge) const {
-  if (edge.of == Edge::kA) return minus(a_.world(edge.to), a_.world(edge.from));
-  if (edge.of == Edge::kB) return minus(b_.world(edge.to), b_.world(edge.from));
-  return frame_.to_world(
-      cross(balls(region_->normals[edge.from]), balls(region_->normals[edge.to])));
-}
+namespace {
 
-// Whether the direction or its negative separates, beyond what rounding can be: 16 operations'
-// errors are more than the few products and sums of which any of the terms is made.
-bool Separator::proven(const Vec& direction, bool& unclear) const {
-  const Range k = range_of(direction, a_.points, k_->vertices);
-  const Range l = range_of(direction, b_.points, l_->vertices);
-  Range q;
-  for (const Vec& corner : region_->corners) q.add(dot(direction, corner));
-  double margin = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double bounds = a_.bound[i] + b_.bound[i] + region_->bound[i];
-    margin += std::abs(direction[i]) * (a_.error[i] + b_.error[i] + 16 * kUnit * bounds);
+template <class T>
+using V = std::array<T, 3>;
+
+int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+int sign_of(const Ball& x) { return x.sign(); }
+
+// Makes the largest entry about 1, exactly in balls.
+void normalise(Vec& n) {
+  const double most = std::max({std::abs(n[0]), std::abs(n[1]), std::abs(n[2])});
+  for (double& x : n) x /= most;
+}
+void normalise(BallVec& n) {
+  slong most = -ARF_PREC_EXACT;
+  for (Ball& x : n) {
+    if (x.sign() != 0) most = std::max(most, arf_abs_bound_lt_2exp_si(arb_midref(x.raw())));
   }
-  margin = margin * (1 + 1e-10) + DBL_MIN;
-  const double gap = std::max((l.lo - k.hi) - q.hi, q.lo - (l.hi - k.lo));
-  unclear = gap > -2 * margin;
-  return gap > margin;
+  if (most == -ARF_PREC_EXACT) return;
+  for (Ball& x : n) arb_mul_2exp_si(x.raw(), x.raw(), -most);
 }
 
-bool Separator::proven_exactly(const Direction& direction) const {
-  BallVec normal;
-  if (direction.second >= 0) {
-    normal = cross(exact_edge(edges_[direction.first]), exact_edge(edges_[direction.second]));
-  } else {
-    const Vec& n = region_->normals[direction.first];
+// The n with n·w >= 0 for all points w, as what some rays span. Those of the part of it that is in
+// one orthant are where two of the planes through 0 meet that are normal to points and to the axes.
+template <class T>
+class Cone {
+ public:
+  Cone() {
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) normal[j] = normal[j] + frame_.cofactors[i][j] * Ball(n[i]);
+      V<T> axis{};
+      axis[i] = T(1);
+      normals_.push_back(axis);
+      rays_.push_back(axis);
+      axis[i] = T(-1);
+      rays_.push_back(axis);
     }
   }
-  const Heights heights(frame_, a_, *k_, b_, *l_, normal);
-  bool varies = false;
-  for (const Ball& x : heights.slope) varies |= x.sign() != 0;
-  bool below = true, above = true;
-  for (std::size_t i = 0; i < region_->corners.size() && (below || above); ++i) {
-    const Region::Corner corner = region_->exact_corner(i);
-    const Ball value = heights.at(corner);
-    const Ball lo = heights.lo * corner.times, hi = heights.hi * corner.times;
-    // Regions are open: on them a function that is not constant has no value that it has at a
-    // corner only.
-    below = below && (varies ? value <= lo : value < lo);
-    above = above && (varies ? hi <= value : hi < value);
+  void add(const V<T>& point) {
+    const auto beyond = [&](const V<T>& ray) { return sign_of(dot(ray, point)) < 0; };
+    rays_.erase(std::remove_if(rays_.begin(), rays_.end(), beyond), rays_.end());
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      V<T> ray = cross(normals_[i], point);
+      normalise(ray);
+      for (int side = 0; side < 2; ++side) {
+        bool inside = true;
+        for (std::size_t j = 3; j < normals_.size() && inside; ++j) {
+          inside = i == j || sign_of(dot(ray, normals_[j])) >= 0;
+        }
+        if (inside) rays_.push_back(ray);
+        for (T& x : ray) x = -x;
+      }
+    }
+    normals_.push_back(point);
   }
-  return below || above;
+  bool empty() const { return rays_.empty(); }
+  /// One that is on no side of the cone that all of it is not on: weights are all different, for
+  /// opposite rays not to cancel.
+  V<T> inner() const {
+    V<T> sum{};
+    double weight = 1;
+    for (const V<T>& ray : rays_) {
+      for (int i = 0; i < 3; ++i) sum[i] = sum[i] + ray[i] * T(weight);
+      weight += 0.125;
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<V<T>> normals_;  // axes, then points
+  std::vector<V<T>> rays_;
+};
+
+// Corners of K, of L and of the region; the latter are to be divided by `times`.
+template <class T>
+struct Corners {
+  std::vector<V<T>> k, l, q;
+  std::vector<T> times;
+};
+
+// Where l - k - q, times a positive number, is least along a normal.
+template <class T>
+struct Least {
+  T height;
+  bool weak = true, strict = true;  // whether it is certainly >= 0 everywhere; > 0
+  std::array<std::size_t, 3> at{};  // of l, k, q
+};
+
+template <class T>
+T least_of(const V<T>& normal, const std::vector<V<T>>& points, std::size_t& at) {
+  using std::min;
+  T bound = dot(normal, points[0]), least = bound;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const T height = dot(normal, points[i]);
+    bound = min(bound, height);
+    if (!(height < least)) continue;
+    least = height;
+    at = i;
+  }
+  return bound;
 }
 
-bool Separator::try_direction(const Direction& direction) {
-  bool unclear = false;
-  if (proven(direction.y, unclear)) return true;
-  if (unclear) unclear_.push_back(direction);
+template <class T>
+Least<T> least(const Corners<T>& corners, const V<T>& normal) {
+  Least<T> result;
+  const V<T> opposite{-normal[0], -normal[1], -normal[2]};
+  const T apart =
+      least_of(normal, corners.l, result.at[0]) + least_of(opposite, corners.k, result.at[1]);
+  for (std::size_t i = 0; i < corners.q.size(); ++i) {
+    const T height = apart * corners.times[i] - dot(normal, corners.q[i]);
+    result.weak = result.weak && T(0) <= height;
+    result.strict = result.strict && T(0) < height;
+    const std::size_t best = result.at[2];
+    if (i > 0 && !(height * corners.times[best] < result.height * corners.times[i])) continue;
+    result.height = height;
+    result.at[2] = i;
+  }
+  return result;
+}
+
+// Tries one normal after the other: one that is on the right side of all corners seen so far. If
+// there is a hyperplane, with exact numbers one is found: of what is in the inside of the cone all
+// is as far from the corners as can be.
+template <class T, class Accept>
+bool search(const Corners<T>& corners, V<T> normal, const Accept& accept) {
+  Cone<T> cone;
+  std::set<std::array<std::size_t, 3>> seen;
+  while (!cone.empty()) {
+    const Least<T> found = least(corners, normal);
+    if (accept(normal, found)) return true;
+    const auto [l, k, q] = found.at;
+    if (!seen.insert(found.at).second) return false;
+    V<T> point = minus(corners.l[l], corners.k[k]);
+    for (int i = 0; i < 3; ++i) point[i] = point[i] * corners.times[q] - corners.q[q][i];
+    cone.add(point);
+    normal = cone.inner();
+  }
   return false;
 }
 
-void Separator::list_edges(const Vertices& of_k, const Vertices& of_l) {
-  edges_.clear();
-  add_edges(a_, of_k, Edge::kA, edges_);
-  add_edges(b_, of_l, Edge::kB, edges_);
-  const int count = static_cast<int>(region_->normals.size());
-  for (int j = 1; j < count; ++j) {
-    for (int i = 0; i < j; ++i) {
-      edges_.push_back({Edge::kRegion, i, j, cross(region_->normals[i], region_->normals[j])});
-    }
+// By what is beyond rounding: 16 operations' errors are more than the few products and sums of
+// which any of the terms is made.
+bool separates_by_doubles(const Region& region, const Object& a, const Piece& k, const Object& b,
+                          const Piece& l) {
+  Corners<double> corners;
+  for (const int v : k.vertices) corners.k.push_back(a.points[v]);
+  for (const int v : l.vertices) corners.l.push_back(b.points[v]);
+  corners.q = region.corners;
+  corners.times.assign(corners.q.size(), 1);
+  Vec error;
+  for (int i = 0; i < 3; ++i) {
+    error[i] = a.error[i] + b.error[i] + 16 * kUnit * (a.bound[i] + b.bound[i] + region.bound[i]);
   }
-}
-
-// Of two polytopes that a hyperplane separates one does that is along a face of one of them or
-// along an edge of each. (The axes beyond the rank are among the region's edges for what is flat
-// with the region.)
-bool Separator::search(const Vertices& of_k, const Vertices& of_l) {
-  list_edges(of_k, of_l);
-  unclear_.clear();
-  for (int i = 0; i < static_cast<int>(region_->normals.size()); ++i) {
-    if (try_direction({region_->normals[i], i, -1})) return true;
-  }
-  for (int i = 0; i < static_cast<int>(edges_.size()) && edges_[i].of != Edge::kRegion; ++i) {
-    for (int j = i + 1; j < static_cast<int>(edges_.size()); ++j) {
-      if (try_direction({cross(edges_[i].y, edges_[j].y), i, j})) return true;
-    }
-  }
-  return std::any_of(unclear_.begin(), unclear_.end(),
-                     [&](const Direction& d) { return proven_exactly(d); });
-}
-
-// For hulls of many vertices, whose faces are not tried one by one.
-bool Separator::search_from_nearest_point() {
-  const auto support = [&](const Vec& direction) {
-    const auto farthest = [&](const std::vector<Vec>& points, const Vertices& which, int sign) {
-      return points[*std::max_element(which.begin(), which.end(), [&](int u, int v) {
-        return sign * dot(direction, points[u]) < sign * dot(direction, points[v]);
-      })];
-    };
-    const Vec q = *std::max_element(
-        region_->corners.begin(), region_->corners.end(),
-        [&](const Vec& u, const Vec& v) { return dot(direction, u) < dot(direction, v); });
-    return minus(minus(farthest(b_.points, l_->vertices, -1), farthest(a_.points, k_->vertices, 1)),
-                 q);
+  const auto accept = [&](const Vec& n, const Least<double>& found) {
+    const Vec size{std::abs(n[0]), std::abs(n[1]), std::abs(n[2])};
+    return found.height > dot(size, error) * (1 + 1e-10) + DBL_MIN;
   };
-  Vec direction{};
-  bool unclear = false;
-  const bool found = nearest_to_origin(support, direction,
-                                       [&](const Vec& tried) { return proven(tried, unclear); });
-  if (found) return true;
-  return search(extreme(a_, *k_, direction, 1), extreme(b_, *l_, direction, -1));
+  return search(corners, minus(minus(corners.l[0], corners.k[0]), corners.q[0]), accept);
 }
 
-bool Separator::separates(const Region& region, const Piece& k, const Piece& l) {
-  region_ = &region;
-  k_ = &k;
-  l_ = &l;
-  if (k.vertices.size() <= kSmall && l.vertices.size() <= kSmall) {
-    return search(k.vertices, l.vertices);
+bool separates_exactly(const Frame& frame, const Region& region, const Object& a, const Piece& k,
+                       const Object& b, const Piece& l) {
+  Corners<Ball> corners;
+  for (const int v : k.vertices) corners.k.push_back(a.world(v));
+  for (const int v : l.vertices) corners.l.push_back(minus(b.world(v), frame.mean));
+  for (std::size_t i = 0; i < region.corners.size(); ++i) {
+    const Region::Corner corner = region.exact_corner(i);
+    corners.q.push_back(frame.to_world(corner.point));
+    corners.times.push_back(corner.times);
   }
-  return search_from_nearest_point();
+  // Regions are open: on them a function that is not constant has no value that it has at a corner
+  // only.
+  const auto accept = [&](const BallVec& n, const Least<Ball>& found) {
+    bool varies = false;
+    for (int i = 0; i < frame.rank; ++i) varies |= dot(n, frame.columns[i]).sign() != 0;
+    return varies ? found.weak : found.strict;
+  };
+  return search(corners, minus(corners.l[0], corners.k[0]), accept);
+}
+
+}  // namespace
+
+bool separates(const Frame& frame, const Region& region, const Object& a, const Piece& k,
+               const Object& b, const Piece& l) {
+  return separates_by_doubles(region, a, k, b, l) || separates_exactly(frame, region, a, k, b, l);
 }
 
 }  // namespace verify
