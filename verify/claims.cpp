@@ -33,10 +33,10 @@ bool have_opposite_planes(const ContactRegion& a, const ContactRegion& b) {
   return false;
 }
 
-std::string check_free_set(const Scene& scene, const Polytope& polytope, const Region& region) {
+std::string check_free_set(const Scene& scene, const Region& region) {
   std::string wrong = scene.touching(region, scene.objects[0], scene.objects[1]);
   if (wrong.empty() && scene.solid_contact &&
-      scene.nesting(polytope.center()) != Scene::Nesting::kNone) {
+      scene.nesting(region.center) != Scene::Nesting::kNone) {
     wrong = "one object may be in a solid of the other";
   }
   return wrong;
@@ -47,7 +47,7 @@ std::string check_free(const Scene& scene, const Cell& cell, Tally& tally) {
   const Polytope box(rank, cell.lo, cell.hi);
   if (cell.free_planes.empty()) {
     ++tally.claims;
-    const std::string wrong = check_free_set(scene, box, Region(rank, cell.lo, cell.hi));
+    const std::string wrong = check_free_set(scene, Region(box));
     return wrong.empty() ? "" : "\"free\": true: " + wrong;
   }
   Polytope rest = box;
@@ -57,12 +57,68 @@ std::string check_free(const Scene& scene, const Cell& cell, Tally& tally) {
     side.cut(plane, -1);
     rest.cut(plane, 1);
     if (side.empty()) continue;
-    const std::string wrong = check_free_set(scene, side, Region(side, cell.lo, cell.hi, {plane}));
+    const std::string wrong = check_free_set(scene, Region(side));
     if (!wrong.empty()) return "\"free\" " + describe(plane, rank) + ": " + wrong;
   }
   const Precision precision(tally.bits);
   tally.undecided = tally.undecided + tally.masses.polytope(rest, cell.lo, cell.hi);
   return "";
+}
+
+std::string check_inside(const Scene& scene, const Region& region, const Witness& witness) {
+  const int x = witness.object, y = 1 - x;
+  const bool solid = scene.solid_contact && scene.parts[y][0].solid;
+  if (scene.parts[y].size() != 1 || scene.parts[y][0].convex) return "the other object is no mesh";
+  if (!solid && !scene.is_closed[y]) return "the other object is not closed";
+  if (!solid && witness.outside < 0) return "has no vertex outside";
+  const auto& component = scene.component[x];
+
+  const Object& surface = solid ? scene.objects[y] : scene.closed[y];
+  for (const bool claimed_inside : {true, false}) {
+    if (!claimed_inside && solid) continue;
+    const int v = claimed_inside ? witness.vertex : witness.outside;
+    if (v < 0 || static_cast<std::size_t>(v) >= component.size() || component[v] < 0) {
+      return "no piece has vertex " + std::to_string(v);
+    }
+    const Object point = scene.objects[x].single(v);
+    const std::string wrong =
+        x == 0 ? scene.touching(region, point, surface) : scene.touching(region, surface, point);
+    if (!wrong.empty()) return "vertex " + std::to_string(v) + " may be on the surface: " + wrong;
+    const Scene::Crossings found = scene.crossings(x, v, surface, region.center);
+    const bool as_said = solid ? found.winding != 0 : found.odd == claimed_inside;
+    if (!found.known || !as_said) {
+      return "vertex " + std::to_string(v) + " is not on the side of the surface that is claimed";
+    }
+  }
+  if (solid) return "";
+  if (component[witness.vertex] != component[witness.outside]) {
+    return "the vertices are not of one component";
+  }
+  const Object& caps = scene.caps[y];
+  const std::string wrong = x == 0 ? scene.touching(region, scene.objects[0], caps)
+                                   : scene.touching(region, caps, scene.objects[1]);
+  return wrong.empty() ? "" : "a cap may be touched: " + wrong;
+}
+
+std::string check_contained(const Scene& scene, const Region& region) {
+  if (!scene.solid_contact) return "\"contained\" is for contact of solids";
+  const std::string wrong = scene.touching(region, scene.objects[0], scene.objects[1]);
+  if (!wrong.empty()) return wrong;
+  if (scene.nesting(region.center) == Scene::Nesting::kSome) return "";
+  return "no vertex is certainly in a solid of the other object";
+}
+
+std::string check_witness(const Scene& scene, const Region& region, const Witness& witness) {
+  if (witness.kind == Witness::kInside) return check_inside(scene, region, witness);
+  if (witness.kind == Witness::kContained) return check_contained(scene, region);
+  for (int x = 0; x < 2; ++x) {
+    if (static_cast<std::size_t>(witness.pair[x]) >= scene.objects[x].pieces.size()) {
+      return "there is no piece " + std::to_string(witness.pair[x]) + " of " + (x == 0 ? "A" : "B");
+    }
+  }
+  return scene.faces(witness.pair[0], witness.pair[1]).contain(region)
+             ? ""
+             : "the pieces do not certainly touch in all of it";
 }
 
 std::string check_contact(const Scene& scene, const Cell& cell, Tally& tally) {
@@ -78,9 +134,7 @@ std::string check_contact(const Scene& scene, const Cell& cell, Tally& tally) {
     Polytope polytope(scene.frame.rank, cell.lo, cell.hi);
     for (const Plane& plane : claim.planes) polytope.cut(plane, 1);
     if (polytope.empty()) continue;
-    const Region region = claim.planes.empty() ? Region(scene.frame.rank, cell.lo, cell.hi)
-                                               : Region(polytope, cell.lo, cell.hi, claim.planes);
-    const std::string wrong = check_witness(scene, polytope, region, claim.witness);
+    const std::string wrong = check_witness(scene, Region(polytope), claim.witness);
     if (!wrong.empty()) return name + ": " + wrong;
     const Ball mass = claim.planes.empty() ? tally.masses.box(scene.frame.rank, cell.lo, cell.hi)
                                            : tally.masses.polytope(polytope, cell.lo, cell.hi);

@@ -26,10 +26,6 @@ struct Tally {
 /// Checks all claims of a cell and adds its masses. Empty, or what is wrong.
 std::string check_cell(const Scene& scene, const Cell& cell, Tally& tally);
 
-/// Empty, or why the witness proves nothing of `polytope`, which is not empty.
-std::string check_witness(const Scene& scene, const Polytope& polytope, const Region& region,
-                          const Witness& witness);
-
 struct Box {
   std::size_t line;
   Vec lo, hi;

@@ -329,13 +329,21 @@ void Masses::add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum) {
 Ball Masses::polytope(const Polytope& polytope, const Vec& lo, const Vec& hi) {
   const Precision precision(256);
   Ball result;
-  if (polytope.rank() > 1) {
+  if (!polytope.is_box()) {
     add_polytope(polytope, lo, hi, result);
     return result;
   }
-  for (const auto& s : polytope.simplices()) {
-    result = result +
-             segment_mass(polytope.vertices()[s[0]].ball()[0], polytope.vertices()[s[1]].ball()[0]);
+  if (polytope.empty()) return result;
+  const std::vector<int> corners = polytope.used();
+  BallVec least = polytope.vertices()[corners[0]].ball(), most = least;
+  result = Ball(1);
+  for (int i = 0; i < polytope.rank(); ++i) {
+    for (const int v : corners) {
+      const Ball x = polytope.vertices()[v].ball()[i];
+      least[i] = min(least[i], x);
+      most[i] = max(most[i], x);
+    }
+    result = result * segment_mass(least[i], most[i]);
   }
   return result;
 }

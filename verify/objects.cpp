@@ -10,20 +10,6 @@ namespace verify {
 
 thread_local slong Ball::bits = ARF_PREC_EXACT;
 
-const std::array<Vec, kSlabs> kSlabNormals = {{{1, 0, 0},
-                                               {0, 1, 0},
-                                               {0, 0, 1},
-                                               {1, 1, 0},
-                                               {1, -1, 0},
-                                               {1, 0, 1},
-                                               {1, 0, -1},
-                                               {0, 1, 1},
-                                               {0, 1, -1},
-                                               {1, 1, 1},
-                                               {1, 1, -1},
-                                               {1, -1, 1},
-                                               {1, -1, -1}}};
-
 namespace {
 
 BallVec scaled(const BallVec& v, const Ball& by) { return {v[0] * by, v[1] * by, v[2] * by}; }
@@ -112,34 +98,14 @@ BallVec Frame::to_world(const BallVec& v) const {
   return result;
 }
 
-int certain_sign(const Vec& a, const Vec& a_error, const Vec& b, const Vec& c, const Vec& error) {
-  double margin = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const double size_a = std::abs(a[i]) + a_error[i];
-    const double bj = std::abs(b[j]), bk = std::abs(b[k]), cj = std::abs(c[j]), ck = std::abs(c[k]);
-    const double products = bj * ck + bk * cj;
-    margin += size_a * (16 * kUnit * products + error[j] * (ck + bk + error[k]) +
-                        error[k] * (bj + cj + error[j]));
-    margin += a_error[i] * products;
-  }
-  const double value = dot(a, cross(b, c));
-  return std::abs(value) > margin * (1 + 1e-10) + DBL_MIN ? (value > 0 ? 1 : -1) : 0;
-}
-
-BallVec Object::world(int vertex) const {
-  const Part& part = *sources_[vertex].part;
-  const BallVec local = balls(*sources_[vertex].vertex);
-  BallVec result = balls(part.translation);
-  for (int i = 0; i < 3; ++i) result[i] = result[i] + dot(balls(part.rotation[i]), local);
-  return result;
-}
-
 void Object::add_vertex(const Part& part, const Vec& vertex) {
-  sources_.push_back({&part, &vertex});
+  BallVec world = balls(part.translation);
+  const Precision all(ARF_PREC_EXACT);
+  for (int i = 0; i < 3; ++i) world[i] = world[i] + dot(balls(part.rotation[i]), balls(vertex));
+  if (object_ == 1) world = minus(world, frame_->mean);
+  exact.push_back(world);
   const Precision enough(192);
-  BallVec from = minus(world(static_cast<int>(points.size())), balls(origin_));
-  if (!displaced_) from = minus(from, frame_->mean);
+  const BallVec from = minus(world, balls(origin_));
   Vec point;
   for (int i = 0; i < 3; ++i) {
     const Ball y = dot(frame_->cofactors[i], from) / frame_->determinant;
@@ -177,29 +143,14 @@ void Object::add_caps(const Part& part, const Caps& caps) {
 }
 
 Object Object::single(int vertex) const {
-  Object result(*frame_, displaced_, origin_);
+  Object result(*frame_, object_, origin_);
+  result.exact = {exact[vertex]};
   result.points = {points[vertex]};
-  result.sources_ = {sources_[vertex]};
   result.error = error;
   result.bound = bound;
   result.pieces = {{{0}, {}}};
   result.finish();
   return result;
-}
-
-void Object::bound_piece(const Piece& piece, Node& node) const {
-  for (int d = 0; d < kSlabs; ++d) {
-    const Vec& n = kSlabNormals[d];
-    double lo = DBL_MAX, hi = -DBL_MAX, margin = 0;
-    for (const int v : piece.vertices) {
-      const double value = dot(n, points[v]);
-      lo = std::min(lo, value);
-      hi = std::max(hi, value);
-    }
-    for (int i = 0; i < 3; ++i) margin += std::abs(n[i]) * (error[i] + 8 * kUnit * bound[i]);
-    node.lo[d] = lo - margin * (1 + 1e-10);
-    node.hi[d] = hi + margin * (1 + 1e-10);
-  }
 }
 
 void Object::finish() {
@@ -214,31 +165,30 @@ void Object::finish() {
 int Object::build(int* first, int* last) {
   const int here = static_cast<int>(nodes.size());
   nodes.emplace_back();
-  Node node;
+  Node node{{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
+  Vec lo = node.lo, hi = node.hi;  // of first vertices
+  for (const int* piece = first; piece != last; ++piece) {
+    for (int i = 0; i < 3; ++i) {
+      const double place = points[pieces[*piece].vertices[0]][i];
+      lo[i] = std::min(lo[i], place);
+      hi[i] = std::max(hi[i], place);
+      for (const int v : pieces[*piece].vertices) {
+        node.lo[i] = std::min(node.lo[i], points[v][i] - 2 * error[i]);
+        node.hi[i] = std::max(node.hi[i], points[v][i] + 2 * error[i]);
+      }
+    }
+  }
   if (last - first == 1) {
     node.piece = *first;
-    bound_piece(pieces[*first], node);
-    nodes[here] = node;
-    return here;
-  }
-  const auto place = [&](int piece, int axis) { return points[pieces[piece].vertices[0]][axis]; };
-  int axis = 0;
-  double most = -1;
-  for (int i = 0; i < 3; ++i) {
-    const auto ends =
-        std::minmax_element(first, last, [&](int a, int b) { return place(a, i) < place(b, i); });
-    const double spread = place(*ends.second, i) - place(*ends.first, i);
-    if (spread > most) axis = i;
-    most = std::max(most, spread);
-  }
-  int* middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last,
-                   [&](int a, int b) { return place(a, axis) < place(b, axis); });
-  node.left = build(first, middle);
-  node.right = build(middle, last);
-  for (int d = 0; d < kSlabs; ++d) {
-    node.lo[d] = std::min(nodes[node.left].lo[d], nodes[node.right].lo[d]);
-    node.hi[d] = std::max(nodes[node.left].hi[d], nodes[node.right].hi[d]);
+  } else {
+    const Vec spread = minus(hi, lo);
+    const auto axis = std::max_element(spread.begin(), spread.end()) - spread.begin();
+    int* middle = first + (last - first) / 2;
+    std::nth_element(first, middle, last, [&](int a, int b) {
+      return points[pieces[a].vertices[0]][axis] < points[pieces[b].vertices[0]][axis];
+    });
+    node.left = build(first, middle);
+    node.right = build(middle, last);
   }
   nodes[here] = node;
   return here;

@@ -20,44 +20,35 @@ constexpr double kUnit = DBL_EPSILON / 2;  // a rounded operation's relative err
 /// `ε(y) = mean + Σ columns[i] y_i` over i below the rank.
 struct Frame {
   explicit Frame(const Header& header);
-  /// `M' v` of a vector of y', exactly.
+  /// `M' v` of a vector of y'.
   BallVec to_world(const BallVec& v) const;
 
   int rank;
   slong bits;  // the precision in which to decide: all exact, if there is no whitening
   BallVec mean;
   std::array<BallVec, 3> columns;
-  std::array<BallVec, 3>
-      cofactors;  // columns of the cofactor matrix, normal to the other two columns
+  std::array<BallVec, 3> cofactors;  // each normal to the other two columns
   Ball determinant;
 };
-
-/// The sign of det(a, b, c) where b and c have coordinates with errors up to `error`, and a those
-/// of `a_error`; 0 if it is not certain.
-int certain_sign(const Vec& a, const Vec& a_error, const Vec& b, const Vec& c, const Vec& error);
-
-/// Directions in which trees have bounds: the axes first.
-constexpr int kSlabs = 13;
-extern const std::array<Vec, kSlabs> kSlabNormals;
 
 struct Piece {
   std::vector<int> vertices;
   std::vector<Triangle> faces;  // triangle itself, or those of the hull
 };
 
+/// Of a tree of boxes.
 struct Node {
-  std::array<double, kSlabs> lo, hi;  // rounded outwards
-  int left = -1, right = -1;          // nodes; a leaf has none
+  Vec lo, hi;                 // rounded outwards
+  int left = -1, right = -1;  // nodes; a leaf has none
   int piece = -1;
 };
 
-/// A or B, or a part of it, or its caps.
+/// A or B, or a part of it, or its caps. Points of B are moved by -mean, so that A and B touch at
+/// y' = l' - k'.
 class Object {
  public:
-  /// `displaced` is true for A. Points of B are moved by -mean, so that A and B touch at y' = l' -
-  /// k'.
-  Object(const Frame& frame, bool displaced, const Vec& origin)
-      : frame_(&frame), displaced_(displaced), origin_(origin) {}
+  Object(const Frame& frame, int object, const Vec& origin)
+      : frame_(&frame), object_(object), origin_(origin) {}
   /// Adds the vertices of a part, and its pieces unless told otherwise.
   void add_part(const Part& part, bool with_pieces = true);
   /// Adds vertices and triangles, which count on from the vertices of the only part there is.
@@ -67,28 +58,20 @@ class Object {
   /// One vertex as an object with one piece.
   Object single(int vertex) const;
 
-  /// Where a vertex is in the world (without displacement), exactly.
-  BallVec world(int vertex) const;
-
-  std::vector<Vec> points;  // y', rounded
-  Vec error{};              // of each coordinate of them
-  Vec bound{};              // of their absolute values
+  std::vector<BallVec> exact;  // points in the world
+  std::vector<Vec> points;     // y', rounded
+  Vec error{};                 // of each coordinate of them
+  Vec bound{};                 // of their absolute values
   std::vector<Piece> pieces;
   std::vector<Node> nodes;  // the root first; none if there are no pieces
 
  private:
-  struct Source {
-    const Part* part;
-    const Vec* vertex;
-  };
   void add_vertex(const Part& part, const Vec& vertex);
   int build(int* first, int* last);
-  void bound_piece(const Piece& piece, Node& node) const;
 
   const Frame* frame_;
-  bool displaced_;
+  int object_;
   Vec origin_;
-  std::vector<Source> sources_;
 };
 
 }  // namespace verify

@@ -47,6 +47,7 @@ void reduce(ExactPoint& point) {
 }  // namespace
 
 BallVec ExactPoint::ball() const {
+  const Precision enough(std::min<slong>(Ball::bits, 512));
   const Ball times(w);
   return {Ball(x[0]) / times, Ball(x[1]) / times, Ball(x[2]) / times};
 }
@@ -73,6 +74,8 @@ Polytope::Polytope(int rank, const Vec& lo, const Vec& hi) : rank_(rank) {
 
 void Polytope::cut(const Plane& plane, int side) {
   crossings_.clear();
+  normals_.push_back(plane.normal);
+  is_box_ = is_box_ && std::count(plane.normal.begin(), plane.normal.end(), 0.0) >= 2;
   heights_.assign(vertices_.size(), 0);
   const auto exact = integers({plane.normal[0], plane.normal[1], plane.normal[2], plane.level});
   for (const int v : used()) {
@@ -122,14 +125,6 @@ int Polytope::crossing(int positive, int negative) {
   return found->second;
 }
 
-BallVec Polytope::center() const {
-  BallVec sum;
-  const auto which = used();
-  for (const int v : which) sum = plus(sum, vertices_[v].ball());
-  for (Ball& x : sum) x = x / Ball(static_cast<double>(which.size()));
-  return sum;
-}
-
 std::vector<int> Polytope::used() const {
   std::vector<int> result;
   for (const Simplex& simplex : simplices_) {
@@ -138,6 +133,19 @@ std::vector<int> Polytope::used() const {
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
+}
+
+Region::Region(const Polytope& polytope) : normals(polytope.normals()) {
+  for (const int v : polytope.used()) {
+    const ExactPoint& corner = polytope.vertices()[v];
+    exact.push_back({Ball(corner.x[0]), Ball(corner.x[1]), Ball(corner.x[2])});
+    times.emplace_back(corner.w);
+    const BallVec point = corner.ball();
+    center = plus(center, point);
+    corners.push_back({point[0].nearest(), point[1].nearest(), point[2].nearest()});
+    for (int i = 0; i < 3; ++i) bound[i] = std::max(bound[i], std::abs(corners.back()[i]));
+  }
+  for (Ball& x : center) x = x / Ball(static_cast<double>(corners.size()));
 }
 
 }  // namespace verify

@@ -31,8 +31,10 @@ class Polytope {
   int rank() const { return rank_; }
   /// Vertices of the simplices. All lie in the polytope, and its corners are among them.
   std::vector<int> used() const;
-  /// An enclosure of a point of it.
-  BallVec center() const;
+  /// Whether all planes are normal to an axis, so that it is a box as well.
+  bool is_box() const { return is_box_; }
+  /// Normals of the planes that cut it.
+  const std::vector<Vec>& normals() const { return normals_; }
   const std::vector<ExactPoint>& vertices() const { return vertices_; }
   /// `rank + 1` vertices each; no two overlap.
   using Simplex = std::array<int, 4>;
@@ -45,10 +47,25 @@ class Polytope {
   int rank_;
   std::vector<ExactPoint> vertices_;
   std::vector<Simplex> simplices_;
+  std::vector<Vec> normals_;
+  bool is_box_ = true;
   // Of the cut under way: height over the plane times w and a constant, and the new vertex of each
   // edge that crosses it.
   std::vector<mpz_class> heights_;
   std::map<std::pair<int, int>, int> crossings_;
+};
+
+/// What is asked of a polytope's inside, an open set, in which something is claimed.
+struct Region {
+  explicit Region(const Polytope& polytope);
+
+  std::vector<Vec> corners;  // rounded
+  Vec bound{};               // of |y|
+  /// Corners times positive numbers, to have no division and so no rounding.
+  std::vector<BallVec> exact;
+  std::vector<Ball> times;
+  BallVec center;            // encloses a point of it
+  std::vector<Vec> normals;  // of its planes, but for the sides of the box
 };
 
 }  // namespace verify

@@ -21,54 +21,23 @@ std::vector<int> point_numbers(const std::vector<Vec>& vertices) {
   return result;
 }
 
-// How often each edge is in the triangles: in all, and one way less the other way.
-struct EdgeCount {
-  int all = 0, net = 0;
-};
-std::map<std::pair<int, int>, EdgeCount> count_edges(const std::vector<Vec>& vertices,
-                                                     const std::vector<Triangle>& triangles) {
+// Whether every edge is in an even number of triangles; `oriented`: as often one way as the other,
+// so that winding numbers are defined.
+bool is_closed(const std::vector<Vec>& vertices, const std::vector<Triangle>& triangles,
+               bool oriented) {
   const std::vector<int> point = point_numbers(vertices);
-  std::map<std::pair<int, int>, EdgeCount> edges;
+  std::map<std::pair<int, int>, int> edges;
   for (const Triangle& t : triangles) {
     const int p[] = {point[t[0]], point[t[1]], point[t[2]]};
     if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
     for (int k = 0; k < 3; ++k) {
       const int from = p[k], to = p[(k + 1) % 3];
-      EdgeCount& count = edges[std::minmax(from, to)];
-      ++count.all;
-      count.net += from < to ? 1 : -1;
+      edges[std::minmax(from, to)] += from < to ? 1 : -1;
     }
   }
-  return edges;
-}
-
-bool every_edge_even(const std::vector<Vec>& vertices, const std::vector<Triangle>& triangles) {
-  for (const auto& edge : count_edges(vertices, triangles)) {
-    if (edge.second.all % 2 != 0) return false;
-  }
-  return true;
-}
-// Winding numbers are then defined.
-bool is_cycle(const std::vector<Vec>& vertices, const std::vector<Triangle>& triangles) {
-  for (const auto& edge : count_edges(vertices, triangles)) {
-    if (edge.second.net != 0) return false;
-  }
-  return true;
-}
-
-// The sign of det(b - a, c - a, d - a): by doubles where their rounding cannot change it, else
-// exactly.
-int orientation(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
-  const Vec u = minus(b, a), v = minus(c, a), w = minus(d, a);
-  double size = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    size += (std::abs(u[j] * v[k]) + std::abs(u[k] * v[j])) * std::abs(w[i]);
-  }
-  const double value = dot(cross(u, v), w);
-  if (std::abs(value) > 32 * kUnit * size + 1e-290) return value > 0 ? 1 : -1;
-  const BallVec o = balls(a);
-  return dot(cross(minus(balls(b), o), minus(balls(c), o)), minus(balls(d), o)).sign();
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    return oriented ? edge.second == 0 : edge.second % 2 == 0;
+  });
 }
 
 int root(std::vector<int>& parent, int i) {
@@ -76,24 +45,25 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
-}  // namespace
-
 // A closed surface of triangles that all support the vertices covers the boundary of the hull, if
 // the hull has an inside: where it covers it at all it does so as often everywhere.
-void Scene::check_convex(const Part& part) const {
-  const Precision exact(2048);
-  if (!is_cycle(part.vertices, part.triangles)) {
+void check_convex(const Part& part) {
+  const Precision exact(ARF_PREC_EXACT);
+  if (!is_closed(part.vertices, part.triangles, true)) {
     throw Malformed(part.line, "triangles", "of a convex part are not closed");
   }
-  std::array<BallVec, 3> r;
-  for (int i = 0; i < 3; ++i) r[i] = balls(part.rotation[i]);
-  const int mirrored = dot(r[0], cross(r[1], r[2])).sign();
+  const BallVec row = balls(part.rotation[0]);
+  const int mirrored = dot(row, cross(balls(part.rotation[1]), balls(part.rotation[2]))).sign();
   if (mirrored == 0) throw Malformed(part.line, "rotation", "is singular");
+  std::vector<BallVec> points;
+  for (const Vec& v : part.vertices) points.push_back(balls(v));
   bool has_inside = false;
   for (const Triangle& t : part.triangles) {
-    for (const Vec& v : part.vertices) {
-      const int side =
-          mirrored * orientation(part.vertices[t[0]], part.vertices[t[1]], part.vertices[t[2]], v);
+    const BallVec& from = points[t[0]];
+    const BallVec normal = cross(minus(points[t[1]], from), minus(points[t[2]], from));
+    const Ball level = dot(normal, from);
+    for (const BallVec& point : points) {
+      const int side = mirrored * (dot(normal, point) - level).sign();
       if (side > 0) throw Malformed(part.line, "triangles", "a vertex is outside of a face");
       has_inside |= side < 0;
     }
@@ -101,53 +71,83 @@ void Scene::check_convex(const Part& part) const {
   if (!has_inside) throw Malformed(part.line, "vertices", "of a convex part are in a plane");
 }
 
-Scene::Scene(const Reader& reader)
-    : frame(reader.header),
-      solid_contact(reader.header.solid_contact),
-      parts(reader.parts),
-      cap_lines_(reader.caps) {
-  const Vec origin = parts[0][0].translation;
-  for (int x = 0; x < 2; ++x) {
-    Object object(frame, x == 0, origin);
-    for (const Part& part : parts[x]) {
-      if (part.convex) check_convex(part);
-      object.add_part(part);
-      if (!solid_contact || !part.solid || part.convex) continue;
-      if (!is_cycle(part.vertices, part.triangles)) {
-        throw Malformed(part.line, "solid", "the triangles are not closed as they are oriented");
-      }
-      solids_[x].push_back({&part, Object(frame, x == 0, origin)});
-      solids_[x].back().surface.add_part(part);
-      solids_[x].back().surface.finish();
-    }
-    object.finish();
-    objects.push_back(std::move(object));
-    add_components(x);
-
-    const Part& first = parts[x][0];
-    Object only_caps(frame, x == 0, origin), with_caps(frame, x == 0, origin);
-    if (parts[x].size() == 1 && !first.convex) {
-      std::vector<Vec> vertices = first.vertices;
-      std::vector<Triangle> triangles = first.triangles;
-      only_caps.add_part(first, false);
-      with_caps.add_part(first);
-      if (cap_lines_[x].size() > 1) throw Malformed(cap_lines_[x][1].line, "caps", "come twice");
-      for (const Caps& lines : cap_lines_[x]) {
-        vertices.insert(vertices.end(), lines.vertices.begin(), lines.vertices.end());
-        triangles.insert(triangles.end(), lines.triangles.begin(), lines.triangles.end());
-        only_caps.add_caps(first, lines);
-        with_caps.add_caps(first, lines);
-      }
-      is_closed[x] = every_edge_even(vertices, triangles);
-      if (!is_closed[x] && !cap_lines_[x].empty()) {
-        throw Malformed(cap_lines_[x][0].line, "caps", "do not close the part");
-      }
-    }
-    only_caps.finish();
-    with_caps.finish();
-    caps.push_back(std::move(only_caps));
-    closed.push_back(std::move(with_caps));
+// A box of directions, seen from the point, that the ray along d misses for certain.
+bool misses(const Vec& lo, const Vec& hi, const Vec& d) {
+  Vec center, half;
+  for (int i = 0; i < 3; ++i) {
+    if ((d[i] >= 0 && hi[i] < 0) || (d[i] <= 0 && lo[i] > 0)) return true;
+    center[i] = 0.5 * (lo[i] + hi[i]);
+    half[i] = 0.5 * (hi[i] - lo[i]) + 4 * kUnit * (std::abs(lo[i]) + std::abs(hi[i]));
   }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double a = center[j] * d[k], b = center[k] * d[j];
+    const double reach = half[j] * std::abs(d[k]) + half[k] * std::abs(d[j]);
+    if (std::abs(a - b) > (reach + 8 * kUnit * (std::abs(a) + std::abs(b))) * (1 + 1e-10)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// 1 or -1 for a triangle, as seen from where the ray along d starts, that it crosses, by its
+// orientation; 0 for none; `unclear` if it may be on an edge, or its start on the triangle.
+int crossing(const BallVec& d, const std::array<BallVec, 3>& t, bool& unclear) {
+  int sign[3];
+  for (int i = 0; i < 3; ++i) sign[i] = dot(d, cross(t[i], t[(i + 1) % 3])).sign();
+  const auto [least, most] = std::minmax_element(sign, sign + 3);
+  if (*least < 0 && *most > 0) return 0;
+  const int side = dot(t[0], cross(t[1], t[2])).sign();
+  unclear = unclear || side == 0 || std::count(sign, sign + 3, 0) > 0;
+  return side == sign[0] ? side : 0;
+}
+
+}  // namespace
+
+Scene::Scene(const Reader& reader)
+    : frame(reader.header), solid_contact(reader.header.solid_contact), parts(reader.parts) {
+  for (const int x : {0, 1}) {
+    add_object(x, reader.caps[x]);
+    add_components(x);
+  }
+}
+
+void Scene::add_object(int x, const std::vector<Caps>& cap_lines) {
+  const Object none(frame, x, parts[0][0].translation);
+  Object all = none, only_caps = none, with_caps = none;
+  for (const Part& part : parts[x]) {
+    if (part.convex) check_convex(part);
+    all.add_part(part);
+    if (!solid_contact || !part.solid || part.convex) continue;
+    if (!verify::is_closed(part.vertices, part.triangles, true)) {
+      throw Malformed(part.line, "solid", "the triangles are not closed as they are oriented");
+    }
+    solids_[x].push_back(none);
+    solids_[x].back().add_part(part);
+    solids_[x].back().finish();
+  }
+  const Part& first = parts[x][0];
+  if (parts[x].size() == 1 && !first.convex) {
+    std::vector<Vec> vertices = first.vertices;
+    std::vector<Triangle> triangles = first.triangles;
+    only_caps.add_part(first, false);
+    with_caps.add_part(first);
+    if (cap_lines.size() > 1) throw Malformed(cap_lines[1].line, "caps", "come twice");
+    for (const Caps& lines : cap_lines) {
+      vertices.insert(vertices.end(), lines.vertices.begin(), lines.vertices.end());
+      triangles.insert(triangles.end(), lines.triangles.begin(), lines.triangles.end());
+      only_caps.add_caps(first, lines);
+      with_caps.add_caps(first, lines);
+    }
+    is_closed[x] = verify::is_closed(vertices, triangles, false);
+    if (!is_closed[x] && !cap_lines.empty()) {
+      throw Malformed(cap_lines[0].line, "caps", "do not close the part");
+    }
+  }
+  for (Object* object : {&all, &only_caps, &with_caps}) object->finish();
+  objects.push_back(std::move(all));
+  caps.push_back(std::move(only_caps));
+  closed.push_back(std::move(with_caps));
 }
 
 void Scene::add_components(int x) {
@@ -178,8 +178,8 @@ void Scene::add_components(int x) {
 
 std::string Scene::touching(const Region& region, const Object& a, const Object& b) const {
   if (a.nodes.empty() || b.nodes.empty()) return "";
-  // How far the region reaches along each slab's normal and those of its planes, rounded outwards.
-  std::vector<Vec> normals(kSlabNormals.begin(), kSlabNormals.end());
+  // How far the region reaches along the axes and the normals of its planes, rounded outwards.
+  std::vector<Vec> normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   normals.insert(normals.end(), region.normals.begin(), region.normals.end());
   std::vector<double> lo(normals.size(), DBL_MAX), hi(normals.size(), -DBL_MAX);
   for (std::size_t d = 0; d < normals.size(); ++d) {
@@ -190,19 +190,15 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
       hi[d] = std::max(hi[d], dot(normals[d], corner) + margin);
     }
   }
-  // Rounding to nearest keeps the order, so that a rounded difference beyond a bound proves the
-  // exact one to be.
   const auto apart = [&](const Node& k, const Node& l) {
-    for (int d = 0; d < kSlabs; ++d) {
-      if (l.lo[d] - k.hi[d] > hi[d] || l.hi[d] - k.lo[d] < lo[d]) return true;
-    }
-    for (std::size_t d = kSlabs; d < normals.size(); ++d) {
+    const Vec low = minus(l.lo, k.hi), high = minus(l.hi, k.lo);
+    for (std::size_t d = 0; d < normals.size(); ++d) {
       double least = 0, most = 0, size = 0;
       for (int i = 0; i < 3; ++i) {
-        const double n = normals[d][i], low = l.lo[i] - k.hi[i], high = l.hi[i] - k.lo[i];
-        least += n * (n > 0 ? low : high);
-        most += n * (n > 0 ? high : low);
-        size += std::abs(n) * std::max(std::abs(low), std::abs(high));
+        const double n = normals[d][i];
+        least += n * (n > 0 ? low[i] : high[i]);
+        most += n * (n > 0 ? high[i] : low[i]);
+        size += std::abs(n) * std::max(std::abs(low[i]), std::abs(high[i]));
       }
       const double margin = 16 * kUnit * size + DBL_MIN;
       if (least - margin > hi[d] || most + margin < lo[d]) return true;
@@ -220,9 +216,8 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
       return "piece " + std::to_string(k.piece) + " of A and piece " + std::to_string(l.piece) +
              " of B may touch";
     }
-    const bool first = l.piece >= 0 || (k.piece < 0 && k.hi[0] - k.lo[0] + k.hi[1] - k.lo[1] >
-                                                           l.hi[0] - l.lo[0] + l.hi[1] - l.lo[1]);
-    if (first) {
+    const Vec k_size = minus(k.hi, k.lo), l_size = minus(l.hi, l.lo), sum{1, 1, 1};
+    if (l.piece >= 0 || (k.piece < 0 && dot(k_size, sum) > dot(l_size, sum))) {
       open.emplace_back(k.left, j);
       open.emplace_back(k.right, j);
     } else {
@@ -233,12 +228,69 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
   return "";
 }
 
+Scene::Crossings Scene::crossings(int x, int vertex, const Object& surface,
+                                  const BallVec& y) const {
+  // A moves by y; as seen from A, B moves by -y.
+  const BallVec moved = frame.to_world(y), &at = objects[x].exact[vertex];
+  const BallVec exact_eye = x == 0 ? plus(at, moved) : minus(at, moved);
+  Vec eye, error;
+  for (int i = 0; i < 3; ++i) {
+    const double step = y[i].nearest();
+    eye[i] = objects[x].points[vertex][i] + (x == 0 ? step : -step);
+    error[i] = objects[x].error[i] + 4 * kUnit * (objects[x].bound[i] + std::abs(step)) + DBL_MIN;
+  }
+  // No direction that a modeller would draw an edge along.
+  const Vec directions[] = {{1, 0.131278, 0.0731297},
+                            {-0.0912771, 1, 0.21879},
+                            {0.157361, -0.29871, 1},
+                            {0.61723, 0.4117, -1.0931},
+                            {-1.1393, 0.7731, 0.31777}};
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    const Precision enough(attempt < 5 ? 128 : 2400);
+    const Vec& d = directions[attempt % 5];
+    const BallVec exact_d = frame.to_world(balls(d));
+    Crossings result;
+    bool unclear = false;
+    std::vector<int> open(surface.nodes.empty() ? 0 : 1, 0);
+    while (!open.empty() && !unclear) {
+      const Node& node = surface.nodes[open.back()];
+      open.pop_back();
+      if (misses(minus(minus(node.lo, eye), error), plus(minus(node.hi, eye), error), d)) continue;
+      if (node.piece < 0) {
+        open.push_back(node.left);
+        open.push_back(node.right);
+        continue;
+      }
+      std::array<BallVec, 3> seen;
+      for (int i = 0; i < 3; ++i) {
+        seen[i] = minus(surface.exact[surface.pieces[node.piece].vertices[i]], exact_eye);
+      }
+      const int found = crossing(exact_d, seen, unclear);
+      result.odd ^= found != 0;
+      result.winding += found;
+    }
+    result.known = !unclear;
+    if (result.known) return result;
+  }
+  return {};
+}
+
+const Faces& Scene::faces(int k, int l) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto& known = faces_[{k, l}];
+  if (!known) {
+    const auto &a = objects[0], &b = objects[1];
+    known = std::make_unique<const Faces>(frame, a, a.pieces[k], b, b.pieces[l]);
+  }
+  return *known;
+}
+
 Scene::Nesting Scene::nesting(const BallVec& y) const {
   Nesting result = Nesting::kNone;
   for (int x = 0; x < 2 && solid_contact; ++x) {
-    for (const Solid& solid : solids_[1 - x]) {
+    for (const Object& solid : solids_[1 - x]) {
       for (const int v : representatives_[x]) {
-        const Crossings found = crossings(x, v, solid.surface, y);
+        const Crossings found = crossings(x, v, solid, y);
         if (found.known && found.winding != 0) return Nesting::kSome;
         if (!found.known) result = Nesting::kUnknown;
       }

@@ -4,13 +4,13 @@
 // surfaces.
 #pragma once
 
-#include <optional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
-#include "faces.h"
-#include "objects.h"
-#include "separation.h"
+#include "pairs.h"
 
 namespace verify {
 
@@ -33,6 +33,8 @@ class Scene {
   };
   /// What a ray from a vertex of object x crosses of `surface`, of the other object, at y.
   Crossings crossings(int x, int vertex, const Object& surface, const BallVec& y) const;
+  /// Of a pair of pieces; kept, since many cells share them. Threads may ask at the same time.
+  const Faces& faces(int k, int l) const;
 
   Frame frame;
   bool solid_contact;
@@ -41,21 +43,17 @@ class Scene {
   // Of an object of one mesh: its caps, and it together with them; empty if this is not closed.
   std::vector<Object> caps, closed;
   std::array<bool, 2> is_closed{};
-  std::shared_ptr<FacesOfPairs> faces = std::make_shared<FacesOfPairs>();
   /// Connected component of each vertex; -1 for one that is in no piece.
   std::array<std::vector<int>, 2> component;
 
  private:
-  struct Solid {
-    const Part* part;
-    Object surface;
-  };
-  void check_convex(const Part& part) const;
+  void add_object(int x, const std::vector<Caps>& cap_lines);
   void add_components(int x);
 
-  std::array<std::vector<Caps>, 2> cap_lines_;
-  std::array<std::vector<Solid>, 2> solids_;
+  std::array<std::vector<Object>, 2> solids_;
   std::array<std::vector<int>, 2> representatives_;  // a vertex of each component
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<int, int>, std::unique_ptr<const Faces>> faces_;
 };
 
 }  // namespace verify

@@ -1,59 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "separation.h"
+#include "pairs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace verify {
-
-Region::Region(int rank, const Vec& low, const Vec& high) {
-  for (int i = 0; i < 3; ++i) bound[i] = std::max(std::abs(low[i]), std::abs(high[i]));
-  for (int corner = 0; corner < 1 << rank; ++corner) {
-    Vec point = low;
-    for (int i = 0; i < rank; ++i) point[i] = corner >> i & 1 ? high[i] : low[i];
-    corners.push_back(point);
-  }
-}
-
-Region::Region(const Polytope& polytope, const Vec& low, const Vec& high,
-               const std::vector<Plane>& planes)
-    : Region(polytope.rank(), low, high) {
-  for (const Plane& plane : planes) normals.push_back(plane.normal);
-  corners.clear();
-  for (const int v : polytope.used()) {
-    exact.push_back(polytope.vertices()[v]);
-    const Precision enough(128);
-    const BallVec q = exact.back().ball();
-    corners.push_back({q[0].nearest(), q[1].nearest(), q[2].nearest()});
-  }
-}
-
-Region::Corner Region::exact_corner(std::size_t i) const {
-  if (exact.empty()) return {balls(corners[i]), Ball(1)};
-  const auto& x = exact[i].x;
-  return {{Ball(x[0]), Ball(x[1]), Ball(x[2])}, Ball(exact[i].w)};
-}
-
-Heights::Heights(const Frame& frame, const Object& a, const Piece& k, const Object& b,
-                 const Piece& l, const BallVec& normal)
-    : constant(dot(normal, frame.mean)) {
-  const auto range = [&](const Object& object, const Piece& piece, Ball& low, Ball& high) {
-    for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
-      const Ball height = dot(normal, object.world(piece.vertices[i]));
-      low = i == 0 ? height : min(low, height);
-      high = i == 0 ? height : max(high, height);
-    }
-  };
-  Ball k_lo, k_hi, l_lo, l_hi;
-  range(a, k, k_lo, k_hi);
-  range(b, l, l_lo, l_hi);
-  lo = l_lo - k_hi;
-  hi = l_hi - k_lo;
-  for (int i = 0; i < frame.rank; ++i) slope[i] = dot(normal, frame.columns[i]);
-}
-
 namespace {
 
 template <class T>
@@ -213,16 +167,40 @@ bool separates_by_doubles(const Region& region, const Object& a, const Piece& k,
   return search(corners, minus(minus(corners.l[0], corners.k[0]), corners.q[0]), accept);
 }
 
-bool separates_exactly(const Frame& frame, const Region& region, const Object& a, const Piece& k,
-                       const Object& b, const Piece& l) {
-  Corners<Ball> corners;
-  for (const int v : k.vertices) corners.k.push_back(a.world(v));
-  for (const int v : l.vertices) corners.l.push_back(minus(b.world(v), frame.mean));
-  for (std::size_t i = 0; i < region.corners.size(); ++i) {
-    const Region::Corner corner = region.exact_corner(i);
-    corners.q.push_back(frame.to_world(corner.point));
-    corners.times.push_back(corner.times);
+// An edge, and from one of its ends the third vertices of the faces at it.
+struct Edge {
+  BallVec along;
+  std::vector<BallVec> sides;
+  bool has_on_both_sides(const BallVec& normal) const {
+    return sides.size() == 2 && dot(normal, sides[0]).sign() * dot(normal, sides[1]).sign() < 0;
   }
+};
+
+std::vector<Edge> edges_of(const Object& object, const Piece& piece) {
+  std::map<std::pair<int, int>, Edge> edges;
+  for (const Triangle& face : piece.faces) {
+    for (int i = 0; i < 3; ++i) {
+      const auto [from, to] = std::minmax(face[i], face[(i + 1) % 3]);
+      Edge& edge = edges[{from, to}];
+      edge.along = minus(object.exact[to], object.exact[from]);
+      edge.sides.push_back(minus(object.exact[face[(i + 2) % 3]], object.exact[from]));
+    }
+  }
+  std::vector<Edge> result;
+  for (const auto& edge : edges) result.push_back(edge.second);
+  return result;
+}
+
+}  // namespace
+
+bool separates(const Frame& frame, const Region& region, const Object& a, const Piece& k,
+               const Object& b, const Piece& l) {
+  if (separates_by_doubles(region, a, k, b, l)) return true;
+  Corners<Ball> corners;
+  for (const int v : k.vertices) corners.k.push_back(a.exact[v]);
+  for (const int v : l.vertices) corners.l.push_back(b.exact[v]);
+  for (const BallVec& corner : region.exact) corners.q.push_back(frame.to_world(corner));
+  corners.times = region.times;
   // Regions are open: on them a function that is not constant has no value that it has at a corner
   // only.
   const auto accept = [&](const BallVec& n, const Least<Ball>& found) {
@@ -233,11 +211,46 @@ bool separates_exactly(const Frame& frame, const Region& region, const Object& a
   return search(corners, minus(corners.l[0], corners.k[0]), accept);
 }
 
-}  // namespace
+Faces::Faces(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l) {
+  std::vector<BallVec> of_k, of_l;
+  for (const int v : k.vertices) of_k.push_back(a.exact[v]);
+  for (const int v : l.vertices) of_l.push_back(b.exact[v]);
+  const auto add = [&](const BallVec& normal) {
+    const BallVec opposite{-normal[0], -normal[1], -normal[2]};
+    std::size_t at = 0;
+    Slab slab;
+    slab.lo = least_of(normal, of_l, at) + least_of(opposite, of_k, at);
+    slab.hi = -(least_of(opposite, of_l, at) + least_of(normal, of_k, at));
+    for (int i = 0; i < frame.rank; ++i) slab.slope[i] = dot(normal, frame.columns[i]);
+    slabs_.push_back(slab);
+    // Of what is in a plane all edges are, and all normals are normal to it.
+    has_inside_ = has_inside_ || slab.lo < slab.hi;
+  };
+  const std::vector<Edge> edges_k = edges_of(a, k), edges_l = edges_of(b, l);
+  for (const auto& [object, piece] : {std::pair{&a, &k}, std::pair{&b, &l}}) {
+    for (const Triangle& t : piece->faces) {
+      const BallVec& from = object->exact[t[0]];
+      add(cross(minus(object->exact[t[1]], from), minus(object->exact[t[2]], from)));
+    }
+  }
+  // The plane along both edges supports K or L only if both faces at its edge are on one side.
+  for (const Edge& e : edges_k) {
+    for (const Edge& f : edges_l) {
+      const BallVec normal = cross(e.along, f.along);
+      if (!e.has_on_both_sides(normal) && !f.has_on_both_sides(normal)) add(normal);
+    }
+  }
+}
 
-bool separates(const Frame& frame, const Region& region, const Object& a, const Piece& k,
-               const Object& b, const Piece& l) {
-  return separates_by_doubles(region, a, k, b, l) || separates_exactly(frame, region, a, k, b, l);
+bool Faces::contain(const Region& region) const {
+  for (const Slab& slab : slabs_) {
+    for (std::size_t i = 0; i < region.exact.size(); ++i) {
+      const Ball height = dot(slab.slope, region.exact[i]);
+      if (!(slab.lo * region.times[i] <= height)) return false;
+      if (!(height <= slab.hi * region.times[i])) return false;
+    }
+  }
+  return has_inside_;
 }
 
 }  // namespace verify
