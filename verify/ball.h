@@ -16,7 +16,8 @@ namespace verify {
 class Ball {
  public:
   /// Working precision of this thread. With ARF_PREC_EXACT, the default, sums and products are
-  /// exact; quotients have some 2400 bits at most.
+  /// exact; quotients and roots have kMostBits at most.
+  static constexpr slong kMostBits = 2400;
   static thread_local slong bits;
 
   Ball() { arb_init(x_); }
@@ -35,16 +36,22 @@ class Ball {
   friend Ball operator*(const Ball& a, const Ball& b) { return apply(arb_mul, a, b); }
   friend Ball operator/(const Ball& a, const Ball& b) {
     Ball result;
-    arb_div(result.x_, a.x_, b.x_, std::min<slong>(bits, 2400));
+    arb_div(result.x_, a.x_, b.x_, std::min(bits, +kMostBits));
     return result;
   }
   friend Ball max(const Ball& a, const Ball& b) { return apply(arb_max, a, b); }
   friend Ball min(const Ball& a, const Ball& b) { return apply(arb_min, a, b); }
-  Ball operator-() const {
+  friend Ball abs(const Ball& a) {
     Ball result;
-    arb_neg(result.x_, x_);
+    arb_abs(result.x_, a.x_);
     return result;
   }
+  friend Ball sqrt(const Ball& a) {
+    Ball result;
+    arb_sqrt(result.x_, a.x_, std::min(bits, +kMostBits));
+    return result;
+  }
+  Ball operator-() const { return Ball(0) - *this; }
   friend bool operator<(const Ball& a, const Ball& b) { return arb_lt(a.x_, b.x_) != 0; }
   friend bool operator<=(const Ball& a, const Ball& b) { return arb_le(a.x_, b.x_) != 0; }
 

@@ -4,203 +4,165 @@
 
 #include <climits>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace verify {
 namespace {
 
-using Json = nlohmann::json;
-
-// A value together with where it stands, for messages.
-struct Field {
-  const Json& json;
-  std::size_t line;
-  std::string name;
-
-  [[noreturn]] void fail(const std::string& why) const { throw Malformed(line, name, why); }
-  Field operator[](const char* key) const {
-    const auto found = json.find(key);
-    if (found == json.end()) throw Malformed(line, key, "missing");
-    return {*found, line, key};
-  }
-  bool has(const char* key) const { return json.contains(key); }
-  bool boolean() const {
-    if (!json.is_boolean()) fail("must be true or false");
-    return json.get<bool>();
-  }
-  double number() const {
-    if (!json.is_number()) fail("must be a number");
-    const double value = json.get<double>();
-    if (!std::isfinite(value)) fail("must be finite");
-    return value;
-  }
-  int index() const {
-    if (!json.is_number_integer()) fail("must be an index");
-    const auto value = json.get<std::int64_t>();
-    if (value < 0 || value > INT_MAX / 4) fail("is no index");
-    return static_cast<int>(value);
-  }
-  int object() const {
-    if (json != "A" && json != "B") fail("must be \"A\" or \"B\"");
-    return json == "A" ? 0 : 1;
-  }
-  std::size_t size() const {
-    if (!json.is_array()) fail("must be an array");
-    return json.size();
-  }
-  Field at(std::size_t i) const { return {json[i], line, name}; }
-  std::vector<double> numbers(std::size_t count) const {
-    if (size() != count) fail("must have " + std::to_string(count) + " numbers");
-    std::vector<double> result;
-    for (std::size_t i = 0; i < count; ++i) result.push_back(at(i).number());
-    return result;
-  }
-  Vec vec() const {
-    const auto n = numbers(3);
-    return {n[0], n[1], n[2]};
-  }
-  std::vector<Vec> vecs() const {
-    std::vector<Vec> result(size());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = at(i).vec();
-    return result;
-  }
-  std::vector<Triangle> triangles() const {
-    std::vector<Triangle> result(size());
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      if (at(i).size() != 3) fail("must be triples of indices");
-      for (int k = 0; k < 3; ++k) result[i][k] = at(i).at(k).index();
-    }
-    return result;
-  }
-  std::vector<Plane> planes(int rank) const {
-    std::vector<Plane> result;
-    for (std::size_t i = 0; i < size(); ++i) {
-      const auto n = at(i).numbers(rank + 1);
-      Plane plane;
-      std::copy(n.begin(), n.end() - 1, plane.normal.begin());
-      plane.level = n.back();
-      result.push_back(plane);
-    }
-    return result;
-  }
+// Without the line's number, which Reader adds.
+struct Wrong : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
+void check(bool condition, const std::string& why) {
+  if (!condition) throw Wrong(why);
+}
 
-Header read_header(const Field& line) {
-  if (line["fcl_prob_certificate"].json != 1) line["fcl_prob_certificate"].fail("must be 1");
+void read(const Json& json, bool& value) {
+  check(json.is_boolean(), "must be true or false");
+  value = json.get<bool>();
+}
+void read(const Json& json, double& value) {
+  check(json.is_number(), "must be a number");
+  value = json.get<double>();
+  check(std::isfinite(value), "must be finite");
+}
+void read(const Json& json, int& value) {
+  check(json.is_number_integer(), "must be an index");
+  const auto index = json.get<std::int64_t>();
+  check(index >= 0 && index < INT_MAX / 4, "is no index");
+  value = static_cast<int>(index);
+}
+void read(const Json& json, std::string& value) {
+  check(json.is_string(), "must be a string");
+  value = json.get<std::string>();
+}
+template <class T, std::size_t N>
+void read(const Json& json, std::array<T, N>& values) {
+  check(json.is_array() && json.size() == N, "must be arrays of " + std::to_string(N));
+  for (std::size_t i = 0; i < N; ++i) read(json[i], values[i]);
+}
+template <class T>
+void read(const Json& json, std::vector<T>& values) {
+  check(json.is_array(), "must be an array");
+  values.resize(json.size());
+  for (std::size_t i = 0; i < values.size(); ++i) read(json[i], values[i]);
+}
+
+template <class T>
+T field(const Json& line, const std::string& name) {
+  check(line.contains(name), "\"" + name + "\" is missing");
+  T value{};
+  try {
+    read(line[name], value);
+  } catch (const Wrong& wrong) {
+    throw Wrong("\"" + name + "\": " + wrong.what());
+  }
+  return value;
+}
+
+// Which of two words a field is.
+int choice(const Json& line, const std::string& name, const char* first, const char* second) {
+  const auto word = field<std::string>(line, name);
+  check(word == first || word == second, "\"" + name + "\" cannot be \"" + word + "\"");
+  return word == first ? 0 : 1;
+}
+
+Header read_header(const Json& line) {
+  check(field<int>(line, "fcl_prob_certificate") == 1, "must be of version 1");
   Header header;
-  if (line.has("name")) {
-    if (!line["name"].json.is_string()) line["name"].fail("must be a string");
-    header.name = line["name"].json.get<std::string>();
-  }
-  const Field contact = line["contact"];
-  if (contact.json != "surface" && contact.json != "solid") {
-    contact.fail("must be \"surface\" or \"solid\"");
-  }
-  header.solid_contact = contact.json == "solid";
-  header.mean = line["mean"].vec();
-  header.axes = line["axes"].vecs();
+  if (line.contains("name")) header.name = field<std::string>(line, "name");
+  header.solid_contact = choice(line, "contact", "surface", "solid") == 1;
+  header.mean = field<Vec>(line, "mean");
+  header.axes = field<std::vector<Vec>>(line, "axes");
   header.rank = static_cast<int>(header.axes.size());
-  if (header.rank < 1 || header.rank > 3) line["axes"].fail("must be one to three");
-  header.deviations = line["deviations"].numbers(header.axes.size());
-  if (!line["whitening"].json.is_null()) {
-    header.whitening = line["whitening"].vecs();
-    if (header.whitening.size() != header.axes.size()) line["whitening"].fail("must be as axes");
-  }
+  check(header.rank >= 1 && header.rank <= 3, "\"axes\": must be one to three");
+  header.deviations = field<std::vector<double>>(line, "deviations");
+  check(header.deviations.size() == header.axes.size(), "\"deviations\": must be as many as axes");
+  check(line.contains("whitening"), "\"whitening\" is missing");
+  if (line["whitening"].is_null()) return header;
+  header.whitening = field<std::vector<Vec>>(line, "whitening");
+  check(header.whitening.size() == header.axes.size(), "\"whitening\": must be as many as axes");
   return header;
 }
 
-void check_indices(const Field& field, const std::vector<Triangle>& triangles, std::size_t count) {
+void check_indices(const std::vector<Triangle>& triangles, std::size_t count) {
   for (const Triangle& triangle : triangles) {
     for (const int i : triangle) {
-      if (static_cast<std::size_t>(i) >= count) field.fail("no such vertex");
+      check(static_cast<std::size_t>(i) < count, "\"triangles\": no such vertex");
     }
   }
 }
 
-Part read_part(const Field& line) {
-  Part part;
-  part.line = line.line;
-  part.object = line["part"].object();
-  const auto rows = line["rotation"].vecs();
-  if (rows.size() != 3) line["rotation"].fail("must have three rows");
-  std::copy(rows.begin(), rows.end(), part.rotation.begin());
-  part.translation = line["translation"].vec();
-  part.vertices = line["vertices"].vecs();
-  part.triangles = line["triangles"].triangles();
-  check_indices(line["triangles"], part.triangles, part.vertices.size());
-  part.convex = line["convex"].boolean();
-  part.solid = line["solid"].boolean();
-  if (part.convex && part.vertices.empty()) line["vertices"].fail("none");
-  return part;
+std::vector<Plane> read_planes(const Json& line, const char* name, int rank) {
+  std::vector<Plane> result;
+  for (const auto& numbers : field<std::vector<std::vector<double>>>(line, name)) {
+    check(numbers.size() == static_cast<std::size_t>(rank) + 1, "planes have rank + 1 numbers");
+    result.emplace_back();
+    std::copy(numbers.begin(), numbers.end() - 1, result.back().normal.begin());
+    result.back().level = numbers.back();
+  }
+  return result;
 }
 
-Caps read_caps(const Field& line, const std::array<std::vector<Part>, 2>& parts) {
-  Caps caps;
-  caps.line = line.line;
-  caps.part = line["part"].index();
-  const auto& of_object = parts[line["caps"].object()];
-  if (static_cast<std::size_t>(caps.part) >= of_object.size()) line["part"].fail("no such part");
-  if (of_object[caps.part].convex) line["part"].fail("is convex");
-  caps.vertices = line["vertices"].vecs();
-  caps.triangles = line["triangles"].triangles();
-  check_indices(line["triangles"], caps.triangles,
-                of_object[caps.part].vertices.size() + caps.vertices.size());
-  return caps;
-}
-
-Witness read_witness(const Field& by) {
+Witness read_witness(const Json& region) {
+  check(region.contains("by") && region["by"].is_object(), "\"by\" is missing");
+  const Json& by = region["by"];
+  check(by.contains("pair") + by.contains("inside") + by.contains("contained") == 1,
+        "must be by one of \"pair\", \"inside\" and \"contained\"");
   Witness witness;
-  if (by.has("pair") + by.has("inside") + by.has("contained") != 1) {
-    by.fail("must have one of \"pair\", \"inside\" and \"contained\"");
-  }
-  if (by.has("contained")) {
-    if (!by["contained"].boolean()) by["contained"].fail("must be true");
+  if (by.contains("pair")) {
+    witness.pair = field<std::array<int, 2>>(by, "pair");
+  } else if (by.contains("inside")) {
+    witness.kind = Witness::kInside;
+    witness.object = choice(by, "inside", "A", "B");
+    witness.vertex = field<int>(by, "vertex");
+    const bool has_outside = by.contains("outside") && !by["outside"].is_null();
+    if (has_outside) witness.outside = field<int>(by, "outside");
+  } else {
     witness.kind = Witness::kContained;
-    return witness;
+    check(field<bool>(by, "contained"), "\"contained\" must be true");
   }
-  if (by.has("pair")) {
-    const Field pair = by["pair"];
-    if (pair.size() != 2) pair.fail("must be two indices");
-    witness.pair = {pair.at(0).index(), pair.at(1).index()};
-    return witness;
-  }
-  witness.kind = Witness::kInside;
-  witness.object = by["inside"].object();
-  witness.vertex = by["vertex"].index();
-  if (by.has("outside") && !by["outside"].json.is_null()) witness.outside = by["outside"].index();
   return witness;
 }
 
-Cell read_cell(const Field& line, int rank) {
+Cell read_cell(const Json& line, int rank) {
   Cell cell;
-  cell.line = line.line;
-  const auto sides = line["cell"].numbers(2 * rank);
+  const auto sides = field<std::vector<double>>(line, "cell");
+  check(sides.size() == 2 * static_cast<std::size_t>(rank), "\"cell\": must be 2 rank numbers");
   for (int i = 0; i < rank; ++i) {
     cell.lo[i] = sides[i];
     cell.hi[i] = sides[rank + i];
-    if (!(cell.lo[i] < cell.hi[i])) line["cell"].fail("must have lo < hi");
+    check(cell.lo[i] < cell.hi[i], "\"cell\": must have lo < hi");
   }
-  if (line.has("free")) {
-    cell.claims_free = line["free"].json != false;
-    if (!line["free"].json.is_boolean()) {
-      cell.free_planes = line["free"].planes(rank);
-      // An empty list claims nothing; here it would mean all.
-      cell.claims_free = !cell.free_planes.empty();
-    }
+  if (line.contains("free") && line["free"].is_boolean()) {
+    cell.claims_free = field<bool>(line, "free");
+  } else if (line.contains("free")) {
+    // An empty list claims nothing; of a cell without planes it would mean all.
+    cell.free_planes = read_planes(line, "free", rank);
+    cell.claims_free = !cell.free_planes.empty();
   }
-  if (!line.has("contact")) return cell;
-  const Field contact = line["contact"];
-  for (std::size_t i = 0; i < contact.size(); ++i) {
-    const Field region = contact.at(i);
-    cell.contact.push_back({region["planes"].planes(rank), read_witness(region["by"])});
+  if (!line.contains("contact")) return cell;
+  check(line["contact"].is_array(), "\"contact\": must be an array");
+  for (const Json& region : line["contact"]) {
+    check(region.is_object(), "\"contact\": must be objects");
+    cell.contact.push_back({read_planes(region, "planes", rank), read_witness(region)});
   }
   return cell;
 }
 
-Json parse(const std::string& text, std::size_t line) {
+Json parse(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) throw Malformed(line, "", "is no JSON object");
+  check(json.is_object(), "is no JSON object");
   return json;
+}
+
+// Calls what reads of a line, and says of which one it is in what it throws.
+template <class Read>
+auto at_line(std::size_t line, const Read& read) {
+  try {
+    return read();
+  } catch (const Wrong& wrong) {
+    throw Malformed(line, wrong.what());
+  }
 }
 
 }  // namespace
@@ -215,43 +177,58 @@ bool Reader::more() {
   return static_cast<bool>(in_);
 }
 
+void Reader::read_part_or_caps(const Json& line) {
+  const bool is_part = !line.contains("caps");
+  const int object = choice(line, is_part ? "part" : "caps", "A", "B");
+  const auto vertices = field<std::vector<Vec>>(line, "vertices");
+  const auto triangles = field<std::vector<Triangle>>(line, "triangles");
+  if (!is_part) {
+    const auto part = static_cast<std::size_t>(field<int>(line, "part"));
+    check(part < parts[object].size(), "\"part\": no such part");
+    check(!parts[object][part].convex, "\"part\": is convex");
+    check_indices(triangles, parts[object][part].vertices.size() + vertices.size());
+    caps[object].push_back({line_, vertices, triangles});
+    return;
+  }
+  check(object == 1 || parts[1].empty(), "\"part\": A after B");
+  check_indices(triangles, vertices.size());
+  const bool convex = field<bool>(line, "convex");
+  check(!convex || !vertices.empty(), "\"vertices\": none");
+  parts[object].push_back({line_, field<std::array<Vec, 3>>(line, "rotation"),
+                           field<Vec>(line, "translation"), vertices, triangles, convex,
+                           field<bool>(line, "solid")});
+}
+
 void Reader::read_objects() {
   parts = {};
   caps = {};
-  const Json first = parse(text_, line_);
-  header = read_header({first, line_, ""});
-  while (next_line()) {
-    const Json json = parse(text_, line_);
-    const Field line{json, line_, ""};
-    if (json.contains("caps")) {
-      caps[line["caps"].object()].push_back(read_caps(line, parts));
-    } else if (json.contains("part")) {
-      Part part = read_part(line);
-      if (part.object == 0 && !parts[1].empty()) line["part"].fail("A after B");
-      parts[part.object].push_back(std::move(part));
-    } else {
-      break;
-    }
+  const auto next = [&] {
+    const Json json = parse(text_);
+    const bool is_object = json.contains("caps") || json.contains("part");
+    if (is_object) read_part_or_caps(json);
+    return is_object;
+  };
+  header = at_line(line_, [&] { return read_header(parse(text_)); });
+  while (next_line() && at_line(line_, next)) {
   }
-  for (const int object : {0, 1}) {
-    if (parts[object].empty()) throw Malformed(line_, "part", "an object has no part");
-  }
+  if (parts[0].empty() || parts[1].empty()) throw Malformed(line_, "an object has no part");
 }
 
 bool Reader::next_cell(Cell& cell) {
-  if (!in_) throw Malformed(line_, "lower", "the last line is missing");
-  const Json json = parse(text_, line_);
-  const Field line{json, line_, ""};
-  if (json.contains("cell")) {
-    cell = read_cell(line, header.rank);
-    next_line();
+  if (!in_) throw Malformed(line_, "the last line is missing");
+  const bool is_cell = at_line(line_, [&] {
+    const Json json = parse(text_);
+    if (!json.contains("cell")) {
+      footer = {field<double>(json, "lower"), field<double>(json, "upper"),
+                static_cast<std::size_t>(field<int>(json, "cells"))};
+      return false;
+    }
+    cell = read_cell(json, header.rank);
+    cell.line = line_;
     return true;
-  }
-  footer.lower = line["lower"].number();
-  footer.upper = line["upper"].number();
-  footer.cells = static_cast<std::size_t>(line["cells"].index());
+  });
   next_line();
-  return false;
+  return is_cell;
 }
 
 }  // namespace verify

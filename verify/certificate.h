@@ -5,6 +5,7 @@
 
 #include <array>
 #include <istream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,12 +14,21 @@
 
 namespace verify {
 
-/// The file is no certificate; `what` names line and field.
+/// The file is no certificate.
 struct Malformed : std::runtime_error {
-  Malformed(std::size_t line, const std::string& field, const std::string& why)
-      : std::runtime_error("line " + std::to_string(line) + ", \"" + field + "\": " + why) {}
+  Malformed(std::size_t line, const std::string& why)
+      : std::runtime_error("line " + std::to_string(line) + ": " + why) {}
 };
 
+/// A claim that does not hold, or of which it is not certain.
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+inline void require(bool condition, const std::string& why) {
+  if (!condition) throw Refused(why);
+}
+
+using Json = nlohmann::json;
 using Triangle = std::array<int, 3>;
 
 struct Header {
@@ -33,7 +43,6 @@ struct Header {
 
 struct Part {
   std::size_t line = 0;
-  int object = 0;  // 0 is A, 1 is B
   std::array<Vec, 3> rotation{};
   Vec translation{};
   std::vector<Vec> vertices;
@@ -45,7 +54,6 @@ struct Part {
 /// Triangles that close a part; indices below the part's number of vertices are the part's.
 struct Caps {
   std::size_t line = 0;
-  int part = 0;
   std::vector<Vec> vertices;
   std::vector<Triangle> triangles;
 };
@@ -101,6 +109,7 @@ class Reader {
 
  private:
   bool next_line();
+  void read_part_or_caps(const Json& line);
 
   std::istream& in_;
   std::string text_;

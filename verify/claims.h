@@ -23,8 +23,8 @@ struct Tally {
   explicit Tally(slong precision) : bits(precision), masses(precision) {}
 };
 
-/// Checks all claims of a cell and adds its masses. Empty, or what is wrong.
-std::string check_cell(const Scene& scene, const Cell& cell, Tally& tally);
+/// Checks all claims of a cell and adds its masses; throws Refused.
+void check_cell(const Scene& scene, const Cell& cell, Tally& tally);
 
 struct Box {
   std::size_t line;

@@ -22,24 +22,8 @@ struct Options {
   int threads = 1;
 };
 
-struct Refused : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-std::string describe(const Cell& cell, int rank) {
-  std::string text;
-  for (const Vec* side : {&cell.lo, &cell.hi}) {
-    for (int i = 0; i < rank; ++i) {
-      char number[32];
-      std::snprintf(number, sizeof number, "%s%.17g", text.empty() ? "" : ", ", (*side)[i]);
-      text += number;
-    }
-  }
-  return "[" + text + "]";
 }
 
 // Checks cells by several threads; the first in the file that fails is the one reported.
@@ -50,8 +34,12 @@ void check_batch(const Scene& scene, const std::vector<Cell>& cells, std::vector
   const auto work = [&](Tally& tally) {
     Ball::bits = scene.frame.bits;
     for (std::size_t i = next++; i < cells.size() && !failed; i = next++) {
-      wrong[i] = check_cell(scene, cells[i], tally);
-      if (!wrong[i].empty()) failed = true;
+      try {
+        check_cell(scene, cells[i], tally);
+      } catch (const Refused& refused) {
+        wrong[i] = refused.what();
+        failed = true;
+      }
     }
   };
   std::vector<std::thread> threads;
@@ -64,9 +52,7 @@ void check_batch(const Scene& scene, const std::vector<Cell>& cells, std::vector
   work(tallies[0]);
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (wrong[i].empty()) continue;
-    throw Refused("line " + std::to_string(cells[i].line) + ", cell " +
-                  describe(cells[i], scene.frame.rank) + ": " + wrong[i]);
+    require(wrong[i].empty(), "line " + std::to_string(cells[i].line) + ": " + wrong[i]);
   }
 }
 
@@ -89,13 +75,10 @@ Bounds add_up(const std::vector<Tally>& tallies) {
 }
 
 void check_bounds(const Footer& footer, const Bounds& shown, std::size_t line) {
-  const bool lower = !(footer.lower <= shown.lower);
-  if (!lower && footer.upper >= shown.upper) return;
   char text[200];
-  std::snprintf(text, sizeof text, "line %zu: \"%s\" is %.17g, but shown is %.17g", line,
-                lower ? "lower" : "upper", lower ? footer.lower : footer.upper,
-                lower ? shown.lower : shown.upper);
-  throw Refused(text);
+  std::snprintf(text, sizeof text, "line %zu: [%.17g, %.17g] is claimed, but [%.17g, %.17g] shown",
+                line, footer.lower, footer.upper, shown.lower, shown.upper);
+  require(footer.lower <= shown.lower && footer.upper >= shown.upper, text);
 }
 
 // Bits for 1 - Σ μ(cell) to be known to 256 of what the last lines claim of it: they are looked at
@@ -157,15 +140,11 @@ Verified check_certificate(Reader& reader, const Options& options, slong bits) {
     }
   }
   if (reader.footer.cells != boxes.size()) {
-    throw Malformed(reader.line() - 1, "cells",
-                    "is " + std::to_string(reader.footer.cells) + ", but there are " +
-                        std::to_string(boxes.size()));
+    throw Malformed(reader.line() - 1, "there are " + std::to_string(boxes.size()) + " cells");
   }
   const auto lines = overlapping(boxes, scene.frame.rank);
-  if (lines.first != 0) {
-    throw Refused("line " + std::to_string(lines.second) + ": the cell overlaps that of line " +
-                  std::to_string(lines.first));
-  }
+  require(lines.first == 0, "line " + std::to_string(lines.second) +
+                                ": the cell overlaps that of line " + std::to_string(lines.first));
   Verified result{add_up(tallies), boxes.size(), 0};
   for (const Tally& tally : tallies) result.claims += tally.claims;
   check_bounds(reader.footer, result.bounds, reader.line() - 1);

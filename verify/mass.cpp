@@ -180,25 +180,18 @@ Ball Integral::of(const Simplex& simplex, int depth) const {
   return result;
 }
 
-Ball absolute(const Ball& x) {
-  Ball result;
-  arb_abs(result.raw(), x.raw());
-  return result;
-}
-
 Ball gaussian_constant(int rank) {
   Ball result(1), pi;
   arb_const_pi(pi.raw(), Ball::bits);
-  arb_sqrt(pi.raw(), (pi * Ball(2)).raw(), Ball::bits);
+  pi = sqrt(pi * Ball(2));
   for (int i = 0; i < rank; ++i) result = result / pi;
   return result;
 }
 
 // Of [x, ∞), x >= 0.
 Ball upper_tail(const Ball& x) {
-  Ball root, result;
-  arb_sqrt_ui(root.raw(), 2, Ball::bits);
-  arb_hypgeom_erfc(result.raw(), (x / root).raw(), Ball::bits);
+  Ball result;
+  arb_hypgeom_erfc(result.raw(), (x / sqrt(Ball(2))).raw(), Ball::bits);
   return result * Ball(0.5);
 }
 
@@ -206,11 +199,11 @@ Ball upper_tail(const Ball& x) {
 Ball segment_mass(const Ball& a, const Ball& b) {
   Ball result;
   if (a.sign() * b.sign() >= 0) {
-    result = upper_tail(absolute(a)) - upper_tail(absolute(b));
+    result = upper_tail(abs(a)) - upper_tail(abs(b));
   } else {
-    result = Ball(1) - upper_tail(absolute(a)) - upper_tail(absolute(b));
+    result = Ball(1) - upper_tail(abs(a)) - upper_tail(abs(b));
   }
-  return absolute(result);
+  return abs(result);
 }
 
 // The volume of a simplex times rank!.
@@ -223,7 +216,7 @@ Ball volume(const std::vector<BallVec>& points, const Polytope::Simplex& simplex
       e[i][i] = Ball(1);
     }
   }
-  return absolute(dot(e[0], cross(e[1], e[2])));
+  return abs(dot(e[0], cross(e[1], e[2])));
 }
 
 }  // namespace
@@ -255,7 +248,7 @@ Ball small_polytope(const Polytope& polytope, const Vec& center) {
   std::vector<BallVec> points(count);
   std::vector<Vec> seen(count);
   for (const int v : polytope.used()) {
-    points[v] = minus(polytope.vertices()[v].ball(), balls(center));
+    points[v] = minus(ball(polytope.vertices()[v]), balls(center));
     for (int k = 0; k < polytope.rank(); ++k) seen[v][k] = points[v][k].nearest();
   }
   const Integral integral(polytope.rank(), center);
@@ -278,7 +271,7 @@ namespace {
 void shrink(const Polytope& polytope, Vec& lo, Vec& hi) {
   Vec least{DBL_MAX, DBL_MAX, DBL_MAX}, most{-DBL_MAX, -DBL_MAX, -DBL_MAX};
   for (const int v : polytope.used()) {
-    const BallVec point = polytope.vertices()[v].ball();
+    const BallVec point = ball(polytope.vertices()[v]);
     for (int i = 0; i < polytope.rank(); ++i) {
       least[i] = std::min(least[i], point[i].outward(-1));
       most[i] = std::max(most[i], point[i].outward(1));
@@ -335,11 +328,11 @@ Ball Masses::polytope(const Polytope& polytope, const Vec& lo, const Vec& hi) {
   }
   if (polytope.empty()) return result;
   const std::vector<int> corners = polytope.used();
-  BallVec least = polytope.vertices()[corners[0]].ball(), most = least;
+  BallVec least = ball(polytope.vertices()[corners[0]]), most = least;
   result = Ball(1);
   for (int i = 0; i < polytope.rank(); ++i) {
     for (const int v : corners) {
-      const Ball x = polytope.vertices()[v].ball()[i];
+      const Ball x = ball(polytope.vertices()[v])[i];
       least[i] = min(least[i], x);
       most[i] = max(most[i], x);
     }

@@ -14,48 +14,33 @@ namespace {
 
 BallVec scaled(const BallVec& v, const Ball& by) { return {v[0] * by, v[1] * by, v[2] * by}; }
 
-Ball square_root(const Ball& x) {
-  Ball result;
-  arb_sqrt(result.raw(), x.raw(), Ball::bits);
-  return result;
-}
-
 // Rows made orthonormal one after the other; entries beyond the rank are zero.
 std::vector<BallVec> gram_schmidt(std::vector<BallVec> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       rows[i] = minus(rows[i], scaled(rows[j], dot(rows[i], rows[j])));
     }
-    const Ball length = square_root(dot(rows[i], rows[i]));
-    if (length.sign() <= 0) throw Malformed(1, "whitening", "rows depend on each other");
+    const Ball length = sqrt(dot(rows[i], rows[i]));
+    if (length.sign() <= 0) throw Malformed(1, "whitening rows depend on each other");
     rows[i] = scaled(rows[i], Ball(1) / length);
   }
   return rows;
 }
 
-// Fills up the columns of the displacement to a basis, by any vectors that are exact and not too
-// small: as long as the first one.
+// Which entry is largest.
+std::size_t largest(const BallVec& v) {
+  return std::max_element(v.begin(), v.end(),
+                          [](const Ball& a, const Ball& b) { return abs(a) < abs(b); }) -
+         v.begin();
+}
+
+// Fills up the columns of the displacement to a basis, along axes, by what is about as long as the
+// first one.
 void complete(std::array<BallVec, 3>& columns, int rank) {
-  double length = 0;
-  const auto direction = [&](int i) {
-    Vec v{columns[i][0].nearest(), columns[i][1].nearest(), columns[i][2].nearest()};
-    length = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    for (double& x : v) x /= length;
-    return v;
-  };
-  for (int i = rank; i < 3; ++i) {
-    Vec other = i == 2 ? direction(1) : Vec{};
-    const Vec first = direction(0);
-    if (i == 1) {
-      const auto small = std::min_element(
-          first.begin(), first.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-      other[small - first.begin()] = 1;
-    }
-    Vec normal = cross(first, other);
-    const double scale = std::sqrt(dot(normal, normal));
-    for (double& n : normal) n = n / scale * length;
-    columns[i] = balls(normal);
-  }
+  const std::size_t first = largest(columns[0]);
+  const Ball length = columns[0][first];
+  if (rank == 1) columns[1][(first + 1) % 3] = columns[2][(first + 2) % 3] = length;
+  if (rank == 2) columns[2][largest(cross(columns[0], columns[1]))] = length;
 }
 
 }  // namespace
@@ -88,7 +73,7 @@ Frame::Frame(const Header& header)
   for (int i = 0; i < 3; ++i) cofactors[i] = cross(columns[(i + 1) % 3], columns[(i + 2) % 3]);
   determinant = dot(columns[0], cofactors[0]);
   if (determinant.sign() == 0 || !determinant.is_finite()) {
-    throw Malformed(1, "axes", "depend on each other, or a deviation is zero");
+    throw Malformed(1, "axes depend on each other, or a deviation is zero");
   }
 }
 
@@ -110,7 +95,7 @@ void Object::add_vertex(const Part& part, const Vec& vertex) {
   for (int i = 0; i < 3; ++i) {
     const Ball y = dot(frame_->cofactors[i], from) / frame_->determinant;
     point[i] = y.nearest();
-    if (!std::isfinite(point[i])) throw Malformed(part.line, "vertices", "are too far away");
+    if (!std::isfinite(point[i])) throw Malformed(part.line, "vertices are too far away");
     const double size = std::abs(point[i]);
     bound[i] = std::max(bound[i], size);
     error[i] = std::max(error[i], (size * kUnit + y.radius() + DBL_MIN) * (1 + 1e-10));

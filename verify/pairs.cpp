@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace verify {
@@ -132,17 +133,18 @@ Least<T> least(const Corners<T>& corners, const V<T>& normal) {
 // is as far from the corners as can be.
 template <class T, class Accept>
 bool search(const Corners<T>& corners, V<T> normal, const Accept& accept) {
-  Cone<T> cone;
+  std::optional<Cone<T>> cone;
   std::set<std::array<std::size_t, 3>> seen;
-  while (!cone.empty()) {
+  while (!cone || !cone->empty()) {
     const Least<T> found = least(corners, normal);
     if (accept(normal, found)) return true;
     const auto [l, k, q] = found.at;
     if (!seen.insert(found.at).second) return false;
+    if (!cone) cone.emplace();
     V<T> point = minus(corners.l[l], corners.k[k]);
     for (int i = 0; i < 3; ++i) point[i] = point[i] * corners.times[q] - corners.q[q][i];
-    cone.add(point);
-    normal = cone.inner();
+    cone->add(point);
+    normal = cone->inner();
   }
   return false;
 }
@@ -151,7 +153,9 @@ bool search(const Corners<T>& corners, V<T> normal, const Accept& accept) {
 // which any of the terms is made.
 bool separates_by_doubles(const Region& region, const Object& a, const Piece& k, const Object& b,
                           const Piece& l) {
-  Corners<double> corners;
+  thread_local Corners<double> corners;  // keeps its memory
+  corners.k.clear();
+  corners.l.clear();
   for (const int v : k.vertices) corners.k.push_back(a.points[v]);
   for (const int v : l.vertices) corners.l.push_back(b.points[v]);
   corners.q = region.corners;

@@ -6,62 +6,19 @@
 #include <cmath>
 
 namespace verify {
-namespace {
-
-// Doubles times the smallest power of two that makes all of them integers, which comes last.
-std::vector<mpz_class> integers(const std::vector<double>& values) {
-  std::vector<mpz_class> result;
-  std::vector<int> exponents;
-  int least = 0;
-  for (const double value : values) {
-    int exponent = 0;
-    const double mantissa = std::frexp(value, &exponent);
-    result.emplace_back(std::ldexp(mantissa, 53));
-    exponents.push_back(value == 0 ? 0 : exponent - 53);
-    if (value != 0) {
-      const auto zeros = mpz_scan1(result.back().get_mpz_t(), 0);
-      least = std::min(least, exponents.back() + static_cast<int>(zeros));
-    }
-  }
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const int shift = exponents[i] - least;
-    if (shift >= 0) {
-      result[i] <<= shift;
-    } else {
-      result[i] >>= -shift;
-    }
-  }
-  result.push_back(mpz_class(1) << -least);
+BallVec ball(const ExactPoint& point) {
+  const Precision enough(std::min<slong>(Ball::bits, 320));
+  BallVec result;
+  for (int i = 0; i < 3; ++i) result[i] = Ball(point[i].get_num()) / Ball(point[i].get_den());
   return result;
-}
-
-// Keeps numbers short.
-void reduce(ExactPoint& point) {
-  mpz_class common = point.w;
-  for (const mpz_class& x : point.x) common = gcd(common, x);
-  if (common == 1) return;
-  for (mpz_class& x : point.x) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), common.get_mpz_t());
-  mpz_divexact(point.w.get_mpz_t(), point.w.get_mpz_t(), common.get_mpz_t());
-}
-
-}  // namespace
-
-BallVec ExactPoint::ball() const {
-  const Precision enough(std::min<slong>(Ball::bits, 512));
-  const Ball times(w);
-  return {Ball(x[0]) / times, Ball(x[1]) / times, Ball(x[2]) / times};
 }
 
 // Kuhn's simplices of a box: one for each order of the axes, along which to walk from corner to
 // corner.
 Polytope::Polytope(int rank, const Vec& lo, const Vec& hi) : rank_(rank) {
   for (int corner = 0; corner < 1 << rank; ++corner) {
-    std::vector<double> sides;
-    for (int i = 0; i < rank; ++i) sides.push_back((corner >> i & 1) != 0 ? hi[i] : lo[i]);
-    const auto exact = integers(sides);
     ExactPoint vertex;
-    std::copy(exact.begin(), exact.end() - 1, vertex.x.begin());
-    vertex.w = exact.back();
+    for (int i = 0; i < rank; ++i) vertex[i] = (corner >> i & 1) != 0 ? hi[i] : lo[i];
     vertices_.push_back(vertex);
   }
   std::array<int, 3> order{0, 1, 2};
@@ -77,12 +34,10 @@ void Polytope::cut(const Plane& plane, int side) {
   normals_.push_back(plane.normal);
   is_box_ = is_box_ && std::count(plane.normal.begin(), plane.normal.end(), 0.0) >= 2;
   heights_.assign(vertices_.size(), 0);
-  const auto exact = integers({plane.normal[0], plane.normal[1], plane.normal[2], plane.level});
   for (const int v : used()) {
-    mpz_class& height = heights_[v];
-    height = -exact[3] * vertices_[v].w;
-    for (int i = 0; i < rank_; ++i) height += exact[i] * vertices_[v].x[i];
-    if (side < 0) height = -height;
+    heights_[v] = -plane.level;
+    for (int i = 0; i < rank_; ++i) heights_[v] += plane.normal[i] * vertices_[v][i];
+    if (side < 0) heights_[v] = -heights_[v];
   }
   std::vector<Simplex> kept;
   for (const Simplex& simplex : simplices_) keep_positive(simplex, kept);
@@ -115,11 +70,9 @@ int Polytope::crossing(int positive, int negative) {
       crossings_.try_emplace({positive, negative}, static_cast<int>(vertices_.size()));
   if (!is_new) return found->second;
   const ExactPoint &from = vertices_[positive], &to = vertices_[negative];
-  const mpz_class &above = heights_[positive], &below = heights_[negative];
+  const mpq_class part = heights_[positive] / (heights_[positive] - heights_[negative]);
   ExactPoint vertex;
-  for (int i = 0; i < rank_; ++i) vertex.x[i] = above * to.x[i] - below * from.x[i];
-  vertex.w = above * to.w - below * from.w;
-  reduce(vertex);
+  for (int i = 0; i < rank_; ++i) vertex[i] = from[i] + part * (to[i] - from[i]);
   vertices_.push_back(vertex);
   heights_.emplace_back(0);
   return found->second;
@@ -138,9 +91,14 @@ std::vector<int> Polytope::used() const {
 Region::Region(const Polytope& polytope) : normals(polytope.normals()) {
   for (const int v : polytope.used()) {
     const ExactPoint& corner = polytope.vertices()[v];
-    exact.push_back({Ball(corner.x[0]), Ball(corner.x[1]), Ball(corner.x[2])});
-    times.emplace_back(corner.w);
-    const BallVec point = corner.ball();
+    const mpz_class common =
+        lcm(lcm(corner[0].get_den(), corner[1].get_den()), corner[2].get_den());
+    exact.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      exact.back()[i] = Ball(mpz_class(corner[i].get_num() * (common / corner[i].get_den())));
+    }
+    times.emplace_back(common);
+    const BallVec point = ball(corner);
     center = plus(center, point);
     corners.push_back({point[0].nearest(), point[1].nearest(), point[2].nearest()});
     for (int i = 0; i < 3; ++i) bound[i] = std::max(bound[i], std::abs(corners.back()[i]));

@@ -12,14 +12,9 @@
 
 namespace verify {
 
-/// The point `x / w`, w > 0.
-struct ExactPoint {
-  std::array<mpz_class, 3> x;
-  mpz_class w;
-
-  /// The same with an enclosure of the quotients.
-  BallVec ball() const;
-};
+using ExactPoint = std::array<mpq_class, 3>;
+/// An enclosure.
+BallVec ball(const ExactPoint& point);
 
 class Polytope {
  public:
@@ -49,9 +44,9 @@ class Polytope {
   std::vector<Simplex> simplices_;
   std::vector<Vec> normals_;
   bool is_box_ = true;
-  // Of the cut under way: height over the plane times w and a constant, and the new vertex of each
+  // Of the cut under way: height over the plane, and the new vertex of each
   // edge that crosses it.
-  std::vector<mpz_class> heights_;
+  std::vector<mpq_class> heights_;
   std::map<std::pair<int, int>, int> crossings_;
 };
 

@@ -50,11 +50,11 @@ int root(std::vector<int>& parent, int i) {
 void check_convex(const Part& part) {
   const Precision exact(ARF_PREC_EXACT);
   if (!is_closed(part.vertices, part.triangles, true)) {
-    throw Malformed(part.line, "triangles", "of a convex part are not closed");
+    throw Malformed(part.line, "triangles of a convex part are not closed");
   }
   const BallVec row = balls(part.rotation[0]);
   const int mirrored = dot(row, cross(balls(part.rotation[1]), balls(part.rotation[2]))).sign();
-  if (mirrored == 0) throw Malformed(part.line, "rotation", "is singular");
+  if (mirrored == 0) throw Malformed(part.line, "rotation is singular");
   std::vector<BallVec> points;
   for (const Vec& v : part.vertices) points.push_back(balls(v));
   bool has_inside = false;
@@ -64,11 +64,11 @@ void check_convex(const Part& part) {
     const Ball level = dot(normal, from);
     for (const BallVec& point : points) {
       const int side = mirrored * (dot(normal, point) - level).sign();
-      if (side > 0) throw Malformed(part.line, "triangles", "a vertex is outside of a face");
+      if (side > 0) throw Malformed(part.line, "a vertex is outside of a face");
       has_inside |= side < 0;
     }
   }
-  if (!has_inside) throw Malformed(part.line, "vertices", "of a convex part are in a plane");
+  if (!has_inside) throw Malformed(part.line, "a convex part is in a plane");
 }
 
 // A box of directions, seen from the point, that the ray along d misses for certain.
@@ -120,7 +120,7 @@ void Scene::add_object(int x, const std::vector<Caps>& cap_lines) {
     all.add_part(part);
     if (!solid_contact || !part.solid || part.convex) continue;
     if (!verify::is_closed(part.vertices, part.triangles, true)) {
-      throw Malformed(part.line, "solid", "the triangles are not closed as they are oriented");
+      throw Malformed(part.line, "the triangles are not closed as they are oriented");
     }
     solids_[x].push_back(none);
     solids_[x].back().add_part(part);
@@ -132,7 +132,7 @@ void Scene::add_object(int x, const std::vector<Caps>& cap_lines) {
     std::vector<Triangle> triangles = first.triangles;
     only_caps.add_part(first, false);
     with_caps.add_part(first);
-    if (cap_lines.size() > 1) throw Malformed(cap_lines[1].line, "caps", "come twice");
+    if (cap_lines.size() > 1) throw Malformed(cap_lines[1].line, "caps come twice");
     for (const Caps& lines : cap_lines) {
       vertices.insert(vertices.end(), lines.vertices.begin(), lines.vertices.end());
       triangles.insert(triangles.end(), lines.triangles.begin(), lines.triangles.end());
@@ -141,7 +141,7 @@ void Scene::add_object(int x, const std::vector<Caps>& cap_lines) {
     }
     is_closed[x] = verify::is_closed(vertices, triangles, false);
     if (!is_closed[x] && !cap_lines.empty()) {
-      throw Malformed(cap_lines[0].line, "caps", "do not close the part");
+      throw Malformed(cap_lines[0].line, "caps do not close the part");
     }
   }
   for (Object* object : {&all, &only_caps, &with_caps}) object->finish();
@@ -176,8 +176,8 @@ void Scene::add_components(int x) {
   }
 }
 
-std::string Scene::touching(const Region& region, const Object& a, const Object& b) const {
-  if (a.nodes.empty() || b.nodes.empty()) return "";
+void Scene::check_apart(const Region& region, const Object& a, const Object& b) const {
+  if (a.nodes.empty() || b.nodes.empty()) return;
   // How far the region reaches along the axes and the normals of its planes, rounded outwards.
   std::vector<Vec> normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   normals.insert(normals.end(), region.normals.begin(), region.normals.end());
@@ -192,7 +192,11 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
   }
   const auto apart = [&](const Node& k, const Node& l) {
     const Vec low = minus(l.lo, k.hi), high = minus(l.hi, k.lo);
-    for (std::size_t d = 0; d < normals.size(); ++d) {
+    // Rounding to nearest keeps the order.
+    for (int i = 0; i < 3; ++i) {
+      if (low[i] > hi[i] || high[i] < lo[i]) return true;
+    }
+    for (std::size_t d = 3; d < normals.size(); ++d) {
       double least = 0, most = 0, size = 0;
       for (int i = 0; i < 3; ++i) {
         const double n = normals[d][i];
@@ -212,9 +216,10 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
     const Node &k = a.nodes[i], &l = b.nodes[j];
     if (apart(k, l)) continue;
     if (k.piece >= 0 && l.piece >= 0) {
-      if (separates(frame, region, a, a.pieces[k.piece], b, b.pieces[l.piece])) continue;
-      return "piece " + std::to_string(k.piece) + " of A and piece " + std::to_string(l.piece) +
-             " of B may touch";
+      require(
+          separates(frame, region, a, a.pieces[k.piece], b, b.pieces[l.piece]),
+          "pieces " + std::to_string(k.piece) + " and " + std::to_string(l.piece) + " may touch");
+      continue;
     }
     const Vec k_size = minus(k.hi, k.lo), l_size = minus(l.hi, l.lo), sum{1, 1, 1};
     if (l.piece >= 0 || (k.piece < 0 && dot(k_size, sum) > dot(l_size, sum))) {
@@ -225,7 +230,6 @@ std::string Scene::touching(const Region& region, const Object& a, const Object&
       open.emplace_back(i, l.right);
     }
   }
-  return "";
 }
 
 Scene::Crossings Scene::crossings(int x, int vertex, const Object& surface,

@@ -19,9 +19,8 @@ class Scene {
   /// Throws Malformed where parts or caps are not what they are said to be.
   explicit Scene(const Reader& reader);
 
-  /// Empty if no piece of a touches one of b in the region; else says which could not be told
-  /// apart.
-  std::string touching(const Region& region, const Object& a, const Object& b) const;
+  /// Throws Refused if a piece of a may touch one of b in the region.
+  void check_apart(const Region& region, const Object& a, const Object& b) const;
   /// Whether in contact of solids, at y, a component of one object is in a solid of the other.
   enum class Nesting { kNone, kSome, kUnknown };
   Nesting nesting(const BallVec& y) const;
