@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <utility>
 
 namespace verify {
+
+constexpr double kUnit = DBL_EPSILON / 2;  // a rounded operation's relative error
 
 /// Comparisons hold for every number of the balls, so that `not (a < b)` says nothing.
 class Ball {

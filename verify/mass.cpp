@@ -5,7 +5,6 @@
 #include <arb_hypgeom.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -13,7 +12,6 @@
 namespace verify {
 namespace {
 
-constexpr double kUnit = DBL_EPSILON / 2;
 constexpr int kMostNodes = 20;
 constexpr double kNegligible = 2e-15;  // the rule's error that is aimed at, of the integral
 
@@ -43,24 +41,13 @@ const Rule& rule(int count) {
 // rounding is below 2^-52 (1 + |x|), and 14 terms of the series, of which the rest is below 2^-57.
 inline double exponential(double x) {
   constexpr double kToInteger = 0x1.8p52;  // rounds what is added to it, and taken off again
-  const double shifted = x * 1.4426950408889634 + kToInteger;
-  const double k = shifted - kToInteger;
+  const double shifted = x * 1.4426950408889634 + kToInteger, k = shifted - kToInteger;
   const double r = (x - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;
-  double sum = 1.0 / 6227020800.0;
-  constexpr double kFactorials[] = {1.0 / 479001600,
-                                    1.0 / 39916800,
-                                    1.0 / 3628800,
-                                    1.0 / 362880,
-                                    1.0 / 40320,
-                                    1.0 / 5040,
-                                    1.0 / 720,
-                                    1.0 / 120,
-                                    1.0 / 24,
-                                    1.0 / 6,
-                                    0.5,
-                                    1.0,
-                                    1.0};
-  for (const double c : kFactorials) sum = sum * r + c;
+  double sum = 1;
+  for (const double c : {1 / 13.0, 1 / 12.0, 1 / 11.0, 1 / 10.0, 1 / 9.0, 1 / 8.0, 1 / 7.0, 1 / 6.0,
+                         1 / 5.0, 1 / 4.0, 1 / 3.0, 1 / 2.0, 1.0}) {
+    sum = sum * (r * c) + 1;
+  }
   std::uint64_t bits, shift;
   std::memcpy(&bits, &sum, sizeof bits);
   std::memcpy(&shift, &shifted, sizeof shift);
@@ -219,29 +206,6 @@ Ball volume(const std::vector<BallVec>& points, const Polytope::Simplex& simplex
   return abs(dot(e[0], cross(e[1], e[2])));
 }
 
-}  // namespace
-
-const Ball& Masses::above(double x) {
-  const auto [found, is_new] = above_.try_emplace(x);
-  if (is_new) found->second = upper_tail(Ball(x));
-  return found->second;
-}
-
-Ball Masses::interval(double lo, double hi) {
-  if (lo >= 0) return above(lo) - above(hi);
-  if (hi <= 0) return above(-hi) - above(-lo);
-  return Ball(1) - above(-lo) - above(hi);
-}
-
-Ball Masses::box(int rank, const Vec& lo, const Vec& hi) {
-  const Precision precision(bits_);
-  Ball result(1);
-  for (int i = 0; i < rank; ++i) result = result * interval(lo[i], hi[i]);
-  return result;
-}
-
-namespace {
-
 // A polytope that is not too large for the density to vary much in it.
 Ball small_polytope(const Polytope& polytope, const Vec& center) {
   const std::size_t count = polytope.vertices().size();
@@ -263,36 +227,52 @@ Ball small_polytope(const Polytope& polytope, const Vec& center) {
   return sum * scale * gaussian_constant(polytope.rank());
 }
 
-}  // namespace
-
-namespace {
-
-// To the box of the polytope's corners, rounded outwards.
-void shrink(const Polytope& polytope, Vec& lo, Vec& hi) {
-  Vec least{DBL_MAX, DBL_MAX, DBL_MAX}, most{-DBL_MAX, -DBL_MAX, -DBL_MAX};
+// The least and the largest coordinates of the polytope, which is not empty.
+std::pair<BallVec, BallVec> extent(const Polytope& polytope) {
+  std::pair<BallVec, BallVec> result;
+  bool first = true;
   for (const int v : polytope.used()) {
     const BallVec point = ball(polytope.vertices()[v]);
-    for (int i = 0; i < polytope.rank(); ++i) {
-      least[i] = std::min(least[i], point[i].outward(-1));
-      most[i] = std::max(most[i], point[i].outward(1));
+    for (int i = 0; i < 3; ++i) {
+      result.first[i] = first ? point[i] : min(result.first[i], point[i]);
+      result.second[i] = first ? point[i] : max(result.second[i], point[i]);
     }
+    first = false;
   }
-  for (int i = 0; i < polytope.rank(); ++i) {
-    lo[i] = std::max(lo[i], least[i]);
-    hi[i] = std::min(hi[i], most[i]);
-  }
+  return result;
 }
 
 }  // namespace
+
+const Ball& Masses::above(double x) {
+  const auto [found, is_new] = above_.try_emplace(x);
+  if (is_new) found->second = upper_tail(Ball(x));
+  return found->second;
+}
+
+Ball Masses::interval(double lo, double hi) {
+  if (lo >= 0) return above(lo) - above(hi);
+  if (hi <= 0) return above(-hi) - above(-lo);
+  return Ball(1) - above(-lo) - above(hi);
+}
+
+Ball Masses::box(int rank, const Vec& lo, const Vec& hi) {
+  const Precision precision(bits_);
+  Ball result(1);
+  for (int i = 0; i < rank; ++i) result = result * interval(lo[i], hi[i]);
+  return result;
+}
 
 // Halves what is large, the half nearer to the origin first: beside it the other one may be
 // negligible.
 void Masses::add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum) {
   if (polytope.empty()) return;
-  shrink(polytope, lo, hi);
+  const auto [least, most] = extent(polytope);
   Vec center{}, half{};
   int longest = 0;
   for (int i = 0; i < polytope.rank(); ++i) {
+    lo[i] = std::max(lo[i], least[i].outward(-1));
+    hi[i] = std::min(hi[i], most[i].outward(1));
     center[i] = 0.5 * (lo[i] + hi[i]);
     half[i] = 0.5 * (hi[i] - lo[i]);
     if (half[i] > half[longest]) longest = i;
@@ -302,9 +282,9 @@ void Masses::add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum) {
     sum = sum + small_polytope(polytope, center);
     return;
   }
-  const Ball most = box(polytope.rank(), lo, hi);
-  if (most <= sum * Ball(1e-17)) {
-    arb_add_error(sum.raw(), most.raw());
+  const Ball bound = box(polytope.rank(), lo, hi);
+  if (bound <= sum * Ball(1e-17)) {
+    arb_add_error(sum.raw(), bound.raw());
     return;
   }
   Plane middle;
@@ -322,22 +302,14 @@ void Masses::add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum) {
 Ball Masses::polytope(const Polytope& polytope, const Vec& lo, const Vec& hi) {
   const Precision precision(256);
   Ball result;
+  if (polytope.empty()) return result;
   if (!polytope.is_box()) {
     add_polytope(polytope, lo, hi, result);
     return result;
   }
-  if (polytope.empty()) return result;
-  const std::vector<int> corners = polytope.used();
-  BallVec least = ball(polytope.vertices()[corners[0]]), most = least;
+  const auto [least, most] = extent(polytope);
   result = Ball(1);
-  for (int i = 0; i < polytope.rank(); ++i) {
-    for (const int v : corners) {
-      const Ball x = ball(polytope.vertices()[v])[i];
-      least[i] = min(least[i], x);
-      most[i] = max(most[i], x);
-    }
-    result = result * segment_mass(least[i], most[i]);
-  }
+  for (int i = 0; i < polytope.rank(); ++i) result = result * segment_mass(least[i], most[i]);
   return result;
 }
 

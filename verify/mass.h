@@ -5,7 +5,6 @@
 
 #include <unordered_map>
 
-#include "ball.h"
 #include "polytope.h"
 
 namespace verify {

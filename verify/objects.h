@@ -7,15 +7,12 @@
 // balls in those of the world.
 #pragma once
 
-#include <cfloat>
 #include <vector>
 
 #include "ball.h"
 #include "certificate.h"
 
 namespace verify {
-
-constexpr double kUnit = DBL_EPSILON / 2;  // a rounded operation's relative error
 
 /// `ε(y) = mean + Σ columns[i] y_i` over i below the rank.
 struct Frame {

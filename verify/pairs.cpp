@@ -247,11 +247,16 @@ Faces::Faces(const Frame& frame, const Object& a, const Piece& k, const Object& 
 }
 
 bool Faces::contain(const Region& region) const {
+  const slong all = Ball::bits;
+  const auto inside = [&](const Slab& slab, std::size_t corner, slong bits) {
+    const Precision precision(bits);
+    const Ball height = dot(slab.slope, region.exact[corner]);
+    const Ball& times = region.times[corner];
+    return slab.lo * times <= height && height <= slab.hi * times;
+  };
   for (const Slab& slab : slabs_) {
     for (std::size_t i = 0; i < region.exact.size(); ++i) {
-      const Ball height = dot(slab.slope, region.exact[i]);
-      if (!(slab.lo * region.times[i] <= height)) return false;
-      if (!(height <= slab.hi * region.times[i])) return false;
+      if (!inside(slab, i, 64) && !inside(slab, i, all)) return false;
     }
   }
   return has_inside_;

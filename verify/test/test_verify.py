@@ -68,6 +68,19 @@ class TrueCertificates(unittest.TestCase):
         one, two = self.verify(lines), self.verify(lines, "--threads", "2", "--progress")
         self.assertEqual((one.lower, one.upper), (two.lower, two.upper))
 
+    def test_any_scale(self):
+        for rank in (1, 2, 3):
+            lines, _, _ = two_boxes(rank)
+            answer = self.verify(lines)
+            for scale in (2.0 ** 400, 2.0 ** -400):
+                scaled = copy.deepcopy(lines)
+                scaled[0]["deviations"] = [x * scale for x in scaled[0]["deviations"]]
+                for part in scaled[1:3]:
+                    part["vertices"] = [[x * scale for x in v] for v in part["vertices"]]
+                    part["translation"] = [x * scale for x in part["translation"]]
+                other = self.verify(scaled)
+                self.assertEqual((other.lower, other.upper), (answer.lower, answer.upper))
+
     def test_probabilities_that_are_tiny(self):
         # So many deviations away that nothing of P is left beside 1.
         for distance in (12.0, 30.0):
