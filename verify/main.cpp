@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-#include "claims.h"
+#include "scene.h"
 
 namespace {
 

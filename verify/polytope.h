@@ -6,6 +6,7 @@
 #include <gmpxx.h>
 
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "certificate.h"
@@ -61,6 +62,24 @@ struct Region {
   std::vector<Ball> times;
   BallVec center;            // encloses a point of it
   std::vector<Vec> normals;  // of its planes, but for the sides of the box
+};
+
+/// Keeps the values at sides, which neighbouring cells share.
+class Masses {
+ public:
+  /// The precision of masses of boxes, of which differences with 1 are wanted.
+  explicit Masses(slong bits) : bits_(bits) {}
+  Ball box(int rank, const Vec& lo, const Vec& hi);
+  /// Of a polytope in this box: to a relative error of some 1e-13, by Gauss and Legendre's rule
+  /// with a bound of its error.
+  Ball polytope(const Polytope& polytope, const Vec& lo, const Vec& hi);
+
+ private:
+  Ball interval(double lo, double hi);
+  const Ball& above(double x);  // of x >= 0
+  void add_polytope(const Polytope& polytope, Vec lo, Vec hi, Ball& sum);
+  slong bits_;
+  std::unordered_map<double, Ball> above_;
 };
 
 }  // namespace verify

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The objects of a certificate, with what claims about them are checked by, and the checks of their
-// surfaces.
+// The objects of a certificate, with what claims about them are checked by, and the claims of
+// cells.
 #pragma once
 
 #include <map>
@@ -10,9 +10,32 @@
 #include <string>
 #include <vector>
 
-#include "pairs.h"
+#include "objects.h"
+#include "polytope.h"
 
 namespace verify {
+
+/// Looks for a hyperplane that proves that pieces k of a and l of b touch nowhere in the region;
+/// false: there is none, or none that can be told from one that does not.
+bool separates(const Frame& frame, const Region& region, const Object& a, const Piece& k,
+               const Object& b, const Piece& l);
+
+/// The half-spaces of which `L - K` is the intersection: planes that support it on both sides,
+/// among them all of its faces.
+class Faces {
+ public:
+  Faces(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l);
+  /// Whether `L - K` has an inside and certainly contains the displacements of the region.
+  bool contain(const Region& region) const;
+
+ private:
+  struct Slab {
+    BallVec slope;  // of the height over y
+    Ball lo, hi;    // of L - K
+  };
+  bool has_inside_ = false;
+  std::vector<Slab> slabs_;
+};
 
 class Scene {
  public:
@@ -54,5 +77,27 @@ class Scene {
   mutable std::mutex mutex_;
   mutable std::map<std::pair<int, int>, std::unique_ptr<const Faces>> faces_;
 };
+
+/// What has been verified, added up. One a thread.
+struct Tally {
+  Ball contact;    // mass of regions of contact
+  Ball cells;      // mass of cells
+  Ball undecided;  // mass of what is in no free set
+  std::size_t claims = 0;
+  slong bits;  // the precision of the sums
+  Masses masses;
+
+  explicit Tally(slong precision) : bits(precision), masses(precision) {}
+};
+
+/// Checks all claims of a cell and adds its masses; throws Refused.
+void check_cell(const Scene& scene, const Cell& cell, Tally& tally);
+
+struct Box {
+  std::size_t line;
+  Vec lo, hi;
+};
+/// Lines of two boxes that overlap; zeros if there are none.
+std::pair<std::size_t, std::size_t> overlapping(const std::vector<Box>& boxes, int rank);
 
 }  // namespace verify
