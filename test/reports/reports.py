@@ -19,9 +19,10 @@ from concurrent.futures import ThreadPoolExecutor
 sys.dont_write_bytecode = True  # the source tree stays as it is
 
 import boxes
+import round_shapes
 from checks import fault_of
 
-SUBJECTS = {"boxes": boxes}
+SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes}
 
 
 def run_subject(subject, command, folder):
