@@ -18,11 +18,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 sys.dont_write_bytecode = True  # the source tree stays as it is
 
+import bodies
 import boxes
 import round_shapes
 from checks import fault_of
 
-SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes}
+SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes, "bodies": bodies}
 
 
 def run_subject(subject, command, folder):
