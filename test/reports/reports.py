@@ -21,10 +21,12 @@ sys.dont_write_bytecode = True  # the source tree stays as it is
 import bodies
 import boxes
 import brick_files
+import exchange
 import round_shapes
 from checks import fault_of
 
-SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes, "bodies": bodies, "brick_files": brick_files}
+SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes, "bodies": bodies, "brick_files": brick_files,
+            "exchange": exchange}
 
 
 def run_subject(subject, command, folder):
