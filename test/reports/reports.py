@@ -22,12 +22,13 @@ import bodies
 import boxes
 import brick_files
 import exchange
+import maps
 import refused_files
 import round_shapes
 from checks import fault_of
 
 SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes, "bodies": bodies, "brick_files": brick_files,
-            "exchange": exchange, "refused_files": refused_files}
+            "exchange": exchange, "refused_files": refused_files, "maps": maps}
 
 
 def run_subject(subject, command, folder):
