@@ -24,11 +24,12 @@ import brick_files
 import exchange
 import maps
 import refused_files
+import robots
 import round_shapes
 from checks import fault_of
 
 SUBJECTS = {"boxes": boxes, "round_shapes": round_shapes, "bodies": bodies, "brick_files": brick_files,
-            "exchange": exchange, "refused_files": refused_files, "maps": maps}
+            "exchange": exchange, "refused_files": refused_files, "maps": maps, "robots": robots}
 
 
 def run_subject(subject, command, folder):
