@@ -26,8 +26,18 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// A cell as its line has it, up to 1,000 characters.
+std::string cell_text(const std::string& file, std::size_t line) {
+  std::ifstream in(file);
+  std::string text;
+  for (std::size_t i = 0; i < line && std::getline(in, text); ++i) {
+  }
+  return text.substr(0, 1000);
+}
+
 // Checks cells by several threads; the first in the file that fails is the one reported.
-void check_batch(const Scene& scene, const std::vector<Cell>& cells, std::vector<Tally>& tallies) {
+void check_batch(const Scene& scene, const std::string& file, const std::vector<Cell>& cells,
+                 std::vector<Tally>& tallies) {
   std::vector<std::string> wrong(cells.size());
   std::atomic<std::size_t> next{0};
   std::atomic<bool> failed{false};
@@ -52,7 +62,8 @@ void check_batch(const Scene& scene, const std::vector<Cell>& cells, std::vector
   work(tallies[0]);
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    require(wrong[i].empty(), "line " + std::to_string(cells[i].line) + ": " + wrong[i]);
+    require(wrong[i].empty(), "line " + std::to_string(cells[i].line) + ": " + wrong[i] + "\n" +
+                                  cell_text(file, cells[i].line));
   }
 }
 
@@ -132,7 +143,7 @@ Verified check_certificate(Reader& reader, const Options& options, slong bits) {
     if (!more) batch.pop_back();
     if (more && batch.size() < 64 * tallies.size()) continue;
     for (const Cell& cell : batch) boxes.push_back({cell.line, cell.lo, cell.hi});
-    check_batch(scene, batch, tallies);
+    check_batch(scene, options.file, batch, tallies);
     batch.clear();
     if (options.progress && seconds_since(start) > last_told + 1) {
       last_told = seconds_since(start);
