@@ -120,6 +120,7 @@ TriangleMesh coneMesh(const fcl::Coned& cone, double tolerance) {
   return stackOfRings(half, {{cone.radius / std::cos(kPi / segments), -half}}, -half, segments);
 }
 
+// Normals outwards.
 void addBox(TriangleMesh& mesh, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
   const std::size_t first = mesh.vertices.size();
   for (int corner = 0; corner < 8; ++corner) {

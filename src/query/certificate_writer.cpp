@@ -75,7 +75,8 @@ bool isBox(const fcl::CollisionGeometryd& geometry) {
   return geometry.getNodeType() == fcl::GEOM_BOX;
 }
 
-// A box, or a cell of an octree, which is one about its middle.
+// A box, or a cell of an octree, which is one about its middle; triangles with their normals
+// outwards.
 TriangleMesh boxOf(const PieceTree& tree, const PieceTree::Part& part, int body,
                    const fcl::CollisionGeometryd& geometry) {
   const OuterMeshRequest exactly{0.0, Eigen::Vector3d::Zero(), 0.0};
@@ -87,17 +88,10 @@ TriangleMesh boxOf(const PieceTree& tree, const PieceTree::Part& part, int body,
   return box;
 }
 
-// The boundary of a box, normals outwards.
-std::vector<Eigen::Vector3i> outwardTriangles(const TriangleMesh& box) {
-  const Eigen::Vector3d middle = 0.5 * (box.vertices.front() + box.vertices.back());
+std::vector<Eigen::Vector3i> trianglesOf(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector3i> triangles;
-  for (const fcl::Triangle& t : box.triangles) {
-    Eigen::Vector3i corners(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
-    const Eigen::Vector3d& p = box.vertices[t[0]];
-    const Eigen::Vector3d normal =
-        (box.vertices[t[1]] - p).normalized().cross((box.vertices[t[2]] - p).normalized());
-    if (normal.dot((p - middle).normalized()) < 0.0) std::swap(corners[1], corners[2]);
-    triangles.push_back(corners);
+  for (const fcl::Triangle& t : mesh.triangles) {
+    triangles.emplace_back(static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2]));
   }
   return triangles;
 }
@@ -166,10 +160,10 @@ CertificateWriter::Numbers CertificateWriter::writeObject(const CertifiedObject&
       continue;
     }
     for (int body = part.bodies.begin; body < part.bodies.end; ++body) {
-      TriangleMesh box = boxOf(tree, part, body, geometry);
+      const TriangleMesh box = boxOf(tree, part, body, geometry);
       numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(body)] = numbers.pieces++;
       numbers.vertices += static_cast<int>(box.vertices.size());
-      writePart({name, object.placed.parts[i]}, box.vertices, outwardTriangles(box), true);
+      writePart({name, object.placed.parts[i]}, box.vertices, trianglesOf(box), true);
     }
   }
   return numbers;
@@ -241,12 +235,17 @@ void CertificateWriter::writeCaps(const CertifiedObject& object, const char* nam
   out_ << "}\n";
 }
 
-void CertificateWriter::claim(const Claim& claim) {
+CertificateWriter::Corners CertificateWriter::cornersOf(const Cell& cell) const {
   Corners corners{};
   for (int k = 0; k < rank_; ++k) {
-    corners[static_cast<std::size_t>(k)] = claim.cell.lo[k];
-    corners[static_cast<std::size_t>(rank_ + k)] = claim.cell.hi[k];
+    corners[static_cast<std::size_t>(k)] = cell.lo[k];
+    corners[static_cast<std::size_t>(rank_ + k)] = cell.hi[k];
   }
+  return corners;
+}
+
+void CertificateWriter::claim(const Claim& claim) {
+  const Corners corners = cornersOf(claim.cell);
   if (claim.within.count == 0) {
     CellClaims whole;
     (claim.collides ? whole.contact : whole.free).push_back(claim);
@@ -256,14 +255,7 @@ void CertificateWriter::claim(const Claim& claim) {
   (claim.collides ? claims.contact : claims.free).push_back(claim);
 }
 
-void CertificateWriter::divided(const Cell& cell) {
-  Corners corners{};
-  for (int k = 0; k < rank_; ++k) {
-    corners[static_cast<std::size_t>(k)] = cell.lo[k];
-    corners[static_cast<std::size_t>(rank_ + k)] = cell.hi[k];
-  }
-  open_.erase(corners);
-}
+void CertificateWriter::divided(const Cell& cell) { open_.erase(cornersOf(cell)); }
 
 void CertificateWriter::writeCell(const Corners& corners, const CellClaims& claims) {
   ++cells_;

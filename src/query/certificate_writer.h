@@ -17,7 +17,7 @@ namespace fcl_prob::detail {
 
 /// An object, the geometry of each of its parts, and what messages call it.
 struct CertifiedObject {
-  const PartitionObject& placed;
+  PartitionObject placed;
   std::vector<const fcl::CollisionGeometryd*> geometries;
   std::string name;
 };
@@ -51,7 +51,7 @@ class CertificateWriter : public ClaimObserver {
     std::vector<Claim> free;
     std::vector<Claim> contact;
   };
-  using Corners = std::array<double, 6>;
+  using Corners = std::array<double, 6>;  ///< lowest, highest; zeros behind
 
   /// The numbers that the file gives to what the tree of an object has in another order.
   struct Numbers {
@@ -73,6 +73,7 @@ class CertificateWriter : public ClaimObserver {
   void writePart(const NamedPart& named, const std::vector<Eigen::Vector3d>& vertices,
                  const std::vector<Eigen::Vector3i>& triangles, bool convex);
   void writeCaps(const CertifiedObject& object, const char* name, Numbers& numbers);
+  Corners cornersOf(const Cell& cell) const;
   void writeCell(const Corners& corners, const CellClaims& claims);
   void writePlane(const CellPlane& plane, double sign);
   void writeWitness(const Claim& claim);

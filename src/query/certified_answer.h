@@ -4,23 +4,20 @@
 #pragma once
 
 #include <iosfwd>
-#include <string>
 
-#include "query/certificate_writer.h"
 #include "query/member_group.h"
 
 namespace fcl_prob::detail {
 
-/// Of one side; `name` is what messages call it.
+/// One side.
 struct PlacedMembers {
   const MemberGroup& group;
   const std::vector<fcl::Transform3d>& poses;
-  std::string name;
 };
 
-/// See certifiedProbability().
+/// Of groups that are not empty. \throws as certifiedProbability(), but for poses
 ProbabilityResult certifiedAnswer(const PlacedMembers& a, const PlacedMembers& b,
                                   const GaussianDisplacement& displacement,
-                                  const ProbabilityRequest& request, std::ostream& out);
+                                  const ProbabilityRequest& request, std::ostream& certificate);
 
 }  // namespace fcl_prob::detail

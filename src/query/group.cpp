@@ -5,12 +5,14 @@
 #include <map>
 #include <string>
 
+#include "fcl_prob/certificate.h"
 #include "fcl_prob/exceptions.h"
 #include "query/groups_query.h"
 
 namespace fcl_prob {
 namespace {
 
+using Objects = std::vector<const fcl::CollisionObjectd*>;
 using Poses = std::vector<fcl::Transform3d>;
 
 /// A geometry that is in the group many times, as a link at many waypoints, is prepared once.
@@ -28,6 +30,20 @@ detail::PreparedGeometries prepared(const GroupQuery::Geometries& geometries,
   }
   return all;
 }
+
+/// What one group of collision objects is made of.
+struct SplitObjects {
+  SplitObjects(const Objects& objects, const std::string& group) {
+    for (const fcl::CollisionObjectd* object : objects) {
+      if (object == nullptr) throw InvalidGeometry("an object of " + group + " is null");
+      geometries.push_back(object->collisionGeometry());
+      poses.push_back(object->getTransform());
+    }
+  }
+
+  GroupQuery::Geometries geometries;
+  Poses poses;
+};
 
 }  // namespace
 
@@ -76,24 +92,23 @@ double collisionProbability(const GroupQuery& query, const std::vector<fcl::Tran
   return result.probability();
 }
 
-double collisionProbability(const std::vector<const fcl::CollisionObjectd*>& group_a,
-                            const std::vector<const fcl::CollisionObjectd*>& group_b,
+double collisionProbability(const Objects& group_a, const Objects& group_b,
                             const GaussianDisplacement& displacement,
                             const ProbabilityRequest& request, ProbabilityResult& result) {
-  const auto split = [](const std::vector<const fcl::CollisionObjectd*>& objects,
-                        const std::string& name, Poses& poses) {
-    GroupQuery::Geometries geometries;
-    for (const fcl::CollisionObjectd* object : objects) {
-      if (object == nullptr) throw InvalidGeometry("an object of " + name + " is null");
-      geometries.push_back(object->collisionGeometry());
-      poses.push_back(object->getTransform());
-    }
-    return geometries;
-  };
-  Poses poses_a, poses_b;
-  const GroupQuery::Geometries a = split(group_a, "group A", poses_a);
-  const GroupQuery::Geometries b = split(group_b, "group B", poses_b);
-  return GroupQuery(a, b).collisionProbability(poses_a, poses_b, displacement, request, result);
+  const SplitObjects a(group_a, "group A"), b(group_b, "group B");
+  return GroupQuery(a.geometries, b.geometries)
+      .collisionProbability(a.poses, b.poses, displacement, request, result);
+}
+
+double certifiedProbability(const Objects& group_a, const Objects& group_b,
+                            const GaussianDisplacement& displacement,
+                            const ProbabilityRequest& request, std::ostream& certificate,
+                            ProbabilityResult& result) {
+  const SplitObjects a(group_a, "group A"), b(group_b, "group B");
+  const detail::GroupsQuery groups(prepared(a.geometries, "group A"),
+                                   prepared(b.geometries, "group B"));
+  result = groups.certified(a.poses, b.poses, displacement, request, certificate);
+  return result.probability();
 }
 
 }  // namespace fcl_prob

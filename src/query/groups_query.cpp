@@ -11,6 +11,7 @@
 #include "geometry/occupancy.h"
 #include "geometry/validation.h"
 #include "lines/motion_flux.h"
+#include "query/certified_answer.h"
 #include "query/groups_answer.h"
 #include "query/mixture_query.h"
 #include "query/motion_gradient.h"
@@ -51,8 +52,9 @@ void requireMethod(const ProbabilityRequest& request) {
 
 }  // namespace
 
-GroupsQuery::GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b)
-    : a_(std::move(group_a), "group A"), b_(std::move(group_b), "group B") {
+GroupsQuery::GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b,
+                         const std::string& name_a, const std::string& name_b)
+    : a_(std::move(group_a), name_a), b_(std::move(group_b), name_b) {
   if (a_.members().size() == 1 && b_.members().size() == 1) {
     single_.emplace(a_.members()[0], b_.members()[0]);
   } else if (a_.anyUnbounded() && b_.anyUnbounded()) {
@@ -125,6 +127,22 @@ ProbabilityResult GroupsQuery::answerOfGaussian(const Poses& poses_a, const Pose
     throw UnsupportedGeometry("a group with unbounded members knows no bands around its shapes");
   }
   return groupsAnswer({a_, poses_a, b_, poses_b, note()}, displacement, request, ball);
+}
+
+// What fcl::collide finds depends on more than the shapes where members are not alike: of a pair,
+// too, a certificate is then of nothing that it would find.
+ProbabilityResult GroupsQuery::certified(const Poses& poses_a, const Poses& poses_b,
+                                         const GaussianDisplacement& displacement,
+                                         const ProbabilityRequest& request,
+                                         std::ostream& certificate) const {
+  validate(poses_a, poses_b, request);
+  requireAlike(a_, b_);
+  requireAlike(b_, a_);
+  if (a_.isEmpty() || b_.isEmpty()) throw UnsupportedGeometry("no certificate of " + note());
+  ProbabilityResult result =
+      certifiedAnswer({a_, poses_a}, {b_, poses_b}, displacement, ofOneCall(request), certificate);
+  noteTolerance(request, result);
+  return result;
 }
 
 MotionGradient GroupsQuery::gradient(const Poses& poses_a, const Poses& poses_b,

@@ -3,6 +3,7 @@
 // Two groups of prepared geometries, queried.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,8 +22,10 @@ class GroupsQuery {
  public:
   using Poses = std::vector<fcl::Transform3d>;
 
+  /// \param name_a, name_b  how messages and certificates call them
   /// \throws as GroupQuery
-  GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b);
+  GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b,
+              const std::string& name_a = "group A", const std::string& name_b = "group B");
 
   /// \throws what GroupQuery::collisionProbability() does, before any work
   ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,
@@ -34,6 +37,11 @@ class GroupsQuery {
   ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,
                            const TruncatedGaussian& displacement,
                            const ProbabilityRequest& request) const;
+
+  /// An interval and its certificate. \throws what certifiedProbability() does
+  ProbabilityResult certified(const Poses& poses_a, const Poses& poses_b,
+                              const GaussianDisplacement& displacement,
+                              const ProbabilityRequest& request, std::ostream& certificate) const;
 
   /// \throws what GroupQuery::motionGradient() does, before any work
   MotionGradient gradient(const Poses& poses_a, const Poses& poses_b,

@@ -33,6 +33,8 @@ class MemberGroup {
     }
   }
 
+  /// How messages call it.
+  const std::string& name() const { return name_; }
   const PreparedGeometries& members() const { return members_; }
 
   /// Of the bounded members, made when it is first needed.

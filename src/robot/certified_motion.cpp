@@ -9,7 +9,7 @@
 
 #include "cells/without_contact.h"
 #include "fcl_prob/exceptions.h"
-#include "query/certified_answer.h"
+#include "query/groups_query.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 
@@ -18,39 +18,40 @@ namespace {
 
 /// What one obstacle has to do with all placed bodies.
 struct Event {
-  const Obstacle& obstacle;
-  const PreparedObstacle& prepared;
-  std::unique_ptr<const MemberGroup> bodies;  ///< null: no body may touch it
-  std::vector<fcl::Transform3d> poses;
+  GaussianDisplacement displacement;
+  std::unique_ptr<const GroupsQuery> query;  ///< null: no body may touch the obstacle
+  std::vector<fcl::Transform3d> of_obstacle;
+  std::vector<fcl::Transform3d> of_bodies;
   std::string certificate;
 };
 
 Event eventOf(const RobotAmongObstacles& among, std::size_t i,
               const std::vector<PlacedBody>& placed) {
-  PreparedGeometries geometries;
-  std::vector<fcl::Transform3d> poses;
-  for (const PlacedBody& body : placed) {
-    geometries.push_back(among.geometries()[body.body]);
-    poses.push_back(body.pose);
+  const Obstacle& obstacle = among.obstacles()[i];
+  const PreparedObstacle& prepared = among.preparedObstacle(i);
+  if (placed.empty()) return {};
+  const ObstacleState state = stateAt(obstacle, 0);
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
+  if (!gaussian) {
+    throw UnsupportedGeometry("no certificate of obstacle " + obstacle.name +
+                              ", whose displacement is not Gaussian");
   }
-  std::unique_ptr<const MemberGroup> bodies;
-  if (!placed.empty()) bodies = std::make_unique<const MemberGroup>(geometries, "the robot");
-  return {among.obstacles()[i], among.preparedObstacle(i), std::move(bodies), std::move(poses), {}};
+  Event event{*gaussian, nullptr, prepared.poses(state.pose), {}, {}};
+  PreparedGeometries bodies;
+  for (const PlacedBody& body : placed) {
+    bodies.push_back(among.geometries()[body.body]);
+    event.of_bodies.push_back(body.pose);
+  }
+  event.query = std::make_unique<const GroupsQuery>(prepared.geometries(), std::move(bodies),
+                                                    prepared.group().name(), "the robot");
+  return event;
 }
 
 ProbabilityResult ask(Event& event, const ProbabilityRequest& request) {
-  if (!event.bodies) return withoutContact(request, "no body may touch it");
-  const ObstacleState state = stateAt(event.obstacle, 0);
-  const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
-  if (!gaussian) {
-    throw UnsupportedGeometry("no certificate of obstacle " + event.obstacle.name +
-                              ", whose displacement is not Gaussian");
-  }
+  if (!event.query) return withoutContact(request, "no body may touch it");
   std::ostringstream text;
-  const std::vector<fcl::Transform3d> of_obstacle = event.prepared.poses(state.pose);
   ProbabilityResult result =
-      certifiedAnswer({event.prepared.group(), of_obstacle, "obstacle " + event.obstacle.name},
-                      {*event.bodies, event.poses, "the robot"}, *gaussian, request, text);
+      event.query->certified(event.of_obstacle, event.of_bodies, event.displacement, request, text);
   event.certificate = text.str();
   return result;
 }
@@ -70,7 +71,6 @@ RobotResult certifiedMotion(const RobotAmongObstacles& among,
       std::vector<Bounds>(events.size(), Bounds{0.0, 1.0}), request,
       [&](std::size_t i, const ProbabilityRequest& of_one) { return ask(events[i], of_one); });
   for (const Event& event : events) certificate << event.certificate;
-  result.plan = among.notes();
   return result;
 }
 

@@ -136,6 +136,12 @@ struct RobotQuery::Implementation {
 
   const std::vector<Obstacle>& obstacles() const { return among.obstacles(); }
 
+  void addNotes(const ProbabilityRequest& request, RobotResult& result) const {
+    result.plan = among.notes();
+    const double tolerance = request.toleranceAt(result.estimate.value_or(result.any.upper));
+    detail::addNotes(detail::precisionNotes(among.robot(), obstacles(), tolerance), result.plan);
+  }
+
   /// What half-spaces say of an event, before any of `count` is asked. (A single one begins with
   /// them itself, and estimates are of what is likely.)
   Bounds cheapBounds(std::size_t obstacle, const ObstacleState& state,
@@ -398,9 +404,7 @@ RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints, Er
                        : errors == ErrorsOverTime::persistent
                            ? implementation_->ofUnion(waypoints, -1, request)
                            : implementation_->ofWaypoints(waypoints, errors, request);
-  result.plan = implementation_->among.notes();
-  const double tolerance = request.toleranceAt(result.estimate.value_or(result.any.upper));
-  detail::addNotes(detail::precisionNotes(robot(), obstacles(), tolerance), result.plan);
+  implementation_->addNotes(request, result);
   return result;
 }
 
@@ -408,8 +412,10 @@ RobotResult RobotQuery::certified(const std::vector<Eigen::VectorXd>& waypoints,
                                   const ProbabilityRequest& request,
                                   std::ostream& certificate) const {
   implementation_->validate(waypoints, request);
-  return detail::certifiedMotion(implementation_->among, waypoints, detail::ofOneCall(request),
-                                 certificate);
+  RobotResult result = detail::certifiedMotion(implementation_->among, waypoints,
+                                               detail::ofOneCall(request), certificate);
+  implementation_->addNotes(request, result);
+  return result;
 }
 
 ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& waypoints,

@@ -134,6 +134,13 @@ TEST_CASE("What no certificate can be written of") {
                     Catch::Matchers::Contains("member 1 of group B: Sphere"));
   CHECK_THROWS_AS(certify({at(box)}, {at(half_space)}, error), UnsupportedGeometry);
   CHECK_THROWS_AS(certify({at(box)}, {at(box)}, normal(0, 0, 0)), InvalidRequest);
+  const auto absent = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
+  absent->cost_density = 0.0;  // not occupied: fcl::collide leaves it out
+  CHECK_THROWS_AS(certify({at(absent)}, {at(box)}, error), UnsupportedGeometry);
+  ProbabilityResult unused;
+  std::ostringstream text;
+  CHECK_THROWS_AS(certifiedProbability({nullptr}, {nullptr}, error, {}, text, unused),
+                  InvalidGeometry);
   ProbabilityRequest request;
   request.method = ProbabilityMethod::estimate;
   CHECK_THROWS_AS(certify({at(box)}, {at(box)}, error, request), InvalidRequest);

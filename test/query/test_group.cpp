@@ -217,6 +217,69 @@ TEST_CASE("two boxes apart along one axis: the mass of the union of their slabs"
   CHECK(*result.upper - *result.lower <= 1e-6 * expected);
 }
 
+TEST_CASE("spheres that are not in each other's way: the sum of their balls' masses") {
+  GroupScene scene;
+  add(scene.a, scene.poses_a, std::make_shared<fcl::Sphered>(0.5), at({0.1, 0.2, 0.3}));
+  const std::vector<Eigen::Vector3d> places = {{1.6, 0.2, 0.3}, {-1.3, 0.1, 0.2}, {0.2, 9.0, 0.1}};
+  for (const Eigen::Vector3d& place : places) {
+    add(scene.b, scene.poses_b, std::make_shared<fcl::Sphered>(0.4), at(place));
+  }
+  scene.displacement = GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1});
+  std::vector<double> masses;
+  for (const Eigen::Vector3d& place : places) {
+    const double distance = (place - Eigen::Vector3d(0.1, 0.2, 0.3)).norm();
+    masses.push_back(normalBallMass(distance / 0.1, 0.9 / 0.1).middle());
+  }
+  const auto check = [&](double expected) {
+    ProbabilityRequest request;
+    request.relative_tolerance = 1e-3;
+    request.absolute_tolerance = 0.0;
+    const ProbabilityResult result = scene.answer(request);
+    CHECK(result.status == ProbabilityStatus::converged);
+    CHECK(*result.lower <= expected * (1 + 1e-12));
+    CHECK(*result.upper >= expected * (1 - 1e-12));
+    CHECK(*result.upper - *result.lower <= 1e-3 * *result.upper);
+  };
+  check(masses[0] + masses[1] + masses[2]);
+  scene.poses_b[1] = scene.poses_b[0];  // two of them as one
+  check(masses[0] + masses[2]);
+}
+
+TEST_CASE("groups of convex shapes hold what their pairs and a gradient's cells tell") {
+  RandomBodies random(29);
+  const std::vector<NamedGeometry> shapes = boundedShapes();
+  for (int i = 0; i < 20; ++i) {
+    GroupScene scene;
+    const auto shape = [&] {
+      return shapes[static_cast<std::size_t>(random.integer(0, 7))].geometry;
+    };
+    for (int k = random.integer(1, 2); k > 0; --k) {
+      add(scene.a, scene.poses_a, shape(), random.pose(0.2));
+    }
+    for (int k = random.integer(2, 4); k > 0; --k) {
+      fcl::Transform3d pose = random.pose(0.0);
+      pose.translation() = random.uniform(1.0, 2.5) * random.direction();
+      add(scene.b, scene.poses_b, shape(), pose);
+    }
+    const double size = i % 2 == 0 ? 0.3 : 0.1;
+    scene.displacement = randomDisplacement(random, 0.3 * size, size);
+    ProbabilityRequest request;
+    request.absolute_tolerance = 1e-12;
+    request.relative_tolerance = 0.03;
+    request.max_cells = 20'000;
+    const ProbabilityResult result = scene.answer(request);
+    request.gradient = true;
+    request.relative_tolerance = 0.1;
+    const ProbabilityResult cells = scene.answer(request);
+    CAPTURE(i, *result.lower, *result.upper, *cells.lower, *cells.upper);
+    CHECK(*result.lower <= *cells.upper);
+    CHECK(*result.upper >= *cells.lower);
+    const Bounds any = anyOf(scene.pairs());
+    CHECK(*result.lower <= any.upper);
+    CHECK(*result.upper >= any.lower);
+  }
+}
+
 TEST_CASE("copies of one geometry at one place are one geometry") {
   RandomBodies random(2);
   GroupScene scene;
