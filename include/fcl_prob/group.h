@@ -3,6 +3,7 @@
 // The probability that any of several objects that share one displacement collides.
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 #include <vector>
 
@@ -46,6 +47,13 @@ class GroupQuery {
                               const std::vector<fcl::Transform3d>& poses_b,
                               const GaussianDisplacement& displacement,
                               const ProbabilityRequest& request, ProbabilityResult& result) const;
+
+  /// The same as a certified interval that somebody else can check: see fcl_prob/certificate.h.
+  double certifiedProbability(const std::vector<fcl::Transform3d>& poses_a,
+                              const std::vector<fcl::Transform3d>& poses_b,
+                              const GaussianDisplacement& displacement,
+                              const ProbabilityRequest& request, std::ostream& certificate,
+                              ProbabilityResult& result) const;
 
   /// How P changes as the members of A move, each by itself: an estimate, see MotionGradient.
   /// \param velocities  of the members of A: see MemberVelocities, rigidMotions()

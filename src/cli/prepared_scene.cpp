@@ -8,7 +8,7 @@
 #include "base/decision.h"
 #include "base/stopwatch.h"
 #include "base/until_no.h"
-#include "fcl_prob/certificate.h"
+#include "fcl_prob/group.h"
 #include "io/import_notes.h"
 
 namespace fcl_prob::cli {
@@ -143,15 +143,11 @@ TimedResult PreparedScene::certified(const ProbabilityRequest& request,
         "no certificate with parts, --bv sphere, kdop26 and convex, errors of poses or "
         "reconstructed clouds");
   }
-  // FCL's objects may be changed, but are not.
-  const auto asObject = [](const Geometry& geometry, const fcl::Transform3d& pose) {
-    return fcl::CollisionObjectd(std::const_pointer_cast<fcl::CollisionGeometryd>(geometry), pose);
-  };
-  const fcl::CollisionObjectd a = asObject(geometry_a_, a_.pose);
-  const fcl::CollisionObjectd b = asObject(geometry_b_, b_.pose);
   TimedResult timed;
   const detail::Stopwatch watch;
-  certifiedProbability({&a}, {&b}, displacement_, request, certificate, timed.result);
+  GroupQuery({geometry_a_}, {geometry_b_})
+      .certifiedProbability({a_.pose}, {b_.pose}, displacement_, request, certificate,
+                            timed.result);
   timed.time_ms = watch.milliseconds();
   addImportNotes(request, timed.result);
   return timed;

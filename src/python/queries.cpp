@@ -7,7 +7,6 @@
 #include <mutex>
 #include <sstream>
 
-#include "fcl_prob/certificate.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
@@ -89,22 +88,18 @@ ProbabilityResult askOnce(const py::object& a, const py::object& b, const py::ob
   });
 }
 
-// As a collision object, which FCL's function takes; it is not changed.
-fcl::CollisionObjectd objectFrom(const Geometry& geometry, const fcl::Transform3d& pose) {
-  return {std::const_pointer_cast<fcl::CollisionGeometryd>(geometry), pose};
-}
-
 py::tuple certify(const py::object& a, const py::object& b, const py::object& displacement,
                   const py::object& pose_a, const py::object& pose_b, const py::kwargs& request) {
   const Randomness randomness = randomnessFrom(displacement, "displacement");
   const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness);
   if (!gaussian) throw UnsupportedGeometry("no certificate of a displacement that is not Gaussian");
-  const auto object_a = objectFrom(geometryFrom(a, "a"), poseFrom(pose_a, "pose_a"));
-  const auto object_b = objectFrom(geometryFrom(b, "b"), poseFrom(pose_b, "pose_b"));
+  const GroupQuery groups({geometryFrom(a, "a")}, {geometryFrom(b, "b")});
+  const fcl::Transform3d at_a = poseFrom(pose_a, "pose_a");
+  const fcl::Transform3d at_b = poseFrom(pose_b, "pose_b");
   std::ostringstream certificate;
   ProbabilityResult found =
       answer(questionFrom(request), [&](const auto& of, ProbabilityResult& result) {
-        certifiedProbability({&object_a}, {&object_b}, *gaussian, of, certificate, result);
+        groups.certifiedProbability({at_a}, {at_b}, *gaussian, of, certificate, result);
       });
   return py::make_tuple(std::move(found), certificate.str());
 }

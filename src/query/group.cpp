@@ -68,6 +68,15 @@ double GroupQuery::collisionProbability(const std::vector<fcl::Transform3d>& pos
   return result.probability();
 }
 
+double GroupQuery::certifiedProbability(const Poses& poses_a, const Poses& poses_b,
+                                        const GaussianDisplacement& displacement,
+                                        const ProbabilityRequest& request,
+                                        std::ostream& certificate,
+                                        ProbabilityResult& result) const {
+  result = implementation_->groups.certified(poses_a, poses_b, displacement, request, certificate);
+  return result.probability();
+}
+
 MotionGradient GroupQuery::motionGradient(const std::vector<fcl::Transform3d>& poses_a,
                                           const std::vector<fcl::Transform3d>& poses_b,
                                           const GaussianDisplacement& displacement,
@@ -105,10 +114,8 @@ double certifiedProbability(const Objects& group_a, const Objects& group_b,
                             const ProbabilityRequest& request, std::ostream& certificate,
                             ProbabilityResult& result) {
   const SplitObjects a(group_a, "group A"), b(group_b, "group B");
-  const detail::GroupsQuery groups(prepared(a.geometries, "group A"),
-                                   prepared(b.geometries, "group B"));
-  result = groups.certified(a.poses, b.poses, displacement, request, certificate);
-  return result.probability();
+  return GroupQuery(a.geometries, b.geometries)
+      .certifiedProbability(a.poses, b.poses, displacement, request, certificate, result);
 }
 
 }  // namespace fcl_prob
