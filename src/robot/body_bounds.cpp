@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bounds/common_half_spaces.h"
 #include "bounds/convex_bound.h"
 #include "geometry/occupancy.h"
 #include "robot/sum_above.h"
@@ -11,6 +12,9 @@
 namespace fcl_prob::detail {
 
 namespace {
+
+/// Of what would be enough: a body that is less likely to touch is not looked at more closely.
+constexpr double kUnlikely = 1e-3;
 
 double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
                    const PreparedGeometry& other, const fcl::Transform3d& other_pose,
@@ -35,11 +39,14 @@ double bodyUpper(const PreparedGeometry& body, const fcl::Transform3d& pose,
 
 BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
                        const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
-                       const GaussianDisplacement& of_bodies) {
-  const std::vector<fcl::Transform3d> poses = obstacle.poses(pose);
+                       const GaussianDisplacement& of_bodies)
+    : geometries_(geometries),
+      obstacle_(obstacle),
+      poses_(obstacle.poses(pose)),
+      of_bodies_(of_bodies) {
   for (const PlacedBody& body : bodies) {
     bounds_.push_back(
-        {body, bodyUpper(*geometries[body.body], body.pose, obstacle, poses, of_bodies)});
+        {body, bodyUpper(*geometries[body.body], body.pose, obstacle, poses_, of_bodies)});
   }
   std::stable_sort(bounds_.begin(), bounds_.end(),
                    [](const Bound& x, const Bound& y) { return x.upper > y.upper; });
@@ -49,6 +56,23 @@ double BodyBounds::sum() const {
   double sum = 0.0;
   for (const Bound& bound : bounds_) sum = sumAbove(sum, bound.upper);
   return std::min(1.0, sum);
+}
+
+double BodyBounds::together(double enough) const {
+  CommonHalfSpaces common(of_bodies_);
+  double apart = 0.0;
+  for (const Bound& bound : bounds_) {
+    const PreparedGeometry& body = *geometries_[bound.body.body];
+    const bool is_unlikely = bound.upper < kUnlikely * enough;
+    for (std::size_t i = 0; i < poses_.size() && !is_unlikely; ++i) {
+      const PreparedGeometry& other = *obstacle_.geometries()[i];
+      if (whyNeverInContact(body.geometry(), other.geometry())) continue;
+      if (!body.hasRootBody() || !other.hasRootBody()) return sum();
+      common.add(body.nodeHulls(), bound.body.pose, other.nodeHulls(), poses_[i]);
+    }
+    if (is_unlikely) apart = sumAbove(apart, bound.upper);
+  }
+  return std::min(sum(), sumAbove(common.upper(enough - apart), apart));
 }
 
 std::vector<PlacedBody> BodyBounds::likelier(double most, double& left_out) const {

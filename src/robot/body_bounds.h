@@ -25,12 +25,17 @@ class BodyBounds {
   /// \param geometries  of the robot's bodies
   /// \param pose        of the obstacle
   /// \param of_bodies   their displacement relative to it
+  /// All must outlive this.
   BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
              const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
              const GaussianDisplacement& of_bodies);
 
   /// Certainly not below P that any of them touches it.
   double sum() const;
+
+  /// No more than sum(): by half-spaces that several bodies have in common, in some tenths of a
+  /// millisecond. Stops when it is below `enough`, or when that is out of reach.
+  double together(double enough) const;
 
   /// The bodies but for those that are least likely to touch it.
   /// \param most      what those left out may add up to
@@ -43,6 +48,10 @@ class BodyBounds {
     double upper;
   };
 
+  const PreparedGeometries& geometries_;
+  const PreparedObstacle& obstacle_;
+  std::vector<fcl::Transform3d> poses_;  ///< of the bodies of the obstacle
+  GaussianDisplacement of_bodies_;
   std::vector<Bound> bounds_;  ///< the likeliest first
 };
 

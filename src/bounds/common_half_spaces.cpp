@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "bounds/common_half_spaces.h"
+
+#include <algorithm>
+
+#include "base/constants.h"
+#include "convex/nearest.h"
+#include "convex/pair_obstacle.h"
+#include "fcl_prob/normal_mass.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+// More than what a mass, a sum of a few and the length of a unit vector are rounded by.
+constexpr double kRounding = 1e-9;
+
+/// Of what the half-spaces have: what pairs that are not held yet may add without being divided.
+constexpr double kHardly = 0.01;
+
+/// Pairs that are divided at most: about as long as a partition takes to begin with.
+constexpr int kMostDivided = 100;
+
+double massBehind(double distance) {
+  if (!(distance > 0.0)) return 1.0;
+  return normalTailMass(distance) * (1.0 + kRounding) + kUnderflow;
+}
+
+}  // namespace
+
+void CommonHalfSpaces::add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
+                           const fcl::Transform3d& pose_b) {
+  bodies_.push_back({a, b, PairFrame(displacement_, pose_a, a.size, pose_b, b.size)});
+  bodies_.back().frame.error += a.slack + b.slack;
+  Pair whole;
+  whole.of = bodies_.size() - 1;
+  whole.a = whole.b = 0;
+  open(std::move(whole), 1.0);
+}
+
+double CommonHalfSpaces::distanceAlong(const Pair& pair, const Eigen::Vector3d& towards) const {
+  const Bodies& bodies = bodies_[pair.of];
+  const PairObstacle obstacle(bodies.frame, bodies.a.nodes[pair.a].hull.set(),
+                              bodies.b.nodes[pair.b].hull.set());
+  return -obstacle->support(-towards) * (1.0 - kRounding);
+}
+
+void CommonHalfSpaces::open(Pair pair, double most) {
+  pair.own = most;
+  pair.distances.clear();
+  for (const HalfSpace& one : half_spaces_) {
+    pair.distances.push_back(distanceAlong(pair, one.towards));
+    if (pair.distances.back() >= one.distance) return;
+  }
+  const Bodies& bodies = bodies_[pair.of];
+  if (bodies.frame.rank == 3 && bodies.frame.fits) {
+    const PairObstacle obstacle(bodies.frame, bodies.a.nodes[pair.a].hull.set(),
+                                bodies.b.nodes[pair.b].hull.set());
+    const Eigen::Vector3d towards = gjkDirection(*obstacle);
+    const double own = towards.squaredNorm() > 0.5 ? massBehind(distanceAlong(pair, towards)) : 1.0;
+    if (own < most) {
+      pair.towards = towards;
+      pair.own = own;
+    }
+  }
+  appraise(pair);
+  pairs_.push_back(std::move(pair));
+}
+
+void CommonHalfSpaces::appraise(Pair& pair) const {
+  pair.cost = pair.own;
+  pair.cheapest = -1;
+  for (std::size_t i = 0; i < half_spaces_.size(); ++i) {
+    const double distance = std::min(pair.distances[i], half_spaces_[i].distance);
+    const double more = massBehind(distance) - half_spaces_[i].mass;
+    if (more < pair.cost) {
+      pair.cost = std::max(0.0, more);
+      pair.cheapest = static_cast<int>(i);
+    }
+  }
+}
+
+bool CommonHalfSpaces::isLeaf(const Pair& pair) const {
+  return bodies_[pair.of].a.nodes[pair.a].isLeaf() && bodies_[pair.of].b.nodes[pair.b].isLeaf();
+}
+
+void CommonHalfSpaces::divide(const Pair& pair) {
+  const NodeHulls::Node& a = bodies_[pair.of].a.nodes[pair.a];
+  const NodeHulls::Node& b = bodies_[pair.of].b.nodes[pair.b];
+  const bool divides_a = b.isLeaf() || (!a.isLeaf() && a.radius > b.radius);
+  for (const int child : {divides_a ? a.left : b.left, divides_a ? a.right : b.right}) {
+    Pair of_child = pair;
+    (divides_a ? of_child.a : of_child.b) = child;
+    open(std::move(of_child), pair.own);
+  }
+}
+
+void CommonHalfSpaces::hold(const Pair& pair) {
+  if (pair.cheapest < 0) {
+    half_spaces_.push_back({pair.towards, distanceAlong(pair, pair.towards), pair.own});
+    for (Pair& other : pairs_) {
+      other.distances.push_back(distanceAlong(other, pair.towards));
+    }
+  } else {
+    HalfSpace& one = half_spaces_[pair.cheapest];
+    one.distance = std::min(one.distance, pair.distances[pair.cheapest]);
+    one.mass = massBehind(one.distance);
+  }
+  for (Pair& other : pairs_) appraise(other);
+}
+
+double CommonHalfSpaces::held() const {
+  double sum = 0.0;
+  for (const HalfSpace& one : half_spaces_) sum += one.mass;
+  return sum;
+}
+
+double CommonHalfSpaces::upper(double enough) {
+  const auto sum = [this] {
+    double sum = held();
+    for (const Pair& pair : pairs_) sum += pair.cost;
+    return std::min(1.0, sum * (1.0 + kRounding));
+  };
+  for (int divided = 0; divided < kMostDivided && !pairs_.empty();) {
+    if (sum() < enough || !(held() < enough)) break;
+    const auto most = std::max_element(
+        pairs_.begin(), pairs_.end(),
+        [](const Pair& x, const Pair& y) { return x.cost < y.cost; });
+    if (most->cost * static_cast<double>(pairs_.size()) < kHardly * held()) break;
+    std::swap(*most, pairs_.back());
+    const Pair pair = std::move(pairs_.back());
+    pairs_.pop_back();
+    if (isLeaf(pair)) {
+      hold(pair);
+      continue;
+    }
+    divide(pair);
+    ++divided;
+  }
+  return sum();
+}
+
+}  // namespace fcl_prob::detail

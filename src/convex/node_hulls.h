@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Convex hulls of the nodes of a mesh, coarse to fine: what is near of a body that is not convex.
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+
+#include <vector>
+
+#include "fcl_prob/convex_body.h"
+
+namespace fcl_prob::detail {
+
+/// The topology is that of the upper part of FCL's own tree.
+struct NodeHulls {
+  struct Node {
+    ConvexBody hull;
+    double radius;   ///< metres: half the diagonal of a box around it
+    int left = -1;   ///< index of the first child, greater than the node's own; -1 at a leaf
+    int right = -1;  ///< index of the second child
+    bool isLeaf() const { return left < 0; }
+  };
+
+  std::vector<Node> nodes;  ///< nodes[0] is around everything
+  double size = 0.0;        ///< metres: no vertex of a hull is farther from the origin
+  double slack = 0.0;       ///< metres: by no more than this contents reach out of a hull
+};
+
+/// \param whole  around all of it: the only node of what is no mesh, or convex
+NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody& whole);
+
+}  // namespace fcl_prob::detail
