@@ -211,7 +211,7 @@ void CertificateWriter::writePart(const NamedPart& named,
 void CertificateWriter::writeCaps(const CertifiedObject& object, const char* name,
                                   Numbers& numbers) {
   const PieceTree& tree = *object.placed.tree;
-  if (!tree.caps || tree.caps->triangles.empty()) return;
+  if (tree.parts.size() > 1 || !tree.caps || tree.caps->triangles.empty()) return;
   std::vector<Eigen::Vector3d> apexes;
   int next = static_cast<int>(meshView(*object.geometries[0]).vertex_count);
   std::vector<Eigen::Vector3i> triangles;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // One piece tree of many.
+#include <algorithm>
 #include <vector>
 
 #include "scene/leaf_order.h"
@@ -18,6 +19,9 @@ class TreeJoiner {
   PieceTree run() {
     std::vector<int> roots = partRoots();
     if (!roots.empty()) addUpperNodes(roots, 0, roots.size());
+    const bool capped = std::all_of(trees_.begin(), trees_.end(),
+                                    [](const PieceTree* tree) { return tree->caps.has_value(); });
+    if (capped) joined_.caps.emplace();
     for (const PieceTree* tree : trees_) append(*tree);
     if (joined_.isMesh()) tellTriangles(joined_);
     return std::move(joined_);
@@ -62,8 +66,24 @@ class TreeJoiner {
     for (const PieceTree::Body& body : tree.bodies) {
       joined_.bodies.push_back({body.position, body.shape + at.shapes});
     }
+    if (joined_.caps) append(*tree.caps, first_vertex);
     joined_.vertices.insert(joined_.vertices.end(), tree.vertices.begin(), tree.vertices.end());
     joined_.shapes.insert(joined_.shapes.end(), tree.shapes.begin(), tree.shapes.end());
+  }
+
+  // What closes each of the meshes closes all of them: at every edge there is an even number of
+  // triangles still.
+  void append(const MeshCaps& caps, const Eigen::Vector3i& first_vertex) {
+    MeshCaps& all = *joined_.caps;
+    const int first_triangle = static_cast<int>(all.triangles.size());
+    for (const MeshCaps::Cap& cap : caps.caps) {
+      all.caps.push_back({cap.first + first_triangle, cap.last + first_triangle});
+    }
+    for (const Eigen::Vector3i& t : caps.triangles) all.triangles.push_back(t + first_vertex);
+    for (const int component : caps.components.of_vertex) {
+      all.components.of_vertex.push_back(component < 0 ? -1 : component + all.components.count);
+    }
+    all.components.count += caps.components.count;
   }
 
   struct Offsets {

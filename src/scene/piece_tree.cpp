@@ -20,9 +20,6 @@ namespace fcl_prob::detail {
 
 namespace {
 
-// With fewer triangles a mesh's own pairs cover what there is to cover.
-constexpr int kFewestForCaps = 500;
-
 template <typename Visit>
 void visitPoints(PieceTree& tree, const Visit& visit) {
   for (Eigen::Vector3d& v : tree.vertices) visit(v, 0.0);
@@ -106,7 +103,7 @@ void fillMesh(const fcl::CollisionGeometryd& geometry, PieceTree& tree) {
                                 static_cast<int>(t[2]));
   }
   tree.nodes = visitMesh(geometry, [](const auto& model) { return copyTopology(model); });
-  if (view.triangle_count >= kFewestForCaps) fillCaps(view, tree);
+  fillCaps(view, tree);
 }
 
 // The middle of the body is its position, so that a body far from its frame's origin loses nothing
@@ -157,8 +154,7 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     PieceTree::Part& part = tree->parts[0];
     part.fan = convexFanOf(view, tree->vertices, part.origin);
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
-    part.spans =
-        spansOf(view, tree->caps ? tree->caps->components : componentsOf(view, weldVertices(view)));
+    part.spans = spansOf(view, tree->caps->components);
     part.patches = std::make_shared<const PatchesOfMesh>();
     part.slabs = std::make_shared<const SlabsOfNodes>();
     orderByLeaves(*tree);

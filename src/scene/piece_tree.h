@@ -21,7 +21,8 @@ namespace fcl_prob::detail {
 
 class SlabsOfNodes;
 
-/// What closes a mesh, for the question which points are inside: caps over its open boundaries.
+/// What closes meshes, for the question which points are inside an odd number of them: caps over
+/// their open boundaries.
 struct MeshCaps {
   struct Cap {
     int first;  ///< of its triangles
@@ -29,7 +30,7 @@ struct MeshCaps {
   };
   std::vector<Cap> caps;
   std::vector<Eigen::Vector3i> triangles;  ///< indices into the tree's vertices
-  SurfaceComponents components;            ///< of the mesh's own vertices only
+  SurfaceComponents components;            ///< of the meshes' own vertices only
 };
 
 /// The largest nodes of a single mesh with no more than kMostTriangles. Nodes come in this order:
@@ -109,7 +110,7 @@ struct PieceTree {
   std::vector<Eigen::Vector3i> triangles;  ///< indices of vertices
   std::vector<Body> bodies;
   std::vector<ConvexPiece> shapes;  ///< in the axes of their part
-  std::optional<MeshCaps> caps;     ///< of a single mesh of many triangles
+  std::optional<MeshCaps> caps;     ///< of one or more meshes and nothing else
 
   /// Of an octree: a cell is both occupied and free.
   bool any_cell_also_free = false;
