@@ -26,17 +26,6 @@ double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
 
 }  // namespace
 
-double bodyUpper(const PreparedGeometry& body, const fcl::Transform3d& pose,
-                 const PreparedObstacle& obstacle, const std::vector<fcl::Transform3d>& poses,
-                 const GaussianDisplacement& of_bodies) {
-  const PreparedGeometries& others = obstacle.geometries();
-  double upper = upperOfPair(body, pose, *others[0], poses[0], of_bodies);
-  for (std::size_t i = 1; i < poses.size() && upper < 1.0; ++i) {
-    upper = sumAbove(upper, upperOfPair(body, pose, *others[i], poses[i], of_bodies));
-  }
-  return std::min(1.0, upper);
-}
-
 BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
                        const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
                        const GaussianDisplacement& of_bodies)
@@ -44,12 +33,18 @@ BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<P
       obstacle_(obstacle),
       poses_(obstacle.poses(pose)),
       of_bodies_(of_bodies) {
-  for (const PlacedBody& body : bodies) {
-    bounds_.push_back(
-        {body, bodyUpper(*geometries[body.body], body.pose, obstacle, poses_, of_bodies)});
-  }
+  for (const PlacedBody& body : bodies) bounds_.push_back({body, upperOf(body)});
   std::stable_sort(bounds_.begin(), bounds_.end(),
                    [](const Bound& x, const Bound& y) { return x.upper > y.upper; });
+}
+
+double BodyBounds::upperOf(const PlacedBody& body) const {
+  double upper = 0.0;
+  for (std::size_t i = 0; i < poses_.size() && upper < 1.0; ++i) {
+    upper = sumAbove(upper, upperOfPair(*geometries_[body.body], body.pose,
+                                        *obstacle_.geometries()[i], poses_[i], of_bodies_));
+  }
+  return std::min(1.0, upper);
 }
 
 double BodyBounds::sum() const {
@@ -59,6 +54,7 @@ double BodyBounds::sum() const {
 }
 
 double BodyBounds::together(double enough) const {
+  if (sum() < enough) return sum();
   CommonHalfSpaces common(of_bodies_);
   double apart = 0.0;
   for (const Bound& bound : bounds_) {

@@ -11,17 +11,15 @@
 
 namespace fcl_prob::detail {
 
-/// Certainly not below P that a body touches the obstacle.
-/// \param poses      of the bodies of the obstacle
-/// \param of_bodies  the displacement of the robot's bodies relative to it
-double bodyUpper(const PreparedGeometry& body, const fcl::Transform3d& pose,
-                 const PreparedObstacle& obstacle, const std::vector<fcl::Transform3d>& poses,
-                 const GaussianDisplacement& of_bodies);
-
 /// The bodies of one query, each with a bound on P that it touches the obstacle. Their sum bounds P
 /// that any of them does.
 class BodyBounds {
  public:
+  struct Bound {
+    PlacedBody body;
+    double upper;  ///< certainly not below P that it touches the obstacle
+  };
+
   /// \param geometries  of the robot's bodies
   /// \param pose        of the obstacle
   /// \param of_bodies   their displacement relative to it
@@ -29,6 +27,9 @@ class BodyBounds {
   BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
              const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
              const GaussianDisplacement& of_bodies);
+
+  /// The likeliest first.
+  const std::vector<Bound>& bounds() const { return bounds_; }
 
   /// Certainly not below P that any of them touches it.
   double sum() const;
@@ -43,16 +44,13 @@ class BodyBounds {
   std::vector<PlacedBody> likelier(double most, double& left_out) const;
 
  private:
-  struct Bound {
-    PlacedBody body;
-    double upper;
-  };
+  double upperOf(const PlacedBody& body) const;
 
   const PreparedGeometries& geometries_;
   const PreparedObstacle& obstacle_;
   std::vector<fcl::Transform3d> poses_;  ///< of the bodies of the obstacle
   GaussianDisplacement of_bodies_;
-  std::vector<Bound> bounds_;  ///< the likeliest first
+  std::vector<Bound> bounds_;
 };
 
 }  // namespace fcl_prob::detail

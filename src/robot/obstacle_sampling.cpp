@@ -34,13 +34,13 @@ std::size_t ObstacleSampling::samples() const {
   return (lines_ ? lines_->lines() : 0) + (partition_ ? partition_->statistics().samples : 0);
 }
 
-void ObstacleSampling::boundByHalfSpaces(double most_left_out) {
+void ObstacleSampling::boundByHalfSpaces(double most_left_out, double enough) {
   if (scene_.bodies.empty()) return;
   const BodyBounds bounds(geometries_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
                           displacement_);
   double left_out = 0.0;
   scene_.bodies = bounds.likelier(most_left_out, left_out);
-  certified_.upper = std::min(certified_.upper, sumAbove(bounds.sum(), far_));
+  certified_.upper = std::min(certified_.upper, sumAbove(bounds.together(enough - far_), far_));
   probable_.upper = std::min(probable_.upper, certified_.upper);
   far_ = sumAbove(far_, left_out);
 }

@@ -28,7 +28,8 @@ class ObstacleSampling {
 
   /// Half-spaces between bodies and obstacle; those that hardly matter need no samples.
   /// \param most_left_out  what they may add up to
-  void boundByHalfSpaces(double most_left_out);
+  /// \param enough         a bound that is lower is of no more use
+  void boundByHalfSpaces(double most_left_out, double enough);
 
   /// Makes what tells by lines. False where there are no lines.
   /// \param chance  of an error of theirs

@@ -57,9 +57,10 @@ class AnyProbably {
 
   ProbableResult run() {
     if (decide()) return finished(ProbabilityStatus::decided);
-    const double unlikely =
-        kUnlikelyOfThreshold * threshold_ / static_cast<double>(obstacles_.size());
-    for (const auto& obstacle : obstacles_) obstacle->boundByHalfSpaces(unlikely);
+    const double share = threshold_ / static_cast<double>(obstacles_.size());
+    for (const auto& obstacle : obstacles_) {
+      obstacle->boundByHalfSpaces(kUnlikelyOfThreshold * share, share);
+    }
     share_ = kShareOfMethod * chance_ / static_cast<double>(obstacles_.size());
     if (sampling_.by_lines) {
       if (const auto ended = tryLines()) return finished(*ended);

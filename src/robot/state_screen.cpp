@@ -3,16 +3,13 @@
 #include "robot/state_screen.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 #include "base/random_words.h"
-#include "robot/body_bounds.h"
+#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-// More than what a sum of masses is rounded by.
-constexpr double kMassRounding = 1e-9;
 
 /// Of the threshold: a bound by balls that is smaller is not looked at more closely.
 constexpr double kNegligible = 1e-4;
@@ -47,7 +44,6 @@ StateScreen::StateScreen(const RobotAmongObstacles& among) : among_(among) {
   for (std::size_t j = 0; j < among.obstacles().size(); ++j) {
     const Obstacle& obstacle = among.obstacles()[j];
     draw(obstacle, j);
-    at_.push_back(among.preparedObstacle(j).poses(obstacle.pose));
     of_bodies_.push_back(std::get<GaussianDisplacement>(obstacle.displacement).reversed());
   }
 }
@@ -65,67 +61,78 @@ void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
 
 std::optional<bool> StateScreen::tell(const Eigen::VectorXd& values, double threshold) const {
   if (!is_usable_) return std::nullopt;
-  const std::vector<fcl::Transform3d> poses = among_.robot().poses(values);
-  if (isBelow(poses, threshold)) return true;
-  if (isHardlyBelow(poses, threshold)) return false;
+  const Near near = nearOf(values, kNegligible * threshold);
+  if (isBelow(near, threshold)) return true;
+  if (isHardlyBelow(near, threshold)) return false;
   return std::nullopt;
 }
 
 bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const {
-  return is_usable_ && isBelow(among_.robot().poses(values), threshold);
+  return is_usable_ && isBelow(nearOf(values, kNegligible * threshold), threshold);
 }
 
 bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold) const {
-  return is_usable_ && isHardlyBelow(among_.robot().poses(values), threshold);
+  return is_usable_ && isHardlyBelow(nearOf(values, kNegligible * threshold), threshold);
 }
 
-bool StateScreen::isBelow(const std::vector<fcl::Transform3d>& poses, double threshold) const {
-  return pairsBelow(poses, kNegligible * threshold, threshold).has_value();
+bool StateScreen::isBelow(const Near& near, double threshold) const {
+  const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
+  const auto& all = near.of_obstacles;
+  if (std::accumulate(all.begin(), all.end(), near.far, sumOf) < threshold) return true;
+  // What is left of the threshold to the next obstacle, while the others have what is known.
+  double so_far = near.far;
+  for (auto next = all.begin(); next != all.end() && so_far < threshold; ++next) {
+    const double others = std::accumulate(next + 1, all.end(), so_far, sumOf);
+    so_far = sumAbove(so_far, next->together(std::max(0.0, threshold - others)));
+  }
+  return so_far < threshold;
 }
 
-bool StateScreen::isHardlyBelow(const std::vector<fcl::Transform3d>& poses,
-                                double threshold) const {
-  const auto near =
-      pairsBelow(poses, kNegligible * threshold, std::numeric_limits<double>::infinity());
+bool StateScreen::isHardlyBelow(const Near& near, double threshold) const {
   const double enough = kTimesAsOften * threshold * kDraws + kMoreHits;
-  const auto isHit = [&](std::size_t draw) {
-    return std::any_of(near->begin(), near->end(), [&](const Pair& pair) {
-      if (pair.upper < kShareOfPair * threshold) return false;
-      fcl::Transform3d moved = among_.obstacles()[pair.obstacle].pose;
-      moved.translation() += moved_[pair.obstacle][draw];
-      return among_.preparedObstacle(pair.obstacle)
-          .touches(among_.geometries()[pair.body]->geometry(), poses[pair.body], moved);
+  const auto isHitBy = [&](std::size_t draw, std::size_t obstacle) {
+    fcl::Transform3d moved = among_.obstacles()[obstacle].pose;
+    moved.translation() += moved_[obstacle][draw];
+    const auto& bounds = near.of_obstacles[obstacle].bounds();
+    return std::any_of(bounds.begin(), bounds.end(), [&](const BodyBounds::Bound& bound) {
+      return bound.upper >= kShareOfPair * threshold &&
+             among_.preparedObstacle(obstacle).touches(
+                 among_.geometries()[bound.body.body]->geometry(), bound.body.pose, moved);
     });
   };
   int hits = 0;
   for (int i = 0; i < kDraws && hits + (kDraws - i) >= enough; ++i) {
-    hits += isHit(static_cast<std::size_t>(i));
+    bool is_hit = false;
+    for (std::size_t j = 0; j < near.of_obstacles.size() && !is_hit; ++j) {
+      is_hit = isHitBy(static_cast<std::size_t>(i), j);
+    }
+    hits += is_hit;
     if (hits >= enough) return true;
   }
   return false;
 }
 
-std::optional<std::vector<StateScreen::Pair>> StateScreen::pairsBelow(
-    const std::vector<fcl::Transform3d>& poses, double negligible, double enough) const {
-  std::vector<Pair> pairs;
-  double sum = 0.0;
+StateScreen::Near StateScreen::nearOf(const Eigen::VectorXd& values, double negligible) const {
+  const std::vector<fcl::Transform3d> poses = among_.robot().poses(values);
+  Near near;
   for (std::size_t j = 0; j < among_.obstacles().size(); ++j) {
     const Obstacle& obstacle = among_.obstacles()[j];
     const PreparedObstacle& prepared = among_.preparedObstacle(j);
     const Ball around = prepared.around().placed(obstacle.pose);
+    std::vector<PlacedBody> bodies;
     for (const std::size_t i : among_.bodiesOf(j)) {
-      double upper =
+      const double upper =
           farContactUpper(among_.balls()[i].placed(poses[i]), around, obstacle.displacement);
       if (upper > negligible) {
-        upper = std::min(
-            upper, bodyUpper(*among_.geometries()[i], poses[i], prepared, at_[j], of_bodies_[j]));
+        bodies.push_back({i, poses[i]});
+      } else {
+        near.far = sumAbove(near.far, upper);
       }
-      pairs.push_back({i, j, upper});
-      sum += upper;
-      if (!(sum * (1.0 + kMassRounding) < enough)) return std::nullopt;
     }
+    near.of_obstacles.emplace_back(among_.geometries(), bodies, prepared, obstacle.pose,
+                                   of_bodies_[j]);
   }
-  return pairs;
+  return near;
 }
 
 }  // namespace fcl_prob::detail

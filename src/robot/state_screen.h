@@ -6,12 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "robot/body_bounds.h"
 #include "robot/robot_among_obstacles.h"
 
 namespace fcl_prob::detail {
 
-/// Half-spaces between the hulls of bodies and obstacles, whose masses are added up; and a few
-/// displaced obstacles.
+/// Half-spaces between bodies and obstacles, whose masses are added up; and a few displaced
+/// obstacles.
 class StateScreen {
  public:
   /// \param among  must outlive this
@@ -31,22 +32,20 @@ class StateScreen {
   bool isHardlyBelow(const Eigen::VectorXd& values, double threshold) const;
 
  private:
-  struct Pair {
-    std::size_t body;
-    std::size_t obstacle;
-    double upper;  ///< certainly not below P that they touch
+  /// Bodies that are not far from an obstacle, by obstacle, and what those left out add up to.
+  struct Near {
+    std::vector<BodyBounds> of_obstacles;
+    double far = 0.0;
   };
 
-  bool isBelow(const std::vector<fcl::Transform3d>& poses, double threshold) const;
-  bool isHardlyBelow(const std::vector<fcl::Transform3d>& poses, double threshold) const;
+  bool isBelow(const Near& near, double threshold) const;
+  bool isHardlyBelow(const Near& near, double threshold) const;
 
-  /// All of them, by half-spaces; nothing once their sum is not below `enough`.
-  std::optional<std::vector<Pair>> pairsBelow(const std::vector<fcl::Transform3d>& poses,
-                                              double negligible, double enough) const;
+  /// \param negligible  what one that is left out may add
+  Near nearOf(const Eigen::VectorXd& values, double negligible) const;
   void draw(const Obstacle& obstacle, std::uint64_t stream);
 
   const RobotAmongObstacles& among_;
-  std::vector<std::vector<fcl::Transform3d>> at_;    ///< of every obstacle's bodies
   std::vector<GaussianDisplacement> of_bodies_;      ///< of the bodies relative to each obstacle
   std::vector<std::vector<Eigen::Vector3d>> moved_;  ///< draws of every obstacle's displacement
 
