@@ -164,13 +164,14 @@ class RobotQuery {
 
   /// In one state that is known up to errors of the joints and the base: P over these and all
   /// displacements. An estimate, whose threshold is decided with ProbabilityRequest::confidence;
-  /// `any` is [0, 1] but where the errors turn out to be none. Values that are drawn may be beyond
-  /// the limits of joints. There is no answer by obstacle. Where no errors are given: as state().
-  /// \param request  method automatic, estimate or monte_carlo
+  /// `any` is [0, 1] but where the errors turn out to be none. For method interval a certified one,
+  /// by bands around the bodies: as narrow as was asked for only where the errors move them by much
+  /// less than the obstacles' deviations. Values that are drawn may be beyond the limits of joints.
+  /// There is no answer by obstacle. Where no errors are given: as state().
+  /// \param request  method automatic, interval, estimate or monte_carlo
   /// \throws InvalidDistribution for a covariance that is none, or not of the robot's joints;
-  ///         UnsupportedGeometry for method interval, and where contact with some obstacles only
-  ///         is allowed; InvalidRequest for a displacement that is not Gaussian or an obstacle
-  ///         that moves; as state()
+  ///         UnsupportedGeometry where contact with some obstacles only is allowed; InvalidRequest
+  ///         for a displacement that is not Gaussian or an obstacle that moves; as state()
   RobotResult state(const Eigen::VectorXd& values, const RobotErrors& errors,
                     const ProbabilityRequest& request) const;
 

@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "cells/claim_observer.h"
+#include "geometry/clipped_triangle.h"
 #include "scene/band_margin.h"
 
 namespace fcl_prob::detail {
@@ -128,50 +129,6 @@ std::vector<std::array<int, 6>> extremesOfComponents(const WhitenedTree& mesh) {
   return extremes;
 }
 
-// What is left of a triangle within a box: every side adds one corner at most.
-struct ClippedTriangle {
-  std::array<Eigen::Vector3d, 9> corners;
-  int count;
-
-  // Keeps {sign x[axis] <= level}.
-  void clip(int axis, double sign, double level);
-};
-
-void ClippedTriangle::clip(int axis, double sign, double level) {
-  std::array<double, 9> beyond;
-  int outside = 0;
-  for (int i = 0; i < count; ++i) {
-    beyond[i] = sign * corners[i][axis] - level;
-    if (beyond[i] > 0) ++outside;
-  }
-  if (outside == 0) return;
-  const ClippedTriangle whole = *this;
-  count = 0;
-  if (outside == whole.count) return;
-  for (int i = 0; i < whole.count; ++i) {
-    const int next = i + 1 < whole.count ? i + 1 : 0;
-    if (beyond[i] <= 0) corners[count++] = whole.corners[i];
-    if ((beyond[i] <= 0) == (beyond[next] <= 0)) continue;
-    const double share = beyond[i] / (beyond[i] - beyond[next]);
-    corners[count++] = whole.corners[i] + share * (whole.corners[next] - whole.corners[i]);
-  }
-}
-
-// The largest m·x over the part of a triangle within a box; -inf if there is none.
-double highestWithin(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& lo,
-                     const Eigen::Vector3d& hi, const Eigen::Vector3d& m) {
-  ClippedTriangle rest;
-  std::copy(triangle.begin(), triangle.end(), rest.corners.begin());
-  rest.count = 3;
-  for (int k = 0; k < 3 && rest.count > 0; ++k) {
-    rest.clip(k, 1.0, hi[k]);
-    rest.clip(k, -1.0, -lo[k]);
-  }
-  double highest = -kInfinity;
-  for (int i = 0; i < rest.count; ++i) highest = std::max(highest, m.dot(rest.corners[i]));
-  return highest;
-}
-
 // Every clip rounds a corner by less than 8 epsilon of coordinates like these, axis by axis: its
 // distances from a side are differences of two doubles. In a box that is larger by the sum nothing
 // is lost.
@@ -195,8 +152,7 @@ CrossingWitness::CrossingWitness(const WhitenedPair& pair, bool solid)
   }
   const auto add = [this](const WhitenedTree& inner, const WhitenedTree& outer, double sign) {
     // Certificates know what is inside one surface only.
-    const bool is_certificate = claim_observer && claim_observer->needsAll();
-    if (is_certificate && outer.tree->parts.size() > 1) return;
+    if (outer.tree->parts.size() > 1 && claim_observer && claim_observer->needsAll()) return;
     std::vector<Candidate> candidates;
     for (int vertex : spreadVertices(*inner.tree, kCandidates)) candidates.push_back({vertex, {}});
     sides_.push_back({CappedTree(inner), CappedTree(outer), sign, std::move(candidates),

@@ -419,8 +419,8 @@ void bindQuery(py::module_& module) {
            py::arg("base_error") = py::none(),
            "In one state: (k,) values of the joints, or a dict of them by name. joint_error:\n"
            "standard deviations by name or a (k, k) covariance, base_error: a PoseError; with\n"
-           "either an estimate. request: as collision_probability takes it; method 'auto',\n"
-           "'interval' or 'estimate'.")
+           "either an estimate, or for method 'interval' a certified interval. request: as\n"
+           "collision_probability takes it; method 'auto', 'interval' or 'estimate'.")
       .def("decide_states", &decideStates, py::arg("states"), py::arg("threshold"),
            py::arg("chance_of_error") = py::none(),
            "Whether P in each state (n, k) is below the threshold: names as of ProbableResult,\n"

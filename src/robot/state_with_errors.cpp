@@ -11,6 +11,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/pose_probability.h"
 #include "fcl_prob/random_configuration.h"
+#include "robot/interval_with_errors.h"
 #include "robot/joint_indices.h"
 #include "robot/moving_obstacle.h"
 
@@ -118,9 +119,13 @@ ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen:
     return poses;
   };
   const bool several = displacements.size() > 1;
+  const Eigen::MatrixXd covariance = covarianceOf(errors, values.size());
   std::shared_ptr<const RandomConfiguration> configuration = std::make_shared<RandomJoints>(
-      values, covarianceOf(errors, values.size()), kinematics, poses_b,
+      values, covariance, kinematics, poses_b,
       several ? GaussianDisplacement() : displacements[0].reversed());
+  if (request.method == ProbabilityMethod::interval) {
+    return intervalWithErrors(among, values, covariance, errors.base, request);
+  }
   if (errors.base) {
     const fcl::Transform3d base = robot.linkPose(robot.links()[0].name, values);
     configuration = std::make_shared<RandomBase>(configuration, base, *errors.base);

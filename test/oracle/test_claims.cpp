@@ -6,6 +6,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include "catch.h"
+#include "fcl_prob/group.h"
 #include "mesh_shapes.h"
 #include "oracle/claim_checker.h"
 #include "shapes.h"
@@ -104,6 +105,51 @@ TEST_CASE("Claims of meshes of hundreds of triangles, closed and open, as surfac
     const ClaimReport report =
         checkClaims({a.get(), pose_a}, {b.get(), pose_b}, randomDisplacement(random, 0.05, 0.3),
                     request, ClaimBudget{300, 2, 2}, random.integer(0, 1 << 30));
+    checkReport(report);
+    sum += report;
+  }
+  CHECK(sum.by_method["crossing surfaces"].checked > 20);
+}
+
+// Of several meshes a vertex is inside an odd number of them, also where they overlap.
+TEST_CASE("Claims of groups of meshes that overlap, closed and open, as surfaces and as solids") {
+  RandomBodies random(1204);
+  ClaimReport sum;
+  for (int trial = 0; trial < 8; ++trial) {
+    const bool solid = trial % 2 == 0;
+    const auto mesh = [&](double radius, int seed) {
+      TriangleMesh result = bumpyMesh(radius, 14, 20, seed);
+      const int count = static_cast<int>(result.triangles.size());
+      if (!solid) result.triangles.resize(static_cast<std::size_t>(random.integer(400, count)));
+      return makeModel<fcl::OBBRSSd>(result);
+    };
+    fcl_prob::GroupQuery::Geometries links{mesh(0.5, trial), mesh(0.4, trial + 20), mesh(0.2, 3)};
+    std::vector<fcl::Transform3d> at;
+    std::vector<oracle::Placed> placed;
+    for (const auto& link : links) {
+      at.emplace_back(random.pose(0.5));
+      placed.push_back({link.get(), at.back()});
+    }
+    const fcl_prob::GroupQuery::Geometries other{mesh(1.0, trial + 40)};
+    const fcl::Transform3d pose(random.pose(1.5));
+    ProbabilityRequest request = interval(solid ? ContactMeaning::solid : ContactMeaning::fcl);
+    request.relative_tolerance = 1e-3;
+    request.max_cells = 800;
+    const GaussianDisplacement error = randomDisplacement(random, 0.05, 0.3);
+    const bool first = trial % 4 < 2;
+    const auto ask = [&] {
+      fcl_prob::ProbabilityResult result;
+      if (first) {
+        fcl_prob::GroupQuery(links, other).collisionProbability(at, {pose}, error, request, result);
+      } else {
+        fcl_prob::GroupQuery(other, links).collisionProbability({pose}, at, error, request, result);
+      }
+    };
+    const std::vector<oracle::Placed> alone{{other[0].get(), pose}};
+    const oracle::Scene scene(first ? placed : alone, first ? alone : placed,
+                              solid ? oracle::Contact::solid : oracle::Contact::surface);
+    const ClaimReport report =
+        checkClaims(scene, ask, ClaimBudget{300, 2, 2}, random.integer(0, 1 << 30));
     checkReport(report);
     sum += report;
   }

@@ -4,6 +4,7 @@
 #include "arm_motions.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "random_bodies.h"
 #include "temporary_folder.h"
 
 using namespace fcl_prob;
@@ -76,6 +77,77 @@ TEST_CASE("errors of joints, base and obstacles together are what counting finds
   }
 }
 
+TEST_CASE("certified intervals over errors of a robot hold what counting finds") {
+  constexpr int kDraws = 1'000;
+  RandomBodies random(5);
+  int narrow = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Obstacle> all = ballAndBox();
+    all.resize(1 + static_cast<std::size_t>(i % 2));
+    const RobotQuery query(shippedArm(), all);
+    const Eigen::VectorXd values = query.robot().values({{"turn", random.uniform(-0.5, 1.2)},
+                                                         {"shoulder", random.uniform(-0.3, 0.4)},
+                                                         {"elbow", random.uniform(0.0, 0.6)}});
+    RobotErrors errors;
+    const double small = random.logUniform(0.0005, 0.02);
+    errors.joints = jointCovariance(query.robot(), {{"turn", small}, {"shoulder", 0.5 * small}});
+    const double of_base = i % 4 < 2 ? 0.0 : random.logUniform(0.0005, 0.01);
+    if (of_base > 0.0) {
+      errors.base = PoseError::fromStandardDeviations(Eigen::Vector3d::Constant(of_base),
+                                                      Eigen::Vector3d::Zero());
+    }
+    ProbabilityRequest request = withTolerance(0.05);
+    request.method = ProbabilityMethod::interval;
+    const RobotResult result = query.state(values, errors, request);
+    const double truth =
+        countedWithErrors(query, values, deviationsOf(errors.joints), of_base, kDraws);
+    CAPTURE(i, small, of_base, truth, result.any.lower, result.any.upper, result.plan);
+    const auto slack = [](double p) { return 5.0 * std::sqrt(p * (1.0 - p) / kDraws) + 1e-9; };
+    CHECK_FALSE(result.estimate);
+    CHECK(truth <= result.any.upper + slack(result.any.upper));
+    CHECK(truth >= result.any.lower - slack(result.any.lower));
+    narrow += result.any.width() < 0.3;
+  }
+  CHECK(narrow > 15);
+}
+
+TEST_CASE("turns of the base move what is far from it") {
+  const RobotQuery query(shippedArm(), {ballAndBox()[0]});
+  const Eigen::VectorXd values = query.robot().values({{"turn", 0.6}, {"elbow", 0.3}});
+  ProbabilityRequest request = withTolerance(0.02);
+  request.method = ProbabilityMethod::interval;
+  const Bounds exact = query.state(values, request).any;
+  double before = exact.width();
+  for (const double turn : {0.001, 0.01, 0.1}) {
+    for (const PoseConvention convention :
+         {PoseConvention::world_rotation_vector, PoseConvention::world_exponential}) {
+      RobotErrors errors;
+      errors.base =
+          PoseError::fromStandardDeviations({0.0, 0.0, 0.0}, {0.0, 0.0, turn}, convention);
+      const Bounds any = query.state(values, errors, request).any;
+      CHECK(overlap(any, exact));
+      CHECK(any.width() >= before);
+    }
+    before = std::min(0.99, before * 1.2);
+  }
+}
+
+TEST_CASE("an interval over errors of a robot decides what is far from the threshold") {
+  const RobotQuery query(shippedArm(), {ballAndBox()[0]});
+  RobotErrors errors;
+  errors.joints = jointCovariance(query.robot(), {{"turn", 0.002}, {"elbow", 0.002}});
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::interval;
+  request.threshold = 0.9;
+  const Eigen::VectorXd values = query.robot().values({{"turn", 0.6}, {"elbow", 0.3}});
+  CHECK(query.state(values, errors, request).decision == Decision::below);
+  request.threshold = 1e-3;
+  CHECK(query.state(values, errors, request).decision == Decision::above);
+  request.on_progress = [](const ProbabilityProgress&) { return false; };
+  request.threshold = query.state(values, {}).any.middle();
+  CHECK(query.state(values, errors, request).status == ProbabilityStatus::cancelled);
+}
+
 TEST_CASE("a robot whose errors are none is where it is said to be") {
   const RobotQuery query(shippedArm(), {ballAndBox()[0]});
   const Eigen::VectorXd values = query.robot().values({{"turn", 0.35}, {"elbow", 0.3}});
@@ -96,9 +168,6 @@ TEST_CASE("errors of a robot that cannot be meant are refused") {
   errors.joints = Eigen::MatrixXd::Identity(2, 2);
   CHECK_THROWS_AS(query.state(values, errors, {}), InvalidDistribution);
   errors.joints = jointCovariance(query.robot(), {{"elbow", 0.1}});
-  ProbabilityRequest interval;
-  interval.method = ProbabilityMethod::interval;
-  CHECK_THROWS_AS(query.state(values, errors, interval), UnsupportedGeometry);
   const std::string base = query.robot().bodies()[0].name();
   const RobotQuery partly(shippedArm(), ballAndBox(), {{base, "box"}});
   CHECK_THROWS_AS(partly.state(values, errors, {}), UnsupportedGeometry);

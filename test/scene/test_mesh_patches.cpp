@@ -34,6 +34,7 @@ using fcl_prob_test::RandomBodies;
 using fcl_prob_test::sphereMesh;
 using fcl_prob_test::torusMesh;
 using fcl_prob_test::WhitenedMeshes;
+using fcl_prob_test::windingNumber;
 
 TriangleMesh moved(const TriangleMesh& mesh, double scale, const Eigen::Vector3d& by) {
   TriangleMesh result = mesh;
