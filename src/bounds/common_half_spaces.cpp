@@ -121,8 +121,9 @@ double CommonHalfSpaces::upper(double enough) {
     for (const Pair& pair : pairs_) sum += pair.cost;
     return std::min(1.0, sum * (1.0 + kRounding));
   };
+  double least = sum();  // a body may have less than its parts in sum
   for (int divided = 0; divided < kMostDivided && !pairs_.empty();) {
-    if (sum() < enough || !(held() < enough)) break;
+    if (least < enough || !(held() < enough)) break;
     const auto most = std::max_element(
         pairs_.begin(), pairs_.end(),
         [](const Pair& x, const Pair& y) { return x.cost < y.cost; });
@@ -132,12 +133,13 @@ double CommonHalfSpaces::upper(double enough) {
     pairs_.pop_back();
     if (isLeaf(pair)) {
       hold(pair);
-      continue;
+    } else {
+      divide(pair);
+      ++divided;
     }
-    divide(pair);
-    ++divided;
+    least = std::min(least, sum());
   }
-  return sum();
+  return least;
 }
 
 }  // namespace fcl_prob::detail

@@ -16,6 +16,11 @@ namespace {
 constexpr unsigned kGjkIterations = 60;
 constexpr double kGjkTolerance = 1e-7;  // whitened units, absolute
 
+/// A plane that is so far away, as a share of the nearest point, is good enough, or was not found
+/// in so many steps: 1e-3 of 3 deviations is 1 % of the mass behind it.
+constexpr double kCloseEnough = 0.999;
+constexpr int kMostSteps = 30;
+
 /// The point of a segment nearest to the origin.
 Eigen::Vector3d nearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d along = b - a;
@@ -61,6 +66,25 @@ void supportOfOrigin(const void*, const ccd_vec3_t*, ccd_vec3_t* point) {
   ccdVec3Set(point, 0.0, 0.0, 0.0);
 }
 
+/// What GJK ends with where a face looks exactly at the origin may be far off. Towards the nearest
+/// point so far, which comes nearer along the segment to a support point (Gilbert 1966), as long as
+/// the plane there is much nearer than that point.
+Eigen::Vector3d improved(const CObstacle& obstacle, Eigen::Vector3d x) {
+  Eigen::Vector3d towards = x.stableNormalized();
+  Eigen::Vector3d point = obstacle.supportPoint(-towards);
+  double farthest = point.dot(towards);
+  for (int i = 0; i < kMostSteps && farthest < kCloseEnough * x.norm(); ++i) {
+    x = nearestOnSegment(x, point);
+    if (!(x.squaredNorm() > 0.0)) break;
+    const Eigen::Vector3d n = x.normalized();
+    point = obstacle.supportPoint(-n);
+    if (!(point.dot(n) > farthest)) continue;
+    farthest = point.dot(n);
+    towards = n;
+  }
+  return towards;
+}
+
 }  // namespace
 
 Separation separationOf(const FaceSet& faces, int rank) {
@@ -102,7 +126,9 @@ Eigen::Vector3d gjkDirection(const CObstacle& obstacle) {
     const bool apart = fcl::detail::GJKDistance<double>(
         object, supportOfObstacle, object, supportOfOrigin, kGjkIterations, kGjkTolerance,
         &distance, &on_obstacle, &at_origin);
-    if (apart && distance > 0.0 && on_obstacle.allFinite()) return on_obstacle.stableNormalized();
+    if (apart && distance > 0.0 && on_obstacle.allFinite()) {
+      return improved(obstacle, on_obstacle);
+    }
   } catch (const std::exception&) {
     // FCL reports degenerate simplices this way; a proposal less.
   }

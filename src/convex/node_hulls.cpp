@@ -6,18 +6,38 @@
 #include <algorithm>
 
 #include "convex/convex_set.h"
+#include "geometry/enclosed_volume.h"
 #include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::detail {
 namespace {
 
-/// With more vertices a node's bounding volume has to do: every face of a hull is held against every
-/// point.
+/// With more vertices a node's bounding volume has to do: every face of a hull is held against
+/// every point.
 constexpr std::size_t kLargestHull = 10'000;
 
 /// A node is a leaf with this share of the triangles, or so few: finer hulls say more of how much a
 /// mesh is not convex, and take longer to make, once a mesh.
 constexpr int kLeaves = 64, kFewTriangles = 16;
+
+/// What has so much of its hull's volume is not divided: its parts' hulls say little more.
+constexpr double kConvexShare = 0.9;
+
+TriangleMesh surfaceOf(const ConvexMesh& hull) {
+  TriangleMesh surface{hull.vertices, {}};
+  for (const ConvexMesh::Face& face : hull.faces) {
+    const int* const corners = &hull.corners[static_cast<std::size_t>(face.first)];
+    for (int k = 2; k < face.count; ++k) {
+      surface.triangles.emplace_back(corners[0], corners[k - 1], corners[k]);
+    }
+  }
+  return surface;
+}
+
+bool isAboutConvex(const MeshView& mesh, const ConvexBody& whole) {
+  const double of_hull = enclosedVolume(surfaceOf(whole.set().outerMesh()));
+  return enclosedVolume(triangleMesh(mesh)) > kConvexShare * of_hull;
+}
 
 double radiusOf(const ConvexBody& body) {
   Eigen::AlignedBox3d box;
@@ -98,9 +118,8 @@ class HullsOfModel {
 NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody& whole) {
   NodeHulls tree;
   tree.nodes.push_back({whole, radiusOf(whole)});
-  if (kindOf(geometry) == GeometryKind::mesh) {
+  if (kindOf(geometry) == GeometryKind::mesh && !isAboutConvex(meshView(geometry), whole)) {
     visitMesh(geometry, [&tree](const auto& model) {
-      if (model.num_tris == 0) return 0;
       HullsOfModel hulls(model, tree);
       hulls.divide(0, 0);
       return 0;

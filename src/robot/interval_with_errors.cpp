@@ -26,7 +26,7 @@ namespace {
 constexpr double kDeviations[] = {3.5, 5.0, 2.5};
 
 // More than what a deviation, a mass, a length and a turn are rounded by.
-constexpr double kRounding = 1e-8;
+constexpr double kErrorRounding = 1e-8;
 
 /// What the errors are but for a chance.
 struct Within {
@@ -38,7 +38,7 @@ struct Within {
 
 Within within(double deviations, const Eigen::MatrixXd& covariance,
               const std::optional<PoseError>& base) {
-  const double most = deviations * (1.0 + kRounding);
+  const double most = deviations * (1.0 + kErrorRounding);
   Within result;
   result.joints = most * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   Eigen::Index varying = (result.joints.array() > 0.0).count();
@@ -46,11 +46,13 @@ Within within(double deviations, const Eigen::MatrixXd& covariance,
     const PoseError::Vector6 of_base =
         most * base->covariance().diagonal().cwiseMax(0.0).cwiseSqrt();
     varying += (of_base.array() > 0.0).count();
-    result.shift = (1.0 + kRounding) * (base->mean().head<3>().norm() + of_base.head<3>().norm());
-    result.turn = (1.0 + kRounding) * (base->mean().tail<3>().norm() + of_base.tail<3>().norm());
+    result.shift =
+        (1.0 + kErrorRounding) * (base->mean().head<3>().norm() + of_base.head<3>().norm());
+    result.turn =
+        (1.0 + kErrorRounding) * (base->mean().tail<3>().norm() + of_base.tail<3>().norm());
   }
   const double tails = 2.0 * static_cast<double>(varying) * normalTailMass(deviations);
-  result.chance = std::min(1.0, (1.0 + kRounding) * tails);
+  result.chance = std::min(1.0, (1.0 + kErrorRounding) * tails);
   return result;
 }
 
@@ -78,7 +80,7 @@ class IntervalWithErrors {
       const Eigen::Vector3d centre = turns_about_origin_ ? Eigen::Vector3d::Zero().eval() : base_;
       const double lever = (around.centre - centre).norm() + around.radius + reach;
       reach += errors.shift + errors.turn * lever;
-      reaches.push_back((1.0 + kRounding) * reach);
+      reaches.push_back((1.0 + kErrorRounding) * reach);
     }
     return reaches;
   }
@@ -113,7 +115,7 @@ class IntervalWithErrors {
           return query.answer(poses, prepared.poses(state.pose), reversed(displacement), banded);
         },
         state.displacement);
-    addStatistics(spent, result.statistics);
+    addStatistics(result.statistics, spent);
     return {result.lower.value_or(0.0), std::min(1.0, sumAbove(result.upper.value_or(1.0), far))};
   }
 
@@ -156,11 +158,11 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
       ProbabilityStatistics spent;
       events.push_back(parts.ofObstacle(i, reaches, part, width, spent));
       budget.spend(spent);
-      addStatistics(result.statistics, spent);
+      addStatistics(spent, result.statistics);
     }
     // Given the errors of the robot the obstacles are independent events.
     const Bounds any = anyOfIndependent(events);
-    known.narrow({any.lower * (1.0 - errors.chance) * (1.0 - kRounding),
+    known.narrow({any.lower * (1.0 - errors.chance) * (1.0 - kErrorRounding),
                   std::min(1.0, sumAbove(any.upper, errors.chance))});
     result.plan.push_back("errors of the robot within " + numberText(deviations) +
                           " deviations, but for a chance of " + numberText(errors.chance) +

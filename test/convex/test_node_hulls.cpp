@@ -14,6 +14,7 @@ namespace {
 using namespace fcl_prob_test;
 using fcl_prob::ConvexBody;
 using fcl_prob::detail::NodeHulls;
+using fcl_prob::detail::nodeHullsOf;
 
 /// How far a point is beyond the hull in the worst of some directions, metres.
 double beyond(const ConvexBody& hull, const Eigen::Vector3d& point,
@@ -62,7 +63,9 @@ TEST_CASE("every triangle of a mesh is within the hull of a leaf, every leaf wit
   }
 }
 
-TEST_CASE("what is no mesh, and a mesh of few triangles, has one hull") {
+TEST_CASE("what is no mesh, few triangles or about convex has one hull") {
+  const auto ball = sphereMesh(1.0, 20, 40);
+  CHECK(nodeHullsOf(*makeModel<fcl::OBBd>(ball), ConvexBody(ball.vertices)).nodes.size() == 1);
   const fcl::Boxd box(1.0, 2.0, 3.0);
   CHECK(nodeHullsOf(box, ConvexBody(box)).nodes.size() == 1);
   CHECK(nodeHullsOf(box, ConvexBody(box)).nodes[0].radius == Approx(0.5 * std::sqrt(14.0)));
