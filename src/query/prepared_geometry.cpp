@@ -8,7 +8,6 @@
 #include "convex/support_shape.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/validation.h"
-#include "convex/node_hulls.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -77,13 +76,6 @@ const ConvexBody& PreparedGeometry::hull() const {
         std::vector<Eigen::Vector3d>(mesh.vertices, mesh.vertices + mesh.vertex_count));
   });
   return *hull_;
-}
-
-const NodeHulls& PreparedGeometry::nodeHulls() const {
-  std::call_once(node_hulls_once_, [this] {
-    node_hulls_ = std::make_shared<const NodeHulls>(nodeHullsOf(*geometry_, hull()));
-  });
-  return *node_hulls_;
 }
 
 const ConvexSolid* PreparedGeometry::convexSolid() const {

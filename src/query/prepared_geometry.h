@@ -19,8 +19,6 @@
 
 namespace fcl_prob::detail {
 
-struct NodeHulls;
-
 /// Checks a geometry once; the rest is built when a method first needs it. Const calls are safe on
 /// several threads.
 class PreparedGeometry {
@@ -42,9 +40,6 @@ class PreparedGeometry {
   /// Of what has a root body: itself, or the convex hull of a mesh, or the root volume of a mesh of
   /// very many vertices.
   const ConvexBody& hull() const;
-
-  /// hull(), and hulls of what it is made of.
-  const NodeHulls& nodeHulls() const;
 
   /// Whether it is a bounded convex shape, which rootBody() then is.
   bool isConvex() const;
@@ -74,8 +69,6 @@ class PreparedGeometry {
   mutable std::unique_ptr<const ConvexBody> root_body_;
   mutable std::once_flag hull_once_;
   mutable std::unique_ptr<const ConvexBody> hull_;
-  mutable std::once_flag node_hulls_once_;
-  mutable std::shared_ptr<const NodeHulls> node_hulls_;
   mutable std::once_flag convex_solid_once_;
   mutable std::unique_ptr<const ConvexSolid> convex_solid_;
   mutable std::once_flag solid_once_;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bounds/common_half_spaces.h"
 #include "bounds/convex_bound.h"
 #include "geometry/occupancy.h"
+#include "robot/common_half_spaces.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
@@ -26,13 +26,10 @@ double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
 
 }  // namespace
 
-BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
+BodyBounds::BodyBounds(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
                        const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
                        const GaussianDisplacement& of_bodies)
-    : geometries_(geometries),
-      obstacle_(obstacle),
-      poses_(obstacle.poses(pose)),
-      of_bodies_(of_bodies) {
+    : robot_(robot), obstacle_(obstacle), poses_(obstacle.poses(pose)), of_bodies_(of_bodies) {
   for (const PlacedBody& body : bodies) bounds_.push_back({body, upperOf(body)});
   std::stable_sort(bounds_.begin(), bounds_.end(),
                    [](const Bound& x, const Bound& y) { return x.upper > y.upper; });
@@ -41,7 +38,7 @@ BodyBounds::BodyBounds(const PreparedGeometries& geometries, const std::vector<P
 double BodyBounds::upperOf(const PlacedBody& body) const {
   double upper = 0.0;
   for (std::size_t i = 0; i < poses_.size() && upper < 1.0; ++i) {
-    upper = sumAbove(upper, upperOfPair(*geometries_[body.body], body.pose,
+    upper = sumAbove(upper, upperOfPair(*robot_.geometries[body.body], body.pose,
                                         *obstacle_.geometries()[i], poses_[i], of_bodies_));
   }
   return std::min(1.0, upper);
@@ -58,13 +55,14 @@ double BodyBounds::together(double enough) const {
   CommonHalfSpaces common(of_bodies_);
   double apart = 0.0;
   for (const Bound& bound : bounds_) {
-    const PreparedGeometry& body = *geometries_[bound.body.body];
+    const PreparedGeometry& body = *robot_.geometries[bound.body.body];
     const bool is_unlikely = bound.upper < kUnlikely * enough;
     for (std::size_t i = 0; i < poses_.size() && !is_unlikely; ++i) {
       const PreparedGeometry& other = *obstacle_.geometries()[i];
       if (whyNeverInContact(body.geometry(), other.geometry())) continue;
       if (!body.hasRootBody() || !other.hasRootBody()) return sum();
-      common.add(body.nodeHulls(), bound.body.pose, other.nodeHulls(), poses_[i]);
+      common.add(robot_.hulls.of(bound.body.body), bound.body.pose, obstacle_.hulls().of(i),
+                 poses_[i]);
     }
     if (is_unlikely) apart = sumAbove(apart, bound.upper);
   }

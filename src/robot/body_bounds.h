@@ -8,6 +8,7 @@
 #include "fcl_prob/gaussian_displacement.h"
 #include "robot/placed_body.h"
 #include "robot/prepared_obstacle.h"
+#include "robot/prepared_robot.h"
 
 namespace fcl_prob::detail {
 
@@ -20,11 +21,9 @@ class BodyBounds {
     double upper;  ///< certainly not below P that it touches the obstacle
   };
 
-  /// \param geometries  of the robot's bodies
-  /// \param pose        of the obstacle
-  /// \param of_bodies   their displacement relative to it
-  /// All must outlive this.
-  BodyBounds(const PreparedGeometries& geometries, const std::vector<PlacedBody>& bodies,
+  /// \param pose       of the obstacle, which must outlive this, as the robot must
+  /// \param of_bodies  their displacement relative to it
+  BodyBounds(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
              const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
              const GaussianDisplacement& of_bodies);
 
@@ -46,7 +45,7 @@ class BodyBounds {
  private:
   double upperOf(const PlacedBody& body) const;
 
-  const PreparedGeometries& geometries_;
+  const PreparedRobot& robot_;
   const PreparedObstacle& obstacle_;
   std::vector<fcl::Transform3d> poses_;  ///< of the bodies of the obstacle
   GaussianDisplacement of_bodies_;

@@ -86,7 +86,7 @@ class ObstacleLines {
   static PreparedGeometries geometriesOf(const std::vector<WaypointBody>& bodies,
                                          const ObstacleAmongBodies& scene) {
     PreparedGeometries geometries;
-    for (const WaypointBody& one : bodies) geometries.push_back(scene.bodies[one.body]);
+    for (const WaypointBody& one : bodies) geometries.push_back(scene.robot.geometries[one.body]);
     return geometries;
   }
 

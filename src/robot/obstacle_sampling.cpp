@@ -16,10 +16,10 @@ GaussianDisplacement displacementOfBodies(const ProbableScene& scene) {
 
 }  // namespace
 
-ObstacleSampling::ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
-                                   const std::vector<Ball>& balls, double most_far)
-    : scene_(scene), geometries_(geometries), displacement_(displacementOfBodies(scene)) {
-  far_ = leaveOutFar(balls, scene.obstacle->around(), scene.state, most_far, scene_.bodies);
+ObstacleSampling::ObstacleSampling(const ProbableScene& scene, const PreparedRobot& robot,
+                                   double most_far)
+    : scene_(scene), robot_(robot), displacement_(displacementOfBodies(scene)) {
+  far_ = leaveOutFar(robot.balls, scene.obstacle->around(), scene.state, most_far, scene_.bodies);
   certified_ = {0.0, scene_.bodies.empty() ? far_ : 1.0};
   probable_ = certified_;
 }
@@ -36,7 +36,7 @@ std::size_t ObstacleSampling::samples() const {
 
 void ObstacleSampling::boundByHalfSpaces(double most_left_out, double enough) {
   if (scene_.bodies.empty()) return;
-  const BodyBounds bounds(geometries_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
+  const BodyBounds bounds(robot_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
                           displacement_);
   double left_out = 0.0;
   scene_.bodies = bounds.likelier(most_left_out, left_out);
@@ -87,7 +87,7 @@ void ObstacleSampling::place(const ProbabilityRequest& request) {
   if (tree_) return;
   std::vector<const PieceTree*> trees;
   for (const PlacedBody& body : scene_.bodies) {
-    const PreparedGeometry& geometry = *geometries_[body.body];
+    const PreparedGeometry& geometry = *robot_.geometries[body.body];
     trees.push_back(&geometry.pieces());
     bodies_.parts.push_back({body.pose, geometry.solid(request.contact)});
   }

@@ -16,8 +16,7 @@ namespace fcl_prob::detail {
 class ObstacleSampling {
  public:
   /// \param most_far  what bodies that balls show to be far may add up to
-  ObstacleSampling(const ProbableScene& scene, const PreparedGeometries& geometries,
-                   const std::vector<Ball>& balls, double most_far);
+  ObstacleSampling(const ProbableScene& scene, const PreparedRobot& robot, double most_far);
 
   Bounds certified() const { return certified_; }
   Bounds probable() const { return probable_; }
@@ -52,7 +51,7 @@ class ObstacleSampling {
   Bounds within(const Bounds& of_near, const Bounds& known) const;
 
   ProbableScene scene_;
-  const PreparedGeometries& geometries_;
+  const PreparedRobot& robot_;
   GaussianDisplacement displacement_;  ///< of the bodies
   double far_ = 0.0;
   std::shared_ptr<const PieceTree> tree_;

@@ -47,7 +47,7 @@ ProbabilityResult ofGroup(const ObstacleAmongBodies& scene, const ObstacleState&
   PreparedGeometries geometries;
   std::vector<fcl::Transform3d> poses;
   for (const PlacedBody& body : bodies) {
-    geometries.push_back(scene.bodies[body.body]);
+    geometries.push_back(scene.robot.geometries[body.body]);
     poses.push_back(body.pose);
   }
   const GroupsQuery query(std::move(geometries), scene.obstacle.geometries());
@@ -97,7 +97,8 @@ std::optional<ProbabilityResult> aboveByOne(const ObstacleAmongBodies& scene,
   fcl::Transform3d expected = state.pose;
   expected.translation() += displacement.mean();
   const auto touching = std::find_if(bodies.begin(), bodies.end(), [&](const PlacedBody& body) {
-    return scene.obstacle.touches(scene.bodies[body.body]->geometry(), body.pose, expected);
+    return scene.obstacle.touches(scene.robot.geometries[body.body]->geometry(), body.pose,
+                                  expected);
   });
   if (touching == bodies.end()) return std::nullopt;
   request.max_cells = std::min(request.max_cells, kCellsOfOne);
@@ -127,7 +128,7 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
     return std::nullopt;
   }
   Budget budget(request);
-  const BodyBounds bounds(scene.bodies, bodies, scene.obstacle, state.pose, gaussian->reversed());
+  const BodyBounds bounds(scene.robot, bodies, scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
   if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
   const double together = bounds.together(threshold - far);
@@ -185,8 +186,9 @@ double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& stat
                      std::vector<PlacedBody> bodies) {
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
   if (!gaussian) return 1.0;
-  const double far = leaveOutFar(scene.balls, scene.obstacle.around(), state, kClearlyFar, bodies);
-  const BodyBounds bounds(scene.bodies, bodies, scene.obstacle, state.pose, gaussian->reversed());
+  const double far =
+      leaveOutFar(scene.robot.balls, scene.obstacle.around(), state, kClearlyFar, bodies);
+  const BodyBounds bounds(scene.robot, bodies, scene.obstacle, state.pose, gaussian->reversed());
   return std::min(1.0, sumAbove(bounds.sum(), far));
 }
 
@@ -197,7 +199,8 @@ ProbabilityResult ofNearBodies(const ObstacleAmongBodies& scene, const ObstacleS
                                std::vector<PlacedBody> bodies, double most_far,
                                const ProbabilityRequest& request, FarBodies& left_out) {
   const std::size_t all = bodies.size();
-  const double far = leaveOutFar(scene.balls, scene.obstacle.around(), state, most_far, bodies);
+  const double far =
+      leaveOutFar(scene.robot.balls, scene.obstacle.around(), state, most_far, bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   // What is left out widens the interval, too.

@@ -9,6 +9,7 @@
 #include "robot/body_balls.h"
 #include "robot/placed_body.h"
 #include "robot/prepared_obstacle.h"
+#include "robot/prepared_robot.h"
 
 namespace fcl_prob::detail {
 
@@ -35,8 +36,7 @@ double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const Obs
 
 /// An obstacle and the bodies of the robot, prepared.
 struct ObstacleAmongBodies {
-  const PreparedGeometries& bodies;  ///< of the robot
-  const std::vector<Ball>& balls;    ///< of its bodies, in their frames
+  const PreparedRobot& robot;
   const PreparedObstacle& obstacle;
 };
 

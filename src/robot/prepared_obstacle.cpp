@@ -26,6 +26,7 @@ PreparedGeometries geometriesOf(const Obstacle& obstacle) {
 
 PreparedObstacle::PreparedObstacle(const Obstacle& obstacle)
     : group_(geometriesOf(obstacle), "obstacle " + obstacle.name),
+      hulls_(group_.members()),
       in_obstacle_{fcl::Transform3d::Identity()},
       around_(ballAround(*geometries()[0])) {
   for (std::size_t i = 0; i < obstacle.more.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "fcl_prob/robot_query.h"
 #include "query/member_group.h"
 #include "robot/body_balls.h"
+#include "robot/node_hulls.h"
 
 namespace fcl_prob::detail {
 
@@ -23,6 +24,8 @@ class PreparedObstacle {
   /// Of the bodies, where the obstacle is at a pose.
   std::vector<fcl::Transform3d> poses(const fcl::Transform3d& pose) const;
 
+  const HullsOfBodies& hulls() const { return hulls_; }
+
   /// Around all of it, in its frame.
   const Ball& around() const { return around_; }
 
@@ -35,6 +38,7 @@ class PreparedObstacle {
 
  private:
   MemberGroup group_;
+  HullsOfBodies hulls_;
   std::vector<fcl::Transform3d> in_obstacle_;
   Ball around_;
 };

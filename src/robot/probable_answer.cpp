@@ -39,9 +39,9 @@ struct Sampling {
 
 class AnyProbably {
  public:
-  AnyProbably(const std::vector<ProbableScene>& scenes, const PreparedGeometries& geometries,
-              const std::vector<Ball>& balls, double threshold, double chance,
-              const ProbabilityRequest& request, const Sampling& sampling)
+  AnyProbably(const std::vector<ProbableScene>& scenes, const PreparedRobot& robot,
+              double threshold, double chance, const ProbabilityRequest& request,
+              const Sampling& sampling)
       : threshold_(threshold),
         chance_(chance),
         request_(request),
@@ -49,7 +49,7 @@ class AnyProbably {
         budget_(request_) {
     const double far = kFarOfThreshold * threshold / static_cast<double>(scenes.size());
     for (const ProbableScene& scene : scenes) {
-      obstacles_.push_back(std::make_unique<ObstacleSampling>(scene, geometries, balls, far));
+      obstacles_.push_back(std::make_unique<ObstacleSampling>(scene, robot, far));
     }
     // No obstacle decides by itself: beside it there are others, or bodies left out as far away.
     request_.threshold.reset();
@@ -242,8 +242,7 @@ bool canBeSampled(const PreparedObstacle& obstacle, const ObstacleState& state) 
 // Where P is close to the threshold a proof takes less than samples do: it is tried before more of
 // them are drawn. Those that have been drawn are drawn again then, the same ones, so that the
 // chance of being wrong is that of the last run alone.
-ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
-                           const PreparedGeometries& geometries, const std::vector<Ball>& balls,
+ProbableResult probablyAny(const std::vector<ProbableScene>& scenes, const PreparedRobot& robot,
                            double threshold, double chance, const Proof& prove,
                            const ProbabilityRequest& request) {
   Budget budget(request);
@@ -264,9 +263,8 @@ ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
     return part;
   };
   const auto sampled = [&](const Sampling& sampling) {
-    return counted(AnyProbably(scenes, geometries, balls, threshold, chance,
-                               within(request.max_cells), sampling)
-                       .run());
+    return counted(
+        AnyProbably(scenes, robot, threshold, chance, within(request.max_cells), sampling).run());
   };
   const ProbableResult soon = sampled({true, std::min(kCellsBeforeProof, request.max_cells)});
   if (soon.status != ProbabilityStatus::cell_limit || budget.exhausted()) return soon;

@@ -25,11 +25,9 @@ bool canBeSampled(const PreparedObstacle& obstacle, const ObstacleState& state);
 /// A certain answer to the same question, within limits.
 using Proof = std::function<ProbableResult(const ProbabilityRequest&)>;
 
-/// \param geometries, balls  of the robot's bodies, in their frames
-/// \param chance             of a wrong decision, in (0, 1)
-/// \param prove              asked at most once
-ProbableResult probablyAny(const std::vector<ProbableScene>& scenes,
-                           const PreparedGeometries& geometries, const std::vector<Ball>& balls,
+/// \param chance  of a wrong decision, in (0, 1)
+/// \param prove   asked at most once
+ProbableResult probablyAny(const std::vector<ProbableScene>& scenes, const PreparedRobot& robot,
                            double threshold, double chance, const Proof& prove,
                            const ProbabilityRequest& request);
 

@@ -36,12 +36,22 @@ void validatePoses(const Obstacle& obstacle) {
 
 }  // namespace
 
-PreparedRobot::PreparedRobot(const Robot& of) : robot(of) {
+namespace {
+
+PreparedGeometries bodiesOf(const Robot& robot) {
+  PreparedGeometries geometries;
   for (const RobotBody& body : robot.bodies()) {
     geometries.push_back(
         std::make_shared<const PreparedGeometry>(body.geometry, "a body of " + body.name()));
-    balls.push_back(ballAround(*geometries.back()));
   }
+  return geometries;
+}
+
+}  // namespace
+
+PreparedRobot::PreparedRobot(const Robot& of)
+    : robot(of), geometries(bodiesOf(of)), hulls(geometries) {
+  for (const auto& geometry : geometries) balls.push_back(ballAround(*geometry));
 }
 
 RobotAmongObstacles::RobotAmongObstacles(std::shared_ptr<const PreparedRobot> robot,

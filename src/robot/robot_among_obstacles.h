@@ -10,17 +10,9 @@
 #include "robot/obstacle_gradient.h"
 #include "robot/placed_query.h"
 #include "robot/prepared_obstacle.h"
+#include "robot/prepared_robot.h"
 
 namespace fcl_prob::detail {
-
-/// A robot with its bodies prepared: what its queries share, whatever is around it.
-struct PreparedRobot {
-  explicit PreparedRobot(const Robot& of);
-
-  Robot robot;
-  PreparedGeometries geometries;
-  std::vector<Ball> balls;  ///< in the frames of the bodies
-};
 
 /// Immutable; one with other obstacles shares what was prepared.
 class RobotAmongObstacles {
@@ -46,7 +38,7 @@ class RobotAmongObstacles {
   const std::vector<std::string>& notes() const { return notes_; }
 
   ObstacleAmongBodies sceneOf(std::size_t obstacle) const {
-    return {robot_->geometries, robot_->balls, *prepared_[obstacle]};
+    return {*robot_, *prepared_[obstacle]};
   }
 
   /// The bodies that count for an obstacle, of all in a state.

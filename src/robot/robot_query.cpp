@@ -231,8 +231,7 @@ struct RobotQuery::Implementation {
       return certainly(ofUnion(waypoints, -1, withThreshold(part, threshold)));
     };
     if (scenes.empty()) return prove(request);
-    return detail::probablyAny(scenes, among.geometries(), among.balls(), threshold, chance, prove,
-                               request);
+    return detail::probablyAny(scenes, *among.prepared(), threshold, chance, prove, request);
   }
 
   JointGradient gradient(const std::vector<Eigen::VectorXd>& waypoints,

@@ -6,9 +6,9 @@
 #include <deque>
 #include <vector>
 
-#include "convex/node_hulls.h"
 #include "convex/pair_frame.h"
 #include "fcl_prob/gaussian_displacement.h"
+#include "robot/node_hulls.h"
 
 namespace fcl_prob::detail {
 
@@ -45,7 +45,7 @@ class CommonHalfSpaces {
     int a;
     int b;
     Eigen::Vector3d towards = Eigen::Vector3d::Zero();  ///< as GJK proposes
-    double own = 1.0;               ///< the mass of the half-space there
+    double own = 1.0;                                   ///< the mass of the half-space there
     std::vector<double> distances;  ///< by half-space: to where it would have to begin
     double cost = 1.0;              ///< the least mass that has to be added to hold it
     int cheapest = -1;              ///< the half-space that would be enlarged; -1: one of its own

@@ -5,9 +5,12 @@
 
 #include <fcl/geometry/collision_geometry.h>
 
+#include <deque>
+#include <memory>
+#include <mutex>
 #include <vector>
 
-#include "fcl_prob/convex_body.h"
+#include "query/prepared_geometry.h"
 
 namespace fcl_prob::detail {
 
@@ -28,5 +31,23 @@ struct NodeHulls {
 
 /// \param whole  around all of it: the only node of what is no mesh, or convex
 NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody& whole);
+
+/// Of several geometries, each when first asked for. Const calls are safe on several threads.
+class HullsOfBodies {
+ public:
+  explicit HullsOfBodies(PreparedGeometries geometries);
+
+  /// \pre  geometries[body] has a root body
+  const NodeHulls& of(std::size_t body) const;
+
+ private:
+  struct Kept {
+    std::once_flag once;
+    std::unique_ptr<const NodeHulls> hulls;
+  };
+
+  PreparedGeometries geometries_;
+  mutable std::deque<Kept> kept_;
+};
 
 }  // namespace fcl_prob::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "convex/node_hulls.h"
+#include "robot/node_hulls.h"
 
 #include <fcl/geometry/shape/box.h>
 

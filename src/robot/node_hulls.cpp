@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "convex/node_hulls.h"
+#include "robot/node_hulls.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -127,6 +127,19 @@ NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody&
   }
   measure(tree);
   return tree;
+}
+
+HullsOfBodies::HullsOfBodies(PreparedGeometries geometries)
+    : geometries_(std::move(geometries)), kept_(geometries_.size()) {}
+
+const NodeHulls& HullsOfBodies::of(std::size_t body) const {
+  Kept& kept = kept_[body];
+  std::call_once(kept.once, [&] {
+    const PreparedGeometry& geometry = *geometries_[body];
+    kept.hulls =
+        std::make_unique<const NodeHulls>(nodeHullsOf(geometry.geometry(), geometry.hull()));
+  });
+  return *kept.hulls;
 }
 
 }  // namespace fcl_prob::detail

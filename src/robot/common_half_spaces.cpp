@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "bounds/common_half_spaces.h"
+#include "robot/common_half_spaces.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ namespace fcl_prob::detail {
 namespace {
 
 // More than what a mass, a sum of a few and the length of a unit vector are rounded by.
-constexpr double kRounding = 1e-9;
+constexpr double kRoundedMass = 1e-9;
 
 /// Of what the half-spaces have: what pairs that are not held yet may add without being divided.
 constexpr double kHardly = 0.01;
@@ -23,7 +23,7 @@ constexpr int kMostDivided = 100;
 
 double massBehind(double distance) {
   if (!(distance > 0.0)) return 1.0;
-  return normalTailMass(distance) * (1.0 + kRounding) + kUnderflow;
+  return normalTailMass(distance) * (1.0 + kRoundedMass) + kUnderflow;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ double CommonHalfSpaces::distanceAlong(const Pair& pair, const Eigen::Vector3d& 
   const Bodies& bodies = bodies_[pair.of];
   const PairObstacle obstacle(bodies.frame, bodies.a.nodes[pair.a].hull.set(),
                               bodies.b.nodes[pair.b].hull.set());
-  return -obstacle->support(-towards) * (1.0 - kRounding);
+  return -obstacle->support(-towards) * (1.0 - kRoundedMass);
 }
 
 void CommonHalfSpaces::open(Pair pair, double most) {
@@ -119,14 +119,13 @@ double CommonHalfSpaces::upper(double enough) {
   const auto sum = [this] {
     double sum = held();
     for (const Pair& pair : pairs_) sum += pair.cost;
-    return std::min(1.0, sum * (1.0 + kRounding));
+    return std::min(1.0, sum * (1.0 + kRoundedMass));
   };
   double least = sum();  // a body may have less than its parts in sum
   for (int divided = 0; divided < kMostDivided && !pairs_.empty();) {
     if (least < enough || !(held() < enough)) break;
     const auto most = std::max_element(
-        pairs_.begin(), pairs_.end(),
-        [](const Pair& x, const Pair& y) { return x.cost < y.cost; });
+        pairs_.begin(), pairs_.end(), [](const Pair& x, const Pair& y) { return x.cost < y.cost; });
     if (most->cost * static_cast<double>(pairs_.size()) < kHardly * held()) break;
     std::swap(*most, pairs_.back());
     const Pair pair = std::move(pairs_.back());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Bounds by half-spaces that many pairs have in common, against counting and closed forms.
-#include "bounds/common_half_spaces.h"
+#include "robot/common_half_spaces.h"
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/narrowphase/collision.h>
@@ -10,7 +10,6 @@
 #include "catch.h"
 #include "fcl_prob/normal_mass.h"
 #include "mesh_shapes.h"
-#include "poses.h"
 #include "random_bodies.h"
 
 namespace {
@@ -39,6 +38,12 @@ NodeHulls boxHulls(double side) {
   return nodeHullsOf(box, ConvexBody(box));
 }
 
+const fcl::Transform3d kStill = fcl::Transform3d::Identity();
+
+fcl::Transform3d placedAt(double x, double y, double z) {
+  return fcl::Transform3d(Eigen::Translation3d(x, y, z));
+}
+
 const GaussianDisplacement kUnit(Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
 
 }  // namespace
@@ -62,8 +67,8 @@ TEST_CASE("half-spaces that bodies have in common bound P that any touches") {
       fcl::Transform3d pose = random.pose(0.0);
       pose.translation() = random.uniform(0.0, 1.8) * random.direction();
       placed.emplace_back(&body, pose);
-      common.add(body.hulls, pose, obstacle.hulls, kIdentity);
-      sum += halfSpaceUpper(body.hulls.nodes[0].hull, pose, obstacle.hulls.nodes[0].hull, kIdentity,
+      common.add(body.hulls, pose, obstacle.hulls, kStill);
+      sum += halfSpaceUpper(body.hulls.nodes[0].hull, pose, obstacle.hulls.nodes[0].hull, kStill,
                             error);
     }
     const double enough = scene % 3 == 0 ? 0.02 : scene % 3 == 1 ? 0.1 : 0.5;
@@ -78,8 +83,8 @@ TEST_CASE("half-spaces that bodies have in common bound P that any touches") {
         fcl::Transform3d at = pose;
         at.translation() += moved;
         fcl::CollisionResultd result;
-        touches = touches || fcl::collide(body->model.get(), at, obstacle.model.get(), kIdentity,
-                                          {}, result) > 0;
+        touches = touches ||
+                  fcl::collide(body->model.get(), at, obstacle.model.get(), kStill, {}, result) > 0;
       }
       hits += touches;
     }
@@ -98,29 +103,29 @@ TEST_CASE("half-spaces that bodies have in common bound P that any touches") {
 TEST_CASE("bodies behind one plane count once") {
   const NodeHulls small = boxHulls(0.1), large = boxHulls(2.0);
   CommonHalfSpaces common(kUnit);
-  for (int i = 0; i < 5; ++i) common.add(small, at(3.05, 0.2 * i - 0.4, 0.0), large, kIdentity);
+  for (int i = 0; i < 5; ++i) common.add(small, placedAt(3.05, 0.2 * i - 0.4, 0.0), large, kStill);
   CHECK(common.upper(0.03) == Approx(fcl_prob::normalTailMass(2.0)).epsilon(1e-6));
 }
 
 TEST_CASE("bodies on both sides count twice, far ones for next to nothing") {
   const NodeHulls small = boxHulls(0.1), large = boxHulls(2.0);
   CommonHalfSpaces common(kUnit);
-  common.add(small, at(3.05, 0.0, 0.0), large, kIdentity);
-  common.add(small, at(-3.05, 0.0, 0.0), large, kIdentity);
+  common.add(small, placedAt(3.05, 0.0, 0.0), large, kStill);
+  common.add(small, placedAt(-3.05, 0.0, 0.0), large, kStill);
   CHECK(common.upper(0.03) == Approx(2.0 * fcl_prob::normalTailMass(2.0)).epsilon(1e-6));
   CommonHalfSpaces far(kUnit);
-  far.add(small, at(31.05, 0.0, 0.0), large, kIdentity);
+  far.add(small, placedAt(31.05, 0.0, 0.0), large, kStill);
   CHECK(far.upper(0.0) == Approx(fcl_prob::normalTailMass(30.0)).epsilon(1e-4));
 }
 
 TEST_CASE("no more is told of bodies that touch, or of errors that leave an axis out, than 1") {
   const NodeHulls small = boxHulls(0.1), large = boxHulls(2.0);
   CommonHalfSpaces touching(kUnit);
-  touching.add(small, at(0.5, 0.0, 0.0), large, kIdentity);
+  touching.add(small, placedAt(0.5, 0.0, 0.0), large, kStill);
   CHECK(touching.upper(0.0) == 1.0);
   CommonHalfSpaces flat(
       GaussianDisplacement(Eigen::Vector3d::Zero(), Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal()));
-  flat.add(small, at(3.05, 0.0, 0.0), large, kIdentity);
+  flat.add(small, placedAt(3.05, 0.0, 0.0), large, kStill);
   CHECK(flat.upper(0.0) == 1.0);
 }
 
@@ -129,7 +134,7 @@ TEST_CASE("a ring around a ball needs half-spaces all around") {
   const Body ball = bodyOf(sphereMesh(0.3, 10, 16));
   const GaussianDisplacement error(Eigen::Vector3d::Zero(), 0.04 * Eigen::Matrix3d::Identity());
   CommonHalfSpaces common(error);
-  common.add(ball.hulls, kIdentity, ring.hulls, kIdentity);
+  common.add(ball.hulls, kStill, ring.hulls, kStill);
   // The hulls overlap; what is between them is 0.6 wide, 3 deviations.
   const double around = std::exp(-4.5);
   const double upper = common.upper(0.1);
