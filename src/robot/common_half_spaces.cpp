@@ -97,7 +97,8 @@ void CommonHalfSpaces::divide(const Pair& pair) {
 
 void CommonHalfSpaces::hold(const Pair& pair) {
   if (pair.cheapest < 0) {
-    half_spaces_.push_back({pair.towards, distanceAlong(pair, pair.towards), pair.own});
+    const double distance = distanceAlong(pair, pair.towards);
+    half_spaces_.push_back({pair.towards, distance, massBehind(distance)});
     for (Pair& other : pairs_) {
       other.distances.push_back(distanceAlong(other, pair.towards));
     }
