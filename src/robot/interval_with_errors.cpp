@@ -9,6 +9,7 @@
 #include "base/decision.h"
 #include "base/known.h"
 #include "base/number_text.h"
+#include "base/statistics.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/normal_mass.h"
 #include "query/groups_query.h"
