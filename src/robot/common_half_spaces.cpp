@@ -29,9 +29,9 @@ double massBehind(double distance) {
 }  // namespace
 
 void CommonHalfSpaces::add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
-                           const fcl::Transform3d& pose_b) {
+                           const fcl::Transform3d& pose_b, double reach) {
   bodies_.push_back({a, b, PairFrame(displacement_, pose_a, a.size, pose_b, b.size)});
-  bodies_.back().frame.error += a.slack + b.slack;
+  bodies_.back().frame.error += a.slack + b.slack + reach;
   Pair whole;
   whole.of = bodies_.size() - 1;
   whole.a = whole.b = 0;

@@ -23,9 +23,10 @@ class CommonHalfSpaces {
   explicit CommonHalfSpaces(GaussianDisplacement displacement)
       : displacement_(std::move(displacement)) {}
 
-  /// The hulls must outlive this. \param pose_a, pose_b  valid ones. \throws InvalidGeometry
+  /// The hulls must outlive this. \param pose_a, pose_b  valid ones
+  /// \param reach  a may be that far from where it is, metres. \throws InvalidGeometry
   void add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
-           const fcl::Transform3d& pose_b);
+           const fcl::Transform3d& pose_b, double reach = 0.0);
 
   /// Certainly not below P that any of the pairs added meets. Stops when it is below `enough`, or
   /// when that is out of reach.

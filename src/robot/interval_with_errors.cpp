@@ -14,9 +14,9 @@
 #include "fcl_prob/normal_mass.h"
 #include "query/groups_query.h"
 #include "robot/body_sweep.h"
+#include "robot/common_half_spaces.h"
 #include "robot/moving_obstacle.h"
 #include "robot/placed_query.h"
-#include "robot/reversed.h"
 #include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
@@ -25,6 +25,13 @@ namespace {
 /// Deviations within which all errors are: the more, the less is beyond and the wider the bands.
 /// The narrowest answer counts, whichever gives it.
 constexpr double kDeviations[] = {3.5, 5.0, 2.5};
+
+/// Without a threshold: half-spaces that tell that P is below this need not tell more.
+constexpr double kHardlyLikely = 0.01;
+
+/// A band of so many of the obstacle's largest deviations is not asked for: it leaves nearly all
+/// open, and its cells take seconds each.
+constexpr double kWidest = 2.0;
 
 // More than what a deviation, a mass, a length and a turn are rounded by.
 constexpr double kErrorRounding = 1e-8;
@@ -87,9 +94,10 @@ class IntervalWithErrors {
   }
 
   /// Of P that any body touches an obstacle, while no point is farther off than that.
+  /// \param enough   an upper bound below it ends the search
   /// \param largest  the widest band of all that was asked for
   Bounds ofObstacle(std::size_t index, const std::vector<double>& reaches,
-                    const ProbabilityRequest& request, double& largest,
+                    const ProbabilityRequest& request, double enough, double& largest,
                     ProbabilityStatistics& spent) const {
     const Obstacle& obstacle = among_.obstacles()[index];
     const PreparedObstacle& prepared = among_.preparedObstacle(index);
@@ -107,20 +115,41 @@ class IntervalWithErrors {
       poses.push_back(body.pose);
       width = std::max(width, reaches[body.body]);
     }
+    largest = std::max(largest, width);
+    const auto& displacement = std::get<GaussianDisplacement>(state.displacement);
+    const double upper =
+        std::min(1.0, sumAbove(byHalfSpaces(prepared, state, bodies, reaches, enough - far), far));
+    if (upper < enough || width > kWidest * displacement.standardDeviations().maxCoeff()) {
+      return {0.0, upper};
+    }
     ProbabilityRequest banded = request;
     banded.band_a = Band::within(width);
-    largest = std::max(largest, width);
     const GroupsQuery query(std::move(geometries), prepared.geometries());
-    const ProbabilityResult result = std::visit(
-        [&](const auto& displacement) {
-          return query.answer(poses, prepared.poses(state.pose), reversed(displacement), banded);
-        },
-        state.displacement);
+    const ProbabilityResult result =
+        query.answer(poses, prepared.poses(state.pose), displacement.reversed(), banded);
     addStatistics(result.statistics, spent);
-    return {result.lower.value_or(0.0), std::min(1.0, sumAbove(result.upper.value_or(1.0), far))};
+    return {result.lower.value_or(0.0), std::min(upper, sumAbove(result.upper.value_or(1.0), far))};
   }
 
  private:
+  /// Each body as far off as it may be itself, where bands are as wide as the widest needs.
+  double byHalfSpaces(const PreparedObstacle& obstacle, const ObstacleState& state,
+                      const std::vector<PlacedBody>& bodies, const std::vector<double>& reaches,
+                      double enough) const {
+    CommonHalfSpaces common(std::get<GaussianDisplacement>(state.displacement).reversed());
+    const std::vector<fcl::Transform3d> poses = obstacle.poses(state.pose);
+    for (const PlacedBody& body : bodies) {
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        const bool have_hulls = among_.geometries()[body.body]->hasRootBody() &&
+                                obstacle.geometries()[i]->hasRootBody();
+        if (!have_hulls) return 1.0;
+        common.add(among_.prepared()->hulls.of(body.body), body.pose, obstacle.hulls().of(i),
+                   poses[i], reaches[body.body]);
+      }
+    }
+    return common.upper(enough);
+  }
+
   const RobotAmongObstacles& among_;
   const Eigen::VectorXd& values_;
   std::vector<fcl::Transform3d> poses_;
@@ -145,6 +174,7 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
     cancelled = cancelled || !request.on_progress(progress);
     return !cancelled;
   };
+  const auto obstacles = static_cast<double>(among.obstacles().size());
   std::size_t left = std::size(kDeviations) * among.obstacles().size();
   for (const double deviations : kDeviations) {
     const Within errors = within(deviations, covariance, base);
@@ -157,7 +187,9 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
       if (request.on_progress) part.on_progress = tell;
       budget.share(left, part);
       ProbabilityStatistics spent;
-      events.push_back(parts.ofObstacle(i, reaches, part, width, spent));
+      const double enough =
+          request.threshold ? (*request.threshold - errors.chance) / obstacles : kHardlyLikely;
+      events.push_back(parts.ofObstacle(i, reaches, part, enough, width, spent));
       budget.spend(spent);
       addStatistics(spent, result.statistics);
     }

@@ -107,6 +107,13 @@ TEST_CASE("bodies behind one plane count once") {
   CHECK(common.upper(0.03) == Approx(fcl_prob::normalTailMass(2.0)).epsilon(1e-6));
 }
 
+TEST_CASE("what may be farther off is nearer by so much") {
+  const NodeHulls small = boxHulls(0.1), large = boxHulls(2.0);
+  CommonHalfSpaces common(kUnit);
+  common.add(small, placedAt(3.05, 0.0, 0.0), large, kStill, 0.5);
+  CHECK(common.upper(0.1) == Approx(fcl_prob::normalTailMass(1.5)).epsilon(1e-6));
+}
+
 TEST_CASE("bodies on both sides count twice, far ones for next to nothing") {
   const NodeHulls small = boxHulls(0.1), large = boxHulls(2.0);
   CommonHalfSpaces common(kUnit);
