@@ -26,20 +26,40 @@ double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
 
 }  // namespace
 
+double upperTogether(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
+                     const std::vector<double>& reaches, const PreparedObstacle& obstacle,
+                     const fcl::Transform3d& pose, const GaussianDisplacement& of_bodies,
+                     double enough) {
+  CommonHalfSpaces common(of_bodies);
+  const std::vector<fcl::Transform3d> poses = obstacle.poses(pose);
+  for (const PlacedBody& placed : bodies) {
+    const PreparedGeometry& body = *robot.geometries[placed.body];
+    const double reach = reaches.empty() ? 0.0 : reaches[placed.body];
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const PreparedGeometry& other = *obstacle.geometries()[i];
+      if (whyNeverInContact(body.geometry(), other.geometry())) continue;
+      if (!body.hasRootBody() || !other.hasRootBody()) return 1.0;
+      common.add(robot.hulls.of(placed.body), placed.pose, obstacle.hulls().of(i), poses[i], reach);
+    }
+  }
+  return common.upper(enough);
+}
+
 BodyBounds::BodyBounds(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
                        const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
                        const GaussianDisplacement& of_bodies)
-    : robot_(robot), obstacle_(obstacle), poses_(obstacle.poses(pose)), of_bodies_(of_bodies) {
+    : robot_(robot), obstacle_(obstacle), pose_(pose), of_bodies_(of_bodies) {
   for (const PlacedBody& body : bodies) bounds_.push_back({body, upperOf(body)});
   std::stable_sort(bounds_.begin(), bounds_.end(),
                    [](const Bound& x, const Bound& y) { return x.upper > y.upper; });
 }
 
 double BodyBounds::upperOf(const PlacedBody& body) const {
+  const std::vector<fcl::Transform3d> poses = obstacle_.poses(pose_);
   double upper = 0.0;
-  for (std::size_t i = 0; i < poses_.size() && upper < 1.0; ++i) {
+  for (std::size_t i = 0; i < poses.size() && upper < 1.0; ++i) {
     upper = sumAbove(upper, upperOfPair(*robot_.geometries[body.body], body.pose,
-                                        *obstacle_.geometries()[i], poses_[i], of_bodies_));
+                                        *obstacle_.geometries()[i], poses[i], of_bodies_));
   }
   return std::min(1.0, upper);
 }
@@ -52,21 +72,18 @@ double BodyBounds::sum() const {
 
 double BodyBounds::together(double enough) const {
   if (sum() < enough) return sum();
-  CommonHalfSpaces common(of_bodies_);
+  std::vector<PlacedBody> near;
   double apart = 0.0;
   for (const Bound& bound : bounds_) {
-    const PreparedGeometry& body = *robot_.geometries[bound.body.body];
-    const bool is_unlikely = bound.upper < kUnlikely * enough;
-    for (std::size_t i = 0; i < poses_.size() && !is_unlikely; ++i) {
-      const PreparedGeometry& other = *obstacle_.geometries()[i];
-      if (whyNeverInContact(body.geometry(), other.geometry())) continue;
-      if (!body.hasRootBody() || !other.hasRootBody()) return sum();
-      common.add(robot_.hulls.of(bound.body.body), bound.body.pose, obstacle_.hulls().of(i),
-                 poses_[i]);
+    if (bound.upper < kUnlikely * enough) {
+      apart = sumAbove(apart, bound.upper);
+    } else {
+      near.push_back(bound.body);
     }
-    if (is_unlikely) apart = sumAbove(apart, bound.upper);
   }
-  return std::min(sum(), sumAbove(common.upper(enough - apart), apart));
+  const double of_near =
+      upperTogether(robot_, near, {}, obstacle_, pose_, of_bodies_, enough - apart);
+  return std::min(sum(), sumAbove(of_near, apart));
 }
 
 std::vector<PlacedBody> BodyBounds::likelier(double most, double& left_out) const {

@@ -12,6 +12,14 @@
 
 namespace fcl_prob::detail {
 
+/// Certainly not below P that any of the bodies touches the obstacle: by half-spaces that they have
+/// in common. Stops when that is below `enough`, or when it is out of reach. \param reaches  by so
+/// much bodies may be off their poses, metres, by body of the robot; empty: none
+double upperTogether(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
+                     const std::vector<double>& reaches, const PreparedObstacle& obstacle,
+                     const fcl::Transform3d& pose, const GaussianDisplacement& of_bodies,
+                     double enough);
+
 /// The bodies of one query, each with a bound on P that it touches the obstacle. Their sum bounds P
 /// that any of them does.
 class BodyBounds {
@@ -47,7 +55,7 @@ class BodyBounds {
 
   const PreparedRobot& robot_;
   const PreparedObstacle& obstacle_;
-  std::vector<fcl::Transform3d> poses_;  ///< of the bodies of the obstacle
+  fcl::Transform3d pose_;  ///< of the obstacle
   GaussianDisplacement of_bodies_;
   std::vector<Bound> bounds_;
 };

@@ -31,7 +31,10 @@ double massBehind(double distance) {
 void CommonHalfSpaces::add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
                            const fcl::Transform3d& pose_b, double reach) {
   bodies_.push_back({a, b, PairFrame(displacement_, pose_a, a.size, pose_b, b.size)});
-  bodies_.back().frame.error += a.slack + b.slack + reach;
+  PairFrame& frame = bodies_.back().frame;
+  frame.error += a.slack + b.slack + reach;
+  can_tell_ = can_tell_ && frame.rank == 3 && frame.fits;
+  if (!can_tell_) return;
   Pair whole;
   whole.of = bodies_.size() - 1;
   whole.a = whole.b = 0;
@@ -53,15 +56,13 @@ void CommonHalfSpaces::open(Pair pair, double most) {
     if (pair.distances.back() >= one.distance) return;
   }
   const Bodies& bodies = bodies_[pair.of];
-  if (bodies.frame.rank == 3 && bodies.frame.fits) {
-    const PairObstacle obstacle(bodies.frame, bodies.a.nodes[pair.a].hull.set(),
-                                bodies.b.nodes[pair.b].hull.set());
-    const Eigen::Vector3d towards = gjkDirection(*obstacle);
-    const double own = towards.squaredNorm() > 0.5 ? massBehind(distanceAlong(pair, towards)) : 1.0;
-    if (own < most) {
-      pair.towards = towards;
-      pair.own = own;
-    }
+  const PairObstacle obstacle(bodies.frame, bodies.a.nodes[pair.a].hull.set(),
+                              bodies.b.nodes[pair.b].hull.set());
+  const Eigen::Vector3d towards = gjkDirection(*obstacle);
+  const double own = towards.squaredNorm() > 0.5 ? massBehind(distanceAlong(pair, towards)) : 1.0;
+  if (own < most) {
+    pair.towards = towards;
+    pair.own = own;
   }
   appraise(pair);
   pairs_.push_back(std::move(pair));
@@ -117,6 +118,7 @@ double CommonHalfSpaces::held() const {
 }
 
 double CommonHalfSpaces::upper(double enough) {
+  if (!can_tell_) return 1.0;
   const auto sum = [this] {
     double sum = held();
     for (const Pair& pair : pairs_) sum += pair.cost;

@@ -68,6 +68,7 @@ class CommonHalfSpaces {
   double held() const;
 
   GaussianDisplacement displacement_;
+  bool can_tell_ = true;  ///< all frames have rank 3, and numbers that stay finite
   std::deque<Bodies> bodies_;
   std::vector<Pair> pairs_;  ///< not held yet
   std::vector<HalfSpace> half_spaces_;

@@ -13,8 +13,8 @@
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/normal_mass.h"
 #include "query/groups_query.h"
+#include "robot/body_bounds.h"
 #include "robot/body_sweep.h"
-#include "robot/common_half_spaces.h"
 #include "robot/moving_obstacle.h"
 #include "robot/placed_query.h"
 #include "robot/sum_above.h"
@@ -117,8 +117,11 @@ class IntervalWithErrors {
     }
     largest = std::max(largest, width);
     const auto& displacement = std::get<GaussianDisplacement>(state.displacement);
-    const double upper =
-        std::min(1.0, sumAbove(byHalfSpaces(prepared, state, bodies, reaches, enough - far), far));
+    // Each body as far off as it may be itself, where bands are as wide as the widest needs.
+    const GaussianDisplacement of_bodies = displacement.reversed();
+    const double of_near = upperTogether(*among_.prepared(), bodies, reaches, prepared, state.pose,
+                                         of_bodies, enough - far);
+    const double upper = std::min(1.0, sumAbove(of_near, far));
     if (upper < enough || width > kWidest * displacement.standardDeviations().maxCoeff()) {
       return {0.0, upper};
     }
@@ -126,30 +129,12 @@ class IntervalWithErrors {
     banded.band_a = Band::within(width);
     const GroupsQuery query(std::move(geometries), prepared.geometries());
     const ProbabilityResult result =
-        query.answer(poses, prepared.poses(state.pose), displacement.reversed(), banded);
+        query.answer(poses, prepared.poses(state.pose), of_bodies, banded);
     addStatistics(result.statistics, spent);
     return {result.lower.value_or(0.0), std::min(upper, sumAbove(result.upper.value_or(1.0), far))};
   }
 
  private:
-  /// Each body as far off as it may be itself, where bands are as wide as the widest needs.
-  double byHalfSpaces(const PreparedObstacle& obstacle, const ObstacleState& state,
-                      const std::vector<PlacedBody>& bodies, const std::vector<double>& reaches,
-                      double enough) const {
-    CommonHalfSpaces common(std::get<GaussianDisplacement>(state.displacement).reversed());
-    const std::vector<fcl::Transform3d> poses = obstacle.poses(state.pose);
-    for (const PlacedBody& body : bodies) {
-      for (std::size_t i = 0; i < poses.size(); ++i) {
-        const bool have_hulls = among_.geometries()[body.body]->hasRootBody() &&
-                                obstacle.geometries()[i]->hasRootBody();
-        if (!have_hulls) return 1.0;
-        common.add(among_.prepared()->hulls.of(body.body), body.pose, obstacle.hulls().of(i),
-                   poses[i], reaches[body.body]);
-      }
-    }
-    return common.upper(enough);
-  }
-
   const RobotAmongObstacles& among_;
   const Eigen::VectorXd& values_;
   std::vector<fcl::Transform3d> poses_;
