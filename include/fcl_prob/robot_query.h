@@ -165,7 +165,7 @@ class RobotQuery {
   /// In one state that is known up to errors of the joints and the base: P over these and all
   /// displacements. An estimate, whose threshold is decided with ProbabilityRequest::confidence;
   /// `any` is [0, 1] but where the errors turn out to be none. For method interval a certified one,
-  /// by bands around the bodies: as narrow as was asked for only where the errors move them by much
+  /// by half-spaces and bands: as narrow as was asked for only where the errors move them by much
   /// less than the obstacles' deviations. Values that are drawn may be beyond the limits of joints.
   /// There is no answer by obstacle. Where no errors are given: as state().
   /// \param request  method automatic, interval, estimate or monte_carlo

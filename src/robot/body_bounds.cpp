@@ -49,13 +49,14 @@ BodyBounds::BodyBounds(const PreparedRobot& robot, const std::vector<PlacedBody>
                        const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
                        const GaussianDisplacement& of_bodies)
     : robot_(robot), obstacle_(obstacle), pose_(pose), of_bodies_(of_bodies) {
-  for (const PlacedBody& body : bodies) bounds_.push_back({body, upperOf(body)});
+  const std::vector<fcl::Transform3d> poses = obstacle.poses(pose);
+  for (const PlacedBody& body : bodies) bounds_.push_back({body, upperOf(body, poses)});
   std::stable_sort(bounds_.begin(), bounds_.end(),
                    [](const Bound& x, const Bound& y) { return x.upper > y.upper; });
 }
 
-double BodyBounds::upperOf(const PlacedBody& body) const {
-  const std::vector<fcl::Transform3d> poses = obstacle_.poses(pose_);
+double BodyBounds::upperOf(const PlacedBody& body,
+                           const std::vector<fcl::Transform3d>& poses) const {
   double upper = 0.0;
   for (std::size_t i = 0; i < poses.size() && upper < 1.0; ++i) {
     upper = sumAbove(upper, upperOfPair(*robot_.geometries[body.body], body.pose,

@@ -51,7 +51,8 @@ class BodyBounds {
   std::vector<PlacedBody> likelier(double most, double& left_out) const;
 
  private:
-  double upperOf(const PlacedBody& body) const;
+  /// \param poses  of the bodies of the obstacle
+  double upperOf(const PlacedBody& body, const std::vector<fcl::Transform3d>& poses) const;
 
   const PreparedRobot& robot_;
   const PreparedObstacle& obstacle_;

@@ -134,6 +134,10 @@ TEST_CASE("no more is told of bodies that touch, or of errors that leave an axis
       GaussianDisplacement(Eigen::Vector3d::Zero(), Eigen::Vector3d(1.0, 1.0, 0.0).asDiagonal()));
   flat.add(small, placedAt(3.05, 0.0, 0.0), large, kStill);
   CHECK(flat.upper(0.0) == 1.0);
+  CommonHalfSpaces stiff(
+      GaussianDisplacement(Eigen::Vector3d::Zero(), 1e-160 * Eigen::Matrix3d::Identity()));
+  stiff.add(small, placedAt(3.05, 0.0, 0.0), large, kStill);
+  CHECK(stiff.upper(0.5) == 1.0);
 }
 
 TEST_CASE("a ring around a ball needs half-spaces all around") {
