@@ -44,7 +44,7 @@ struct LadderScene {
 const std::vector<std::string>& whatCanBeLeftOut() {
   static const std::vector<std::string> all{
       "root volumes",   "convex meshes",     "exact mass",      "lines",   "columns",
-      "polytope cells", "first boxes",       "nearly convex",   "patches", "layers of nodes",
+      "polytope cells", "first boxes",       "nearly convex",   "layers of nodes",
       "long double",    "curved boundaries", "rounded sections"};
   return all;
 }

@@ -81,12 +81,6 @@ struct ProbabilityRequest {
   /// ProbabilityResult::gradient for where there is one).
   bool gradient = false;
 
-  /// Beside an object of convex members triangles of the other mesh are taken together in convex
-  /// patches. They are found once for each mesh, when a query first needs them, and kept; without
-  /// them preparing takes less time and memory, intervals and decisions more. Not found, either,
-  /// where they would take much of `max_memory`.
-  bool patches = true;
-
   /// How far the true shapes of A and B may be from their geometries (of every member, for groups):
   /// the certified interval then holds for all shapes within. For methods `automatic` and
   /// `interval` of pairs, groups, mixtures and batches; others refuse it.

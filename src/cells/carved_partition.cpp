@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "base/left_out.h"
 #include "cells/carving_engine.h"
 
 namespace fcl_prob::detail {
@@ -15,44 +14,28 @@ namespace {
 // Masses of cells are not computed to more digits than a tolerance of this needs.
 constexpr double kLeastTolerance = 1e-4;
 
-// Pieces of nearly convex meshes, and patches of the other one, may take one part in so many of the
-// memory.
+// Pieces of nearly convex meshes may take one part in so many of the memory.
 constexpr std::size_t kShareOfPieces = 8;
-constexpr std::size_t kShareOfPatches = 4;
 
 // Planes of polygons may be off by this share of a tolerance, and of one for decisions, in standard
 // deviations.
 constexpr double kShareOfTolerance = 0.05;
 constexpr double kToleranceOfDecision = 1e-3;
-constexpr double kMostLoss = 1e-4;
 
-PatchUse patchUse(const PartitionObject& mesh, const ProbabilityRequest& request) {
-  const std::size_t most = MeshPatches::mostMemory(mesh.tree->triangles.size());
+double mostLossOf(const ProbabilityRequest& request) {
   const double tolerance = request.threshold ? kToleranceOfDecision : request.relative_tolerance;
-  return {request.patches && !isLeftOut("patches") && most <= request.max_memory / kShareOfPatches,
-          std::min(kMostLoss, kShareOfTolerance * tolerance)};
+  return std::min(PolygonMesh::kMostLoss, kShareOfTolerance * tolerance);
 }
 
 // Nothing where there are none to be had.
-std::optional<std::string> patchNote(const FatMembers& obstacles, const PartitionObject& mesh,
-                                     bool mesh_is_a, const ProbabilityRequest& request) {
-  const std::string name = std::string("object ") + (mesh_is_a ? "A" : "B");
-  if (!request.patches) return name + ": convex patches left out, as asked";
-  if (!patchUse(mesh, request).taken) {
-    return name + ": convex patches left out, for want of memory";
-  }
-  const PatchedMesh::Held patches = obstacles.pieces().heldByPatches();
-  const PatchedMesh::Held polygons = obstacles.pieces().heldByPolygons();
-  const auto held = [](const PatchedMesh::Held& by, const char* kind) {
-    return std::to_string(by.triangles) + " in " + std::to_string(by.pieces) + kind;
-  };
-  if (patches.pieces + polygons.pieces == 0) return std::nullopt;
-  std::string note =
-      name + ": of its " + std::to_string(mesh.tree->triangles.size()) + " triangles ";
-  if (polygons.pieces > 0) note += held(polygons, " convex polygons");
-  if (polygons.pieces > 0 && patches.pieces > 0) note += ", ";
-  if (patches.pieces > 0) note += held(patches, " convex patches");
-  return note;
+std::optional<std::string> polygonNote(const FatMembers& obstacles, const PartitionObject& mesh,
+                                       bool mesh_is_a) {
+  const PolygonMesh::Held held = obstacles.pieces().held();
+  if (held.polygons == 0) return std::nullopt;
+  return std::string("object ") + (mesh_is_a ? "A" : "B") + ": of its " +
+         std::to_string(mesh.tree->triangles.size()) + " triangles " +
+         std::to_string(held.triangles) + " in " + std::to_string(held.polygons) +
+         " convex polygons";
 }
 
 std::string convexNote(const PartitionObject& body, const FatMembers& obstacles, bool fan_is_a) {
@@ -92,7 +75,7 @@ bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& b
   const auto& [body, mesh, fan_is_a] = whole;
   if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
   FatMembers obstacles(scene.pair(), body, mesh, fan_is_a, scene.whitening().matrix(),
-                       patchUse(mesh, request));
+                       mostLossOf(request));
   if (!obstacles.usable()) return false;
   if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
     obstacles.keepHullsClosed();
@@ -112,9 +95,7 @@ bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& b
   result.plan.push_back("partition of the displacement space along the C-obstacles' own planes: " +
                         std::to_string(result.statistics.cells) + " cells, " +
                         std::to_string(result.statistics.leaf_pairs) + " C-obstacles");
-  if (const auto note = patchNote(obstacles, mesh, !fan_is_a, request)) {
-    result.plan.push_back(*note);
-  }
+  if (const auto note = polygonNote(obstacles, mesh, !fan_is_a)) result.plan.push_back(*note);
   if (scene.solids()) result.plan.push_back("containment decided once for every free cell");
   return true;
 }

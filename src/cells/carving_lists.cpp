@@ -45,7 +45,7 @@ void CellCarver::divideBox(CarvedCell&& cell) {
 // Whether the one obstacle that reaches farthest beyond the box, as far as planes of nodes tell,
 // covers it: then it need not be divided. After gatherNodes().
 bool CellCarver::isCovered(const Cell& box) {
-  const PatchedMesh& pieces = obstacles_.pieces();
+  const PolygonMesh& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
   FatNode best{-1, -1};
@@ -66,8 +66,8 @@ bool CellCarver::isCovered(const Cell& box) {
   const NodeReach& reach = obstacles_.reachOf(best.member);
   if (highest_of != best.member) highest = reach.highestOf(middle, half);
   for (;;) {
-    const PatchedMesh::Node& node = pieces.nodes()[best.node];
-    if (node.piece >= 0 && takesPiece(box, best.member, node.piece)) {
+    const PolygonMesh::Node& node = pieces.nodes()[best.node];
+    if (node.piece >= 0 && takesPiece(best.member, node.piece)) {
       ranged_.assign(static_cast<std::size_t>(obstacles_.count()), false);
       return covers(box.box(), {best.member, node.piece});
     }
@@ -100,7 +100,7 @@ bool CellCarver::covers(const CellBox& box, FatObstacle obstacle) {
 
 // Those of the nodes, and of what is below them, that the box may meet.
 void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves) {
-  const PatchedMesh& pieces = obstacles_.pieces();
+  const PolygonMesh& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
   const double size = 2.0 * half.sum();
@@ -109,7 +109,6 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     lowest_.push_back(obstacles_.reachOf(member).lowestOf(middle, half));
   }
   gathered_.clear();
-  patches_taken_.assign(obstacles_.count() * pieces.partCount(), std::nullopt);
   stack_.assign(from.rbegin(), from.rend());
   while (!stack_.empty()) {
     const auto [member, node] = stack_.back();
@@ -118,11 +117,11 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     const NodeReach& reach = obstacles_.reachOf(member);
     if (isClearOf(reach.boxOf(node), box.lo.data(), box.hi.data())) continue;
     if (reach.isClearOf(lowest_[member], node)) continue;
-    const PatchedMesh::Node& in_tree = pieces.nodes()[node];
+    const PolygonMesh::Node& in_tree = pieces.nodes()[node];
     const bool is_small = !to_leaves && pieces.box(node).size() < kOpenRatio * size;
     const bool is_large_piece = in_tree.piece >= 0 && pieces.box(node).size() > kBesideRatio * size;
     if (is_large_piece && isBeside(box, {member, in_tree.piece})) continue;
-    if (is_small || (in_tree.piece >= 0 && takesPiece(box, member, in_tree.piece))) {
+    if (is_small || (in_tree.piece >= 0 && takesPiece(member, in_tree.piece))) {
       gathered_.push_back({member, node});
     } else {
       stack_.push_back({member, in_tree.right});
@@ -144,15 +143,8 @@ bool CellCarver::isBeside(const Cell& box, FatObstacle obstacle) {
                      });
 }
 
-// A triangle, a polygon, or a patch that need not be taken by its pieces.
-bool CellCarver::takesPiece(const Cell& box, int member, int piece) {
-  const PatchedMesh& pieces = obstacles_.pieces();
-  if (pieces.isTriangle(piece)) return true;
-  if (!pieces.isPatch(piece)) return obstacles_.of(member).mayTakePolygon(piece);
-  const std::size_t part = pieces.partOfPatch(piece);
-  std::optional<bool>& taken = patches_taken_[member * pieces.partCount() + part];
-  if (!taken) taken = obstacles_.mayTakePatches(member, part, box, points_tried_[member]);
-  return *taken;
+bool CellCarver::takesPiece(int member, int piece) const {
+  return obstacles_.pieces().isTriangle(piece) || obstacles_.of(member).mayTakePolygon(piece);
 }
 
 CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
@@ -243,8 +235,8 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
   return addEntry(obstacle, first, into);
 }
 
-// Of a patch or polygon of which nothing is known those of its pieces; of a triangle there is
-// nothing else.
+// Of a polygon of which nothing is known those of its triangles; of a triangle there is nothing
+// else.
 template <typename Add>
 CellCarver::Relation CellCarver::addPieces(FatObstacle obstacle, const Add& add) {
   if (obstacles_.pieces().isTriangle(obstacle.piece)) {
@@ -252,7 +244,7 @@ CellCarver::Relation CellCarver::addPieces(FatObstacle obstacle, const Add& add)
     return Relation::cut;
   }
   Relation relation = Relation::free;
-  obstacles_.pieces().visitPieces(obstacle.piece, [&](int piece) {
+  obstacles_.pieces().visitTriangles(obstacle.piece, [&](int piece) {
     if (relation == Relation::covered) return;
     const Relation of_one = add({obstacle.member, piece});
     if (of_one != Relation::free) relation = of_one;
@@ -297,13 +289,6 @@ CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
   return into.entries.empty() ? Relation::free : Relation::cut;
 }
 
-// Whether it is a patch of what counts as a surface: nothing tells then that what is within a hull
-// meets that surface where it meets the patch.
-bool CellCarver::isSurface(int piece) const {
-  const PatchedMesh& pieces = obstacles_.pieces();
-  return pieces.isPatch(piece) && !pieces.isSolid(pieces.partOfPatch(piece));
-}
-
 // All obstacles of the list are hulls: no core meets the cell.
 CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) {
   ++bodies_;
@@ -313,9 +298,7 @@ CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) 
     for (const int piece : obstacles_.piecesWithin(hull.obstacle.member)) {
       const FatObstacle obstacle{piece, hull.obstacle.piece};
       if (isClear(obstacle, box)) continue;
-      const Relation relation =
-          isSurface(obstacle.piece) ? addPieces(obstacle, add) : add(obstacle);
-      if (relation == Relation::covered) return Relation::covered;
+      if (add(obstacle) == Relation::covered) return Relation::covered;
     }
   }
   return into.entries.empty() ? Relation::free : Relation::cut;

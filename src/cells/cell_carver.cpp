@@ -73,7 +73,6 @@ CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
       accuracy_(settledAccuracy(request)),
       face_lo_(static_cast<std::size_t>(obstacles.faceCount())),
       face_hi_(static_cast<std::size_t>(obstacles.faceCount())),
-      points_tried_(static_cast<std::size_t>(obstacles.count()), 0),
       face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
 
 void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into) {

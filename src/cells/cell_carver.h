@@ -107,7 +107,7 @@ class CellCarver {
   bool isTooLarge(const Cell& box) const;
   void divideBox(CarvedCell&& cell);
   void gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves);
-  bool takesPiece(const Cell& box, int member, int piece);
+  bool takesPiece(int member, int piece) const;
   bool isBeside(const Cell& box, FatObstacle obstacle);
   bool isCovered(const Cell& box);
   bool covers(const CellBox& box, FatObstacle obstacle);
@@ -117,7 +117,6 @@ class CellCarver {
   Relation addFromBox(const CellBox& box, FatObstacle obstacle, List& into);
   template <typename Add>
   Relation addPieces(FatObstacle obstacle, const Add& add);
-  bool isSurface(int piece) const;
   Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);
   Relation listPieces(const CarvedCell& cell, List& into);
@@ -191,9 +190,6 @@ class CellCarver {
   std::vector<bool> ranged_;       // by member: those of its faces are known
   std::vector<FatNode> gathered_;  // that a box may meet
   std::vector<FatNode> stack_;
-  /// By member and part of the mesh: whether patches may be taken in that box, if it was asked.
-  std::vector<std::optional<bool>> patches_taken_;
-  std::vector<std::size_t> points_tried_;   // by member: the point that told last
   std::vector<NodeReach::Heights> lowest_;  // by member, of that box
   /// How far a body reaches along the normals of faces, as far as that was asked for since the
   /// body became another one.

@@ -9,12 +9,12 @@ namespace fcl_prob::detail {
 
 FatMembers::FatMembers(const WhitenedPair& pair, const PartitionObject& body,
                        const PartitionObject& mesh, bool fan_is_a, const Eigen::Matrix3d& matrix,
-                       PatchUse patches)
+                       double most_loss)
     : pair_(pair),
       body_(body),
       fan_is_a_(fan_is_a),
       matrix_(matrix),
-      pieces_(fan_is_a ? pair.b : pair.a, mesh, matrix, patches),
+      pieces_(fan_is_a ? pair.b : pair.a, mesh, matrix, most_loss),
       first_faces_{0} {
   for (std::size_t i = 0; i < body.parts.size(); ++i) {
     const PieceTree::Part& part = body.tree->parts[i];
@@ -36,7 +36,6 @@ void FatMembers::add(std::size_t part, const ConvexFan& fan, bool encloses) {
   members_.push_back(obstaclesOf(part, fan));
   parts_.push_back({part, encloses});
   reaches_.emplace_back(*members_.back(), pieces_);
-  points_.push_back(members_.back()->pointsApart());
   first_faces_.push_back(first_faces_.back() + members_.back()->faceCount());
 }
 
@@ -71,7 +70,7 @@ std::size_t FatMembers::memoryOfPieces(const PartitionObject& body, const Partit
   for (const PieceTree::Part& part : body.tree->parts) {
     if (part.nearly) pieces += part.nearly->pieces.size();
   }
-  return pieces * FatObstacles::leastMemory(PatchedMesh::mostPieces(mesh.tree->triangles.size()));
+  return pieces * FatObstacles::leastMemory(PolygonMesh::mostPieces(mesh.tree->triangles.size()));
 }
 
 const std::vector<int>& FatMembers::piecesWithin(int hull) {
@@ -97,25 +96,8 @@ std::size_t FatMembers::leastMemory(const PartitionObject& body, const Partition
   std::size_t members = 0;
   for (const PieceTree::Part& part : body.tree->parts) members += part.fan ? 1 : 2;
   const std::size_t triangles = mesh.tree->triangles.size();
-  return members * (FatObstacles::leastMemory(PatchedMesh::mostPieces(triangles)) +
-                    NodeReach::memoryOf(PatchedMesh::mostNodes(triangles)));
-}
-
-// Some point of the body is outside of the solid, so that what reaches into that meets its surface
-// (docs/rounding.md).
-bool FatMembers::mayTakePatches(int member, std::size_t part, const Cell& box,
-                                std::size_t& tried_first) const {
-  if (pieces_.isSolid(part) || encloses(member)) return true;
-  const FatObstacles& body = of(member);
-  const std::vector<Eigen::Vector3d>& points = points_[member];
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t tried = (tried_first + i) % points.size();
-    const NodeBox corners = paddedBox(box.lo - points[tried], box.hi - points[tried], body.pad());
-    if (!pieces_.isOutside(part, body.boxOfMesh(corners))) continue;
-    tried_first = tried;
-    return true;
-  }
-  return false;
+  return members * (FatObstacles::leastMemory(PolygonMesh::mostPieces(triangles)) +
+                    NodeReach::memoryOf(PolygonMesh::mostNodes(triangles)));
 }
 
 bool FatMembers::usable() const {

@@ -12,7 +12,7 @@
 #include "cells/fat_obstacles.h"
 #include "cells/node_reach.h"
 #include "mass/cell_mass.h"
-#include "scene/patched_mesh.h"
+#include "scene/polygon_mesh.h"
 
 namespace fcl_prob::detail {
 
@@ -38,7 +38,8 @@ class FatMembers {
   ///
   /// Keeps references to the pair and the body.
   FatMembers(const WhitenedPair& pair, const PartitionObject& body, const PartitionObject& mesh,
-             bool fan_is_a, const Eigen::Matrix3d& matrix, PatchUse patches);
+             bool fan_is_a, const Eigen::Matrix3d& matrix,
+             double most_loss = PolygonMesh::kMostLoss);
 
   /// Of one that has not been asked for anything.
   static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);
@@ -70,13 +71,7 @@ class FatMembers {
   /// if there are none.
   const std::vector<int>& piecesWithin(int hull);
 
-  const PatchedMesh& pieces() const { return pieces_; }
-
-  /// Whether what touches a patch of that part of the mesh also touches its surface, or is told to
-  /// be touching it, for all displacements of a box and a member below count(). \param tried_first
-  /// of some points of the member, which see, and where the one that told of it is put
-  bool mayTakePatches(int member, std::size_t part, const Cell& box,
-                      std::size_t& tried_first) const;
+  const PolygonMesh& pieces() const { return pieces_; }
 
   /// Where the faces of a member begin among those of all.
   int firstFace(int member) const { return first_faces_[member]; }
@@ -114,12 +109,11 @@ class FatMembers {
   const PartitionObject& body_;
   const bool fan_is_a_;
   const Eigen::Matrix3d matrix_;
-  const PatchedMesh pieces_;
+  const PolygonMesh pieces_;
   bool hulls_stay_closed_ = false;
   std::vector<std::unique_ptr<FatObstacles>> members_;  ///< null: not made yet
   std::vector<OfPart> parts_;                           ///< by member
   std::vector<NodeReach> reaches_;                      ///< by member below count()
-  std::vector<std::vector<Eigen::Vector3d>> points_;    ///< of those, a few apart
   int count_ = 0;
   std::vector<int> first_faces_;
   std::deque<Within> within_;

@@ -21,9 +21,6 @@ constexpr double kOnPlane = 1e-9;
 // The normals of a sharper edge than this, added up, are no longer than this.
 constexpr double kSharpest = 1e-3;
 
-// Two normals of a patch that are closer than this have no edge that is known.
-constexpr double kSmallestTurn = 1e-7;
-
 // A triangle whose normal is known no better than this covers nothing.
 constexpr double kPoorNormal = 1e-6;
 
@@ -53,7 +50,7 @@ Eigen::Vector3d areaOf(const Eigen::Matrix3Xd& corners) {
 
 FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part,
                            const ConvexFan& fan, bool fan_is_a, const Eigen::Matrix3d& linear,
-                           const PatchedMesh& pieces)
+                           const PolygonMesh& pieces)
     : WhitenedFan(pair, part, fan, fan_is_a, linear),
       pieces_(pieces),
       details_(static_cast<std::size_t>(pieces.pieceCount())),
@@ -102,8 +99,6 @@ const std::vector<ObstaclePlane>& FatObstacles::otherPlanes(int piece) {
 void FatObstacles::buildPlanes(int piece, Details& into) {
   if (pieces_.isTriangle(piece)) {
     buildTriangle(piece, into);
-  } else if (pieces_.isPatch(piece)) {
-    buildPatch(piece, into);
   } else {
     buildPolygon(piece, into);
   }
@@ -189,18 +184,22 @@ std::vector<int> FatObstacles::arcsAcross(const Eigen::VectorXd& on_normals,
 }
 
 // Where the arc between the normals of two faces of P crosses the plane across an edge of the other
-// body, V may have a facet. \param length  of `along`
-template <typename IsFacet, typename Extent>
-void FatObstacles::addArcCrossings(const Eigen::Vector3d& along, double length, double parallel,
-                                   const IsFacet& isFacet, const Extent& extentAlong,
-                                   Details& into) const {
+// body, V may have a facet.
+template <typename Corners>
+void FatObstacles::addEdge(const Corners& corners, double off, const Eigen::Vector3d& along,
+                           const Eigen::Vector3d& inward, Details& into) const {
+  const double length = along.norm();
+  if (!(length > 0.0)) {
+    into.loss = kNever;
+    return;
+  }
   const Eigen::VectorXd on_normals = heightsAlong(along);
-  for (const int arc : arcsAcross(on_normals, parallel * length)) {
+  for (const int arc : arcsAcross(on_normals, kParallel * length)) {
     const auto& [f, g] = arcs()[static_cast<std::size_t>(arc)];
     const double at_f = on_normals[f];
     const double at_g = on_normals[g];
     const double lean = std::fabs(at_f) + std::fabs(at_g);
-    if (lean <= parallel * length) {
+    if (lean <= kParallel * length) {
       const double sum = (normals()[f] + normals()[g]).norm();
       const double loss =
           sum > kSharpest ? 8 * (lean / length) * (4 / (sum * sum)) * reach() : kNever;
@@ -212,37 +211,20 @@ void FatObstacles::addArcCrossings(const Eigen::Vector3d& along, double length, 
     const double of_g = std::fabs(at_f);
     const Eigen::Vector3d crossing = of_f * normals()[f] + of_g * normals()[g];
     const double size = crossing.norm();
-    if (!isFacet(crossing, size, lean)) continue;
+    if (crossing.dot(inward) > kOnPlane * size * inward.norm()) continue;
     if (!(size > kSharpest * lean)) {
       into.loss = kNever;
       return;
     }
     const double of_p = (of_f * faceOffset(f) + of_g * faceOffset(g)) / size;
     const Eigen::Vector3d n = crossing / size;
-    ObstaclePlane plane = planeAcross(extentAlong(n), n, of_p);
+    ObstaclePlane plane = planeAcross((n.transpose() * corners).maxCoeff() + off, n, of_p);
     const double gap = (normals()[f] - normals()[g]).norm();
     // Rounded weights leave the crossing on its arc, but not quite across the edge: it is off by a
     // few ε of length / size along the arc, along which the normals differ by the gap.
     plane.margin += 64 * kEpsilon * gap * (length / size) * reach();
     into.planes.push_back(plane);
   }
-}
-
-template <typename Corners>
-void FatObstacles::addEdge(const Corners& corners, double off, const Eigen::Vector3d& along,
-                           const Eigen::Vector3d& inward, Details& into) const {
-  const double length = along.norm();
-  if (!(length > 0.0)) {
-    into.loss = kNever;
-    return;
-  }
-  const auto isFacet = [&](const Eigen::Vector3d& crossing, double size, double /*lean*/) {
-    return !(crossing.dot(inward) > kOnPlane * size * inward.norm());
-  };
-  const auto extentAlong = [&](const Eigen::Vector3d& n) {
-    return (n.transpose() * corners).maxCoeff() + off;
-  };
-  addArcCrossings(along, length, kParallel, isFacet, extentAlong, into);
 }
 
 // The corners are put into a plane across n along n. What is within all planes but for their
@@ -275,40 +257,6 @@ Eigen::Matrix3Xd FatObstacles::cornersOf(int polygon) const {
   pieces_.visitCorners(polygon, [&](int vertex) { corners.push_back(corner(vertex)); });
   return Eigen::Map<const Eigen::Matrix3Xd>(corners[0].data(), 3,
                                             static_cast<Eigen::Index>(corners.size()));
-}
-
-void FatObstacles::buildPatch(int piece, Details& into) {
-  const WhitenedPatch patch = pieces_.whitened(piece);
-  into.loss = std::min(patch.loss + pieces_.offOf(piece), kNever);
-  if (!(into.loss < kNever)) return;
-  for (const Eigen::Vector3d& normal : patch.normals) {
-    const Eigen::Vector3d n = sign() * normal;
-    into.planes.push_back(planeAcross(extent(piece, n), n, support(n)));
-  }
-  into.own = static_cast<int>(into.planes.size());
-  for (const auto& [f, g] : patch.arcs) {
-    addPatchEdge(piece, sign() * patch.normals[f], sign() * patch.normals[g], into);
-  }
-}
-
-// A facet is between the two normals.
-void FatObstacles::addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
-                                Details& into) const {
-  const double sine = n0.cross(n1).norm();
-  if (!(sine > kSmallestTurn)) {
-    into.loss = kNever;
-    return;
-  }
-  const Eigen::Vector3d along = n0.cross(n1) / sine;
-  const Eigen::Vector3d from_n0 = along.cross(n0);
-  const Eigen::Vector3d from_n1 = n1.cross(along);
-  const auto isFacet = [&](const Eigen::Vector3d& crossing, double size, double lean) {
-    const double beyond = (kOnPlane + 32 * kEpsilon / lean) * size;
-    return !(crossing.dot(from_n0) < -beyond || crossing.dot(from_n1) < -beyond);
-  };
-  const auto extentAlong = [&](const Eigen::Vector3d& n) { return extent(piece, n); };
-  const double parallel = std::max(kParallel, 64 * kEpsilon / sine);
-  addArcCrossings(along, 1.0, parallel, isFacet, extentAlong, into);
 }
 
 }  // namespace fcl_prob::detail

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "scene/patched_mesh.h"
+#include "scene/polygon_mesh.h"
 #include "scene/whitened_fan.h"
 
 namespace fcl_prob::detail {
@@ -26,7 +26,7 @@ struct ObstaclePlane {
   double inner() const { return outer - margin; }
 };
 
-/// V_t = P ⊕ T_t for every piece t of the mesh, a triangle, a polygon or a patch (docs/rounding.md
+/// V_t = P ⊕ T_t for every piece t of the mesh, a triangle or a polygon (docs/rounding.md
 /// tells what its planes are): planes across the normals of P, offset by the piece's extent, are
 /// shared by all; those across an edge of the piece and one of P, and the piece's own, are made
 /// when they are first asked for, by any of several threads. All is relative to the centre of P,
@@ -34,7 +34,7 @@ struct ObstaclePlane {
 class FatObstacles : public WhitenedFan {
  public:
   FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
-               bool fan_is_a, const Eigen::Matrix3d& linear, const PatchedMesh& pieces);
+               bool fan_is_a, const Eigen::Matrix3d& linear, const PolygonMesh& pieces);
 
   /// Of one of so many pieces that has not been asked for anything.
   static std::size_t leastMemory(std::size_t pieces) { return pieces * sizeof(Slot); }
@@ -65,7 +65,7 @@ class FatObstacles : public WhitenedFan {
   /// its obstacle contains.
   bool hasFailed(int piece) const { return !(known(piece).loss < kNever); }
 
-  /// Whether that is so of any triangle that was asked for. (A patch has its triangles instead.)
+  /// Whether that is so of any triangle that was asked for. (A polygon has its triangles instead.)
   bool failed() const { return failed_; }
 
   /// In which half of the doubled middle of T ⊕ P: a point of V_t.
@@ -82,7 +82,7 @@ class FatObstacles : public WhitenedFan {
   /// Box of P ⊕ T_t.
   NodeBox obstacleBoxOf(int piece) const;
 
-  const PatchedMesh& pieces() const { return pieces_; }
+  const PolygonMesh& pieces() const { return pieces_; }
 
   std::size_t memory() const { return memory_; }
   std::size_t built() const { return built_; }
@@ -120,7 +120,6 @@ class FatObstacles : public WhitenedFan {
   void buildPlanes(int piece, Details& into);
   void buildTriangle(int piece, Details& into);
   void buildPolygon(int piece, Details& into);
-  void buildPatch(int piece, Details& into);
   void addTriangleNormal(const Eigen::Matrix3d& corners, Details& into) const;
   /// Of a triangle or polygon, which lies on the side of `inward` of an edge.
   template <typename Corners>
@@ -131,16 +130,10 @@ class FatObstacles : public WhitenedFan {
   double lossOf(int polygon) const {
     return (2 + kMoreThanShare * roundness()) * pieces_.offOf(polygon);
   }
-  /// Of two neighbouring normals of a patch, n0 and n1.
-  void addPatchEdge(int piece, const Eigen::Vector3d& n0, const Eigen::Vector3d& n1,
-                    Details& into) const;
   std::vector<int> arcsAcross(const Eigen::VectorXd& on_normals, double parallel) const;
-  template <typename IsFacet, typename Extent>
-  void addArcCrossings(const Eigen::Vector3d& along, double length, double parallel,
-                       const IsFacet& isFacet, const Extent& extentAlong, Details& into) const;
   ObstaclePlane planeAcross(double extent, const Eigen::Vector3d& n, double of_p) const;
 
-  const PatchedMesh& pieces_;
+  const PolygonMesh& pieces_;
   std::vector<Slot> details_;
   std::array<std::mutex, 16> mutexes_;  ///< each for what is made of some of the triangles
   std::atomic<bool> failed_{false};

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "scene/patched_mesh.h"
+#include "scene/polygon_mesh.h"
 #include "scene/whitened_fan.h"
 
 namespace fcl_prob::detail {
@@ -20,7 +20,7 @@ class NodeReach {
   using Heights = Eigen::Array<float, kFaces, 1>;
 
   /// Of the nodes of `pieces`.
-  NodeReach(const WhitenedFan& fan, const PatchedMesh& pieces);
+  NodeReach(const WhitenedFan& fan, const PolygonMesh& pieces);
 
   /// What no point of a box is below, along those normals.
   Heights lowestOf(const Eigen::Vector3d& middle, const Eigen::Vector3d& half) const;

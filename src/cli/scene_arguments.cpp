@@ -135,7 +135,6 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   apply(arguments.seed, request.seed);
   apply(arguments.threads, request.threads);
   if (arguments.gradient) request.gradient = true;
-  if (arguments.no_patches) request.patches = false;
 }
 
 /// A mesh, a map, or what was made of a cloud, by the ending of the file's name.
@@ -235,8 +234,6 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
       .add_option("--leaves", arguments.leaves,
                   "What general-pcd's trees end at: triangles, or convex parts of the meshes")
       ->check(CLI::IsMember({"triangles", "parts"}));
-  command.add_flag("--no-patches", arguments.no_patches,
-                   "Prepare no convex patches of meshes: for a single query of a large one");
   command.option_defaults()->group("Limits");
   command.add_option("--time-limit", arguments.time_limit, "Seconds");
   command.add_option("--samples", arguments.samples, "Number of samples at most")

@@ -49,7 +49,6 @@ struct SceneArguments {
   std::optional<unsigned> threads;
   std::optional<std::string> contact;
   bool gradient = false;
-  bool no_patches = false;
 };
 
 /// Adds the options to `command`; parsing fills `arguments`, which must live as long. In the help

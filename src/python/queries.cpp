@@ -321,7 +321,7 @@ std::shared_ptr<Groups> preparedGroups(const py::object& a, const py::object& b)
 #define FCL_PROB_REQUEST_KEYWORDS                                                               \
   "request: method ('auto', 'interval', 'estimate', 'exact', ...), contact ('fcl', 'solid'),\n" \
   "relative_tolerance, absolute_tolerance, threshold, time_limit (seconds), max_cells,\n"       \
-  "max_memory (bytes), confidence, samples, seed, threads, gradient, patches, on_progress.\n\n"
+  "max_memory (bytes), confidence, samples, seed, threads, gradient, on_progress.\n\n"
 
 constexpr const char* kAskDocumentation =
     "The probability that A, displaced at random, collides with B.\n\n"

@@ -143,7 +143,6 @@ constexpr std::array<Keyword, 17> kKeywords = {{
                 const char* name) { q.request.seed = countFrom<std::uint64_t>(name, v); }},
     {"threads", [](Question& q, py::handle v, const char*) { setThreads(q, v); }},
     {"gradient", setTruth<&R::gradient>},
-    {"patches", setTruth<&R::patches>},
     {"band_a", setBand<&R::band_a>},
     {"band_b", setBand<&R::band_b>},
     {"on_progress",

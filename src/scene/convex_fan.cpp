@@ -15,7 +15,6 @@
 #include "base/constants.h"
 #include "base/keep_once.h"
 #include "geometry/directed_edges.h"
-#include "scene/hull_triangles.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -26,14 +25,6 @@ constexpr int kMostTriangles = 20'000;
 // What coordinates in single precision, as STL has them, are rounded by, twice over: relative to
 // the largest one.
 constexpr double kFileRounding = 4 * 5.96e-8;
-
-// Of a hull of few points: what hullTriangles() moves them by, tenfold, relative to their
-// distances, and how far from its centre its planes have to be.
-constexpr double kMovedPoints = 1e-10;
-constexpr double kLeastOffset = 1e-5;
-
-// Six times the volume below a triangle is known to this, of the cube of the size.
-constexpr double kVolumeRounding = 64 * kEpsilon;
 
 // Three normals of a vertex with a smaller determinant count as coplanar.
 constexpr double kLeastDeterminant = 1e-6;
@@ -48,9 +39,6 @@ class FanBuilder {
 
   /// P is to hold these, too.
   void include(const std::vector<Eigen::Vector3d>& points) { points_ = points; }
-
-  /// Triangles that are so nearly in one plane are one group, metres.
-  void tolerate(double distance) { tolerance_ = distance; }
 
   std::shared_ptr<ConvexFan> build() {
     if (!readSurface() || !readNeighbours() || !groupTriangles()) return nullptr;
@@ -89,7 +77,7 @@ class FanBuilder {
       if (!anyEqual(corners)) corners_.push_back(corners);
     }
     if (corners_.size() < 4) return false;
-    if (!(tolerance_ > 0.0)) tolerance_ = kFileRounding * largest;
+    tolerance_ = kFileRounding * largest;
     if (!points_.empty()) return true;
     for (int v = 0; v < view_.vertex_count; ++v) {
       if (is_used[v]) points_.push_back(vertices_[v]);
@@ -292,31 +280,6 @@ std::shared_ptr<const ConvexFan> convexFanOf(const ConvexPolytope& hull,
   if (!fan) return nullptr;
   const ClosedMesh solid(view, "polytope");
   return hasCentreWithin(*fan, solid, Eigen::Vector3d::Zero()) ? fan : nullptr;
-}
-
-// Moved as they are there, the points have triangles that all face away from the centre, around
-// which these wind; on the way from there to where they are they stay away from it.
-std::optional<ConvexFan> convexFanAround(const std::vector<Eigen::Vector3d>& points) {
-  const TriangleMesh moved = hullTriangles(points);
-  if (moved.triangles.empty()) return std::nullopt;
-  double size = 0.0;
-  for (const Eigen::Vector3d& point : points) size = std::max(size, (point - points[0]).norm());
-  FanBuilder builder(viewOf(moved), points);
-  builder.include(points);
-  builder.tolerate(kMovedPoints * size);
-  const std::shared_ptr<ConvexFan> fan = builder.build();
-  if (!fan) return std::nullopt;
-  for (std::size_t f = 0; f < fan->normals.size(); ++f) {
-    if (!(fan->offsets[f] - fan->depths[f] > kLeastOffset * size)) return std::nullopt;
-  }
-  const Eigen::Vector3d centre = fan->centre - points[0];
-  for (const fcl::Triangle& t : moved.triangles) {
-    const Eigen::Vector3d a = moved.vertices[t[0]] - centre;
-    const Eigen::Vector3d b = moved.vertices[t[1]] - centre;
-    const Eigen::Vector3d c = moved.vertices[t[2]] - centre;
-    if (!(a.dot(b.cross(c)) > kVolumeRounding * size * size * size)) return std::nullopt;
-  }
-  return std::move(*fan);
 }
 
 bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,

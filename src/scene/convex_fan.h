@@ -45,10 +45,6 @@ std::shared_ptr<const ConvexFan> convexFanOf(const MeshView& view,
 std::shared_ptr<const ConvexFan> convexFanOf(const ConvexPolytope& hull,
                                              const std::vector<Eigen::Vector3d>& points);
 
-/// The same of the hull of a few points, for which that is ten times as fast; nothing, too, where
-/// it is hardly more than flat.
-std::optional<ConvexFan> convexFanAround(const std::vector<Eigen::Vector3d>& points);
-
 /// Whether the centre of a fan is certainly within a solid.
 /// \param moved_by  added to what is relative to the fan's frame, up to rounding
 bool hasCentreWithin(const ConvexFan& fan, const ClosedMesh& solid,

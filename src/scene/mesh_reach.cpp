@@ -94,10 +94,10 @@ class ReachSearch {
 
 }  // namespace
 
-SurroundingMesh::SurroundingMesh(const MeshView& view, const WeldedSurface& surface,
+SurroundingMesh::SurroundingMesh(const MeshView& view,
                                  const std::vector<Eigen::Vector3d>& vertices,
                                  const Eigen::Vector3d& moved_by)
-    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, surface, "mesh") {
+    : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {
   lengths_.reserve(view.vertex_count);
   for (int v = 0; v < view.vertex_count; ++v) lengths_.push_back(view.vertices[v].norm());
   std::vector<BoxTree::Box> boxes(view.triangle_count);
@@ -111,10 +111,10 @@ SurroundingMesh::SurroundingMesh(const MeshView& view, const WeldedSurface& surf
   boxes_ = BoxTree(boxes);
 }
 
-// The share λ of P that the mesh reaches into; where it is more than `most` it means no more
+// The share λ of P that the mesh reaches into; where it is more than kMostReach it means no more
 // than that. What is clear of a box around P by more than rounding does not reach into it.
-double SurroundingMesh::reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
-                                  double most) const {
+double SurroundingMesh::reachInto(const ConvexFan& fan,
+                                  const std::vector<Eigen::Vector3d>& normals) const {
   BoxTree::Box box;
   for (const Eigen::Vector3d& v : fan.vertices) box.extend(fan.centre + v);
   const double rounding = 64 * kEpsilon * (fan.radius + fan.centre.norm() + 2 * largest_);
@@ -123,15 +123,15 @@ double SurroundingMesh::reachInto(const ConvexFan& fan, const std::vector<Eigen:
   double farthest = 0.0;
   boxes_.visitBox(around, [&](int t) {
     farthest = std::max(farthest, search.of(t));
-    return farthest <= most;
+    return farthest <= kMostReach;
   });
   return farthest;
 }
 
-bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
-                                double most) const {
-  const double reach = reachInto(fan, normals, most);
-  if (!(reach <= most) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
+bool SurroundingMesh::surrounds(ConvexFan& fan,
+                                const std::vector<Eigen::Vector3d>& normals) const {
+  const double reach = reachInto(fan, normals);
+  if (!(reach <= kMostReach) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
   for (std::size_t f = 0; f < fan.depths.size(); ++f) {
     fan.depths[f] = std::max(fan.depths[f], reach * fan.offsets[f]);
   }

@@ -23,25 +23,16 @@ class SurroundingMesh {
   ///
   /// Keeps what the view is of, and the vertices, by reference. \throws OpenMesh
   SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
-                  const Eigen::Vector3d& moved_by)
-      : SurroundingMesh(view, WeldedSurface(view), vertices, moved_by) {}
-
-  /// The same where the surface of the mesh is already known.
-  SurroundingMesh(const MeshView& view, const WeldedSurface& surface,
-                  const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3d& moved_by);
+                  const Eigen::Vector3d& moved_by);
 
   /// Whether the mesh winds around P and hardly reaches into it: no triangle meets the inside of P
-  /// shrunk about its centre by a share of `most` at the most, since there is a plane between the
+  /// shrunk about its centre by a share of kMostReach at the most, since there is a plane between the
   /// two. The depths are then no smaller than that share of P, so that what is told of P's inside
   /// is told of what the mesh does not reach. \param normals  of planes to try beside those of P
-  bool surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
-                 double most = kMostReach) const;
-
-  const ClosedMesh& solid() const { return solid_; }
+  bool surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
 
  private:
-  double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals,
-                   double most) const;
+  double reachInto(const ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
 
   const MeshView view_;
   const std::vector<Eigen::Vector3d>& vertices_;

@@ -155,7 +155,7 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
     part.fan = convexFanOf(view, tree->vertices, part.origin);
     if (!part.fan) part.nearly = nearlyConvexOf(view, tree->vertices, part.origin);
     part.spans = spansOf(view, tree->caps->components);
-    part.patches = std::make_shared<const PatchesOfMesh>();
+    part.polygons = std::make_shared<const PolygonsOfMesh>();
     part.slabs = std::make_shared<const SlabsOfNodes>();
     orderByLeaves(*tree);
   } else if (kindOf(geometry) == GeometryKind::convex) {
@@ -164,9 +164,9 @@ std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& g
   return tree;
 }
 
-const MeshPatches* PieceTree::patchesOf(const Part& part) const {
-  if (!part.patches) return nullptr;
-  return part.patches->of([&] {
+const MeshPolygons* PieceTree::polygonsOf(const Part& part) const {
+  if (!part.polygons) return nullptr;
+  return part.polygons->of([&] {
     TriangleMesh mesh;
     mesh.vertices.assign(vertices.begin() + part.vertices.begin,
                          vertices.begin() + part.vertices.end);

@@ -14,7 +14,7 @@
 #include "geometry/surface_caps.h"
 #include "scene/convex_fan.h"
 #include "scene/convex_piece.h"
-#include "scene/mesh_patches.h"
+#include "scene/mesh_polygons.h"
 #include "scene/nearly_convex.h"
 
 namespace fcl_prob::detail {
@@ -97,8 +97,8 @@ struct PieceTree {
     std::shared_ptr<const NearlyConvex> nearly;
     /// Of a mesh, indices into the tree's vertices: see spansOf().
     std::vector<std::pair<int, int>> spans;
-    /// Of a mesh; null of what is none. See patchesOf().
-    std::shared_ptr<const PatchesOfMesh> patches;
+    /// Of a mesh; null of what is none. See polygonsOf().
+    std::shared_ptr<const PolygonsOfMesh> polygons;
     /// Of a mesh; null of what is none.
     std::shared_ptr<const SlabsOfNodes> slabs;
   };
@@ -122,7 +122,7 @@ struct PieceTree {
 
   /// Of a part that is a mesh, with indices into its own triangles and vertices; null if it has
   /// none.
-  const MeshPatches* patchesOf(const Part& part) const;
+  const MeshPolygons* polygonsOf(const Part& part) const;
 
   bool isMesh() const { return bodies.empty(); }
   bool isEmpty() const { return nodes.empty(); }

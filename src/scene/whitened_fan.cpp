@@ -123,15 +123,6 @@ NodeBox WhitenedFan::cornerBox(const NodeBox& box) const {
   return result;
 }
 
-NodeBox WhitenedFan::boxOfMesh(const NodeBox& box) const {
-  NodeBox result;
-  for (int k = 0; k < 3; ++k) {
-    result.lo[k] = sign_ * (sign_ > 0 ? box.lo[k] : box.hi[k]) + centre_[k];
-    result.hi[k] = sign_ * (sign_ > 0 ? box.hi[k] : box.lo[k]) + centre_[k];
-  }
-  return result;
-}
-
 NodeBox WhitenedFan::obstacleBox(const NodeBox& of_mesh) const {
   NodeBox box = cornerBox(of_mesh);
   for (int k = 0; k < 3; ++k) {
@@ -139,34 +130,6 @@ NodeBox WhitenedFan::obstacleBox(const NodeBox& of_mesh) const {
     box.hi[k] = box_.hi[k] + box.hi[k] + pad_[k];
   }
   return box;
-}
-
-// Within all planes moved inwards by their margins, and by as much as the pads are once more.
-std::vector<Eigen::Vector3d> WhitenedFan::pointsApart() const {
-  constexpr double kWithin = 1.0 - 1e-6;
-  std::vector<Eigen::Vector3d> apart;
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        const Eigen::Vector3d direction(x, y, z);
-        const auto farthest = std::max_element(
-            points_.begin(), points_.end(),
-            [&](const auto& a, const auto& b) { return direction.dot(a) < direction.dot(b); });
-        const Eigen::Vector3d point = kWithin * *farthest;
-        if (std::find(apart.begin(), apart.end(), point) == apart.end()) apart.push_back(point);
-      }
-    }
-  }
-  const auto isWithin = [this](const Eigen::Vector3d& point) {
-    for (int f = 0; f < faceCount(); ++f) {
-      if (!(normals_[f].dot(point) <= offsets_[f] - margins_[f] - pads_[f])) return false;
-    }
-    return true;
-  };
-  apart.erase(
-      std::remove_if(apart.begin(), apart.end(), [&](const auto& p) { return !isWithin(p); }),
-      apart.end());
-  return apart;
 }
 
 bool WhitenedFan::isTooSmallFor(const std::vector<std::pair<int, int>>& spans) const {

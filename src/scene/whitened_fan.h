@@ -70,9 +70,6 @@ class WhitenedFan {
   /// Box of the corners of what is in a box of the tree of the mesh.
   NodeBox cornerBox(const NodeBox& of_mesh) const;
 
-  /// The other way: in the coordinates of the mesh's vertices.
-  NodeBox boxOfMesh(const NodeBox& of_corners) const;
-
   /// Bound on |y - v| for any y of a cell and any v of a P ⊕ T.
   double reach() const { return reach_; }
 
@@ -85,9 +82,6 @@ class WhitenedFan {
   /// Box of P ⊕ a box of the tree of the mesh.
   NodeBox obstacleBox(int node) const { return obstacleBox(mesh_.boxOf(node)); }
   NodeBox obstacleBox(const NodeBox& of_mesh) const;
-
-  /// A few points of P, far apart, a little within it: certainly so, as its planes tell.
-  std::vector<Eigen::Vector3d> pointsApart() const;
 
   /// Whether no connected part of the mesh fits within P, so that where triangles meet P they meet
   /// its surface.

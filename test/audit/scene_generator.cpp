@@ -204,7 +204,6 @@ class Generator {
       request.samples = size({1, 100, 100'000'000, kMost / 2, kMost});
     }
     if (chance(random_, 0.3)) scene_.cancel_after = random_.integer(0, 5);
-    request.patches = chance(random_, 0.5);
   }
 
   RandomBodies random_;

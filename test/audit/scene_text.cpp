@@ -49,7 +49,7 @@ void writeRequest(std::ostream& out, const Scene& scene) {
       << r.relative_tolerance << " " << r.absolute_tolerance << " cells " << r.max_cells
       << " memory " << r.max_memory << " samples " << r.samples << " seed " << r.seed
       << " confidence " << r.confidence << " threads " << r.threads
-      << (r.gradient ? " gradient" : "") << (r.patches ? "" : " no patches");
+      << (r.gradient ? " gradient" : "");
   if (r.threshold) out << " threshold " << *r.threshold;
   if (r.time_limit) out << " time limit " << *r.time_limit;
   if (scene.cancel_after) out << " cancelled after " << *scene.cancel_after;

@@ -109,8 +109,6 @@ std::vector<Change> requestChanges() {
   add(
       [](Scene & s) -> auto& { return s.request.gradient; }, false);
   add(
-      [](Scene & s) -> auto& { return s.request.patches; }, true);
-  add(
       [](Scene & s) -> auto& { return s.request.method; }, defaults.method);
   add(
       [](Scene & s) -> auto& { return s.request.contact; }, defaults.contact);

@@ -125,8 +125,8 @@ TEST_CASE("the planes of P ⊕ T hold it, and what is within their margins", "[c
       const auto& tree = body_is_a ? scene_meshes.tree_a : scene_meshes.tree_b;
       REQUIRE(tree->parts[0].fan);
       const Eigen::Matrix3d linear = scene_meshes.whitening.matrix();
-      const PatchedMesh pieces(body_is_a ? scene_meshes.pair.b : scene_meshes.pair.a,
-                               scene_meshes.objectOf(!body_is_a), linear, PatchUse{});
+      const PolygonMesh pieces(body_is_a ? scene_meshes.pair.b : scene_meshes.pair.a,
+                               scene_meshes.objectOf(!body_is_a), linear);
       FatObstacles obstacles(scene_meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
                              linear, pieces);
       REQUIRE(obstacles.usable());
@@ -362,7 +362,7 @@ TEST_CASE("carved cells and boxes agree", "[carving]") {
 }
 
 // A box so large that only the face towards a small mesh matters: P is a tail, and nearly all that
-// is behind that face is within the obstacle of one patch, which few boxes have to tell.
+// is behind that face is within the obstacle of one triangle, which few boxes have to tell.
 TEST_CASE("what one obstacle covers is not divided", "[carving]") {
   constexpr double kDeviation = 0.1;
   for (const double gap : {-0.3, -0.05, 0.05, 0.2}) {

@@ -71,23 +71,6 @@ std::string prismFile(const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("check leaves out convex patches where asked, and says so", "[cli]") {
-  const TemporaryFolder folder;
-  const std::vector<std::string> arguments{
-      prismFile(folder), dataFile("mug.obj"),    "--pose-a", "0.1,0.01,0.02", "--sigma",
-      "0.01,0.02,0.015", "--relative-tolerance", "0.001"};
-  const json with = checkJson(arguments, folder);
-  std::vector<std::string> more = arguments;
-  more.emplace_back("--no-patches");
-  const json without = checkJson(more, folder);
-  const std::string left_out = "object B: convex patches left out, as asked";
-  CHECK(with.at("plan").dump().find(" convex patches\"") != std::string::npos);
-  CHECK(with.at("plan").dump().find(left_out) == std::string::npos);
-  CHECK(without.at("plan").dump().find(left_out) != std::string::npos);
-  CHECK(with.at("lower").get<double>() <= without.at("upper").get<double>());
-  CHECK(without.at("lower").get<double>() <= with.at("upper").get<double>());
-}
-
 TEST_CASE("check widens by bands around the shapes", "[cli]") {
   const Cubes cubes;
   const std::vector<std::string> base{cubes.file,      cubes.file, "--pose-a",

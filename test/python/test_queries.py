@@ -76,25 +76,6 @@ def test_prepared_queries_groups_and_batches_agree_with_single_calls():
     assert of_group.lower == batch.lower[0]
 
 
-def test_patches_can_be_left_out():
-    count = 16
-    angles = 2 * np.pi * np.arange(count) / count
-    ring = np.stack([0.03 * np.cos(angles), 0.03 * np.sin(angles)], axis=1)
-    vertices = np.concatenate([np.insert(ring, 2, z, axis=1) for z in (-0.02, 0.02)])
-    k = np.arange(count)
-    after, fan = (k + 1) % count, k[1:-1]
-    bottom = np.stack([0 * fan, fan + 1, fan], axis=1)
-    sides = [np.stack([k, after, after + count], axis=1), np.stack([k, after + count, k + count], axis=1)]
-    prism = fcl_prob.Mesh(vertices, np.concatenate([bottom, bottom[:, ::-1] + count, *sides]))
-    error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.01, 0.02, 0.015])
-    ask = dict(pose_a=pose(0.235, 0.01, 0.02), method="interval", relative_tolerance=1e-3)
-    kept = fcl_prob.collision_probability(prism, torus(), error, **ask)
-    without = fcl_prob.collision_probability(prism, torus(), error, patches=False, **ask)
-    assert any("convex patches left out, as asked" in note for note in without.plan)
-    assert not any("left out, as asked" in note for note in kept.plan)
-    assert kept.lower <= without.upper and without.lower <= kept.upper
-
-
 def test_group_is_no_less_than_its_members():
     group = fcl_prob.GroupQuery([PART, fcl_prob.Sphere(0.1)], [FIXTURE])
     both = group.collision_probability(ERROR, np.stack([pose(0.5), pose(0.4)]), method="interval")

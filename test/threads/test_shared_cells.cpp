@@ -124,8 +124,8 @@ TEST_CASE("threads carve cells along the planes of one set of obstacles", "[thre
   const PartitionObject other = meshes.objectOf(false);
   REQUIRE(meshes.tree_a->parts[0].fan);
   const Eigen::Matrix3d matrix = meshes.whitening.matrix();
-  FatMembers alone(meshes.pair, body, other, true, matrix, PatchUse{});
-  FatMembers shared(meshes.pair, body, other, true, matrix, PatchUse{});
+  FatMembers alone(meshes.pair, body, other, true, matrix);
+  FatMembers shared(meshes.pair, body, other, true, matrix);
   std::atomic<std::size_t> list_memory{0};
   const std::vector<double> expected = carved(alone, list_memory);
   CHECK(expected.size() > 10 * kDivided);

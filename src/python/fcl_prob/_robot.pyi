@@ -131,7 +131,6 @@ class RobotQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
-        patches: bool = True,
         on_progress: Optional[QueryProgress] = None,
     ) -> RobotResult: ...
     def motion(
@@ -154,7 +153,6 @@ class RobotQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
-        patches: bool = True,
         on_progress: Optional[QueryProgress] = None,
     ) -> RobotResult: ...
 
@@ -175,7 +173,6 @@ class RobotQuery:
         seed: int = 1,
         threads: int = 1,
         gradient: bool = False,
-        patches: bool = True,
         on_progress: Optional[QueryProgress] = None,
     ) -> Tuple[RobotResult, str]: ...
 
