@@ -38,6 +38,9 @@ struct RobotJoint {
   /// for a continuous joint.
   double lower = 0.0;
   double upper = 0.0;
+  /// No faster in either direction, radians or metres per second, nor are joints that mimic it;
+  /// 0: the URDF does not say. Only what plans in time asks for it.
+  double velocity = 0.0;
 };
 
 /// A link, and how it hangs on the one that carries it.

@@ -22,10 +22,11 @@ namespace detail {
 class RobotAmongObstacles;
 }
 
-/// Where an obstacle is at one waypoint of a motion, and how well that is known.
+/// Where an obstacle is at one waypoint of a motion, or at a time, and how well that is known.
 struct ObstacleState {
   fcl::Transform3d pose = fcl::Transform3d::Identity();  ///< metres, world frame
   Displacement displacement = GaussianDisplacement();    ///< as Obstacle::displacement
+  std::optional<double> time = std::nullopt;             ///< seconds
 };
 
 /// One more body of an obstacle.
@@ -43,7 +44,8 @@ struct Obstacle {
   Displacement displacement = GaussianDisplacement();
 
   /// Of one that moves, or that is known less and less well: one state a waypoint of the motion,
-  /// which count instead of `pose` and `displacement`. Empty: it stays.
+  /// which count instead of `pose` and `displacement`; or a prediction, states each of which has a
+  /// later time than the one before (see RobotQuery::at()). Empty: it stays.
   std::vector<ObstacleState> over_time = {};
 
   /// Of a mesh: as in TriangleMesh. Both are told with answers, and nothing depends on them.
@@ -134,8 +136,8 @@ struct RobotResult {
 /// Const and thread-safe after construction.
 class RobotQuery {
  public:
-  /// \throws InvalidRequest without an obstacle, or for an allowed contact of a body or obstacle
-  ///         that is not there; InvalidPose, InvalidGeometry, UnsupportedGeometry
+  /// \throws InvalidRequest without an obstacle, for an allowed contact of a body or obstacle that
+  ///         is not there, or times of an obstacle that do not increase; InvalidPose, InvalidGeometry, UnsupportedGeometry
   RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
              std::vector<AllowedContact> allowed = {});
   ~RobotQuery();
@@ -153,6 +155,13 @@ class RobotQuery {
   /// same name and geometries (by pointer), too: one that has only moved costs microseconds.
   /// Allowed contacts stay, whether or not their obstacles are there. \throws as the constructor
   RobotQuery withObstacles(std::vector<Obstacle> obstacles) const;
+
+  /// The same robot among the obstacles as they are predicted for a time, seconds: between two
+  /// states of Obstacle::over_time positions, mean displacements and covariances are linear, and
+  /// orientations on the shortest turn. Obstacles without times are as they were. Microseconds.
+  /// \throws InvalidRequest for an obstacle that nothing is predicted of at that time, or between
+  ///         displacements that are not Gaussian
+  RobotQuery at(double time) const;
 
   /// States and waypoints are refused where a joint is beyond its limits, unless the robot was
   /// loaded to allow that: every member throws InvalidRequest as Robot::requireWithinLimits().

@@ -28,7 +28,8 @@ struct RobotScene {
     std::vector<SceneObject> bodies;       ///< several, in the frame of the obstacle, or
     std::optional<StandingRobot> robot;    ///< one whose root link is where the obstacle is
     GaussianDisplacement displacement;     ///< of the obstacle, metres, world frame
-    std::vector<ObstacleState> over_time;  ///< of one that moves: one a waypoint of the file
+    /// Of one that moves: one a waypoint of the file, or with times.
+    std::vector<ObstacleState> over_time;
   };
 
   /// As AttachedObject; the pose of the object is that in the link's frame.
@@ -47,6 +48,14 @@ struct RobotScene {
     std::optional<double> motion_threshold;  ///< of the whole motion
     std::uint64_t seed = 1;
     std::optional<std::size_t> max_states;
+
+    /// Of a plan in time, as in TimedPlanningRequest.
+    std::optional<double> largest_time_step;
+    double start_time = 0.0;
+    double hold = 0.0;
+    std::optional<double> latest;
+    std::map<std::string, double> velocities;
+    double velocity_scale = 1.0;
   };
 
   std::string urdf;  ///< path
@@ -64,7 +73,8 @@ struct RobotScene {
   };
   std::optional<JointError> joint_error;
   std::optional<PoseError> base_error;
-  std::vector<std::map<std::string, double>> waypoints;  ///< one is a state; none with a plan
+  /// One is a state; none with a plan. Beside joints `time`, seconds, where obstacles are predicted.
+  std::vector<std::map<std::string, double>> waypoints;
   std::optional<Plan> plan;
   ErrorsOverTime errors = ErrorsOverTime::persistent;
   BetweenWaypoints between = BetweenWaypoints::ignored;
@@ -85,8 +95,12 @@ std::vector<std::map<std::string, double>> loadWaypoints(const std::string& path
 /// InvalidGeometry, InvalidRequest
 Robot loadRobot(const RobotScene& scene);
 
-/// Reads what the scene names; obstacles that move have a state at each of waypointsOf(). \throws
-/// FileError, InvalidGeometry, InvalidRequest
+/// Whether an obstacle is predicted over time: then a plan is one in time.
+bool isPredicted(const RobotScene& scene);
+
+/// Reads what the scene names; obstacles that move have a state at each of waypointsOf(), predicted
+/// ones that of its time; with a plan these stay as they are. \throws FileError, InvalidGeometry,
+/// InvalidRequest
 RobotQuery loadRobotQuery(const RobotScene& scene);
 
 /// Errors of the robot that the scene names. \throws InvalidRequest, InvalidDistribution

@@ -3,6 +3,7 @@
 #include "cli/plan_command.h"
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 #include "base/stopwatch.h"
 #include "cli/output.h"
@@ -69,36 +70,82 @@ CertifiedPlanningRequest requestOf(const RobotScene& scene, const PlanArguments&
   return request;
 }
 
+TimedPlanningRequest timedRequestOf(const RobotScene& scene, const PlanArguments& arguments) {
+  if (scene.plan->motion_threshold) {
+    throw FileError(arguments.scene +
+                    ": motion_threshold: is not to be had among predicted obstacles, whose errors "
+                    "change over time");
+  }
+  TimedPlanningRequest request;
+  request.state = scene.request;
+  request.planning = requestOf(scene, arguments).planning;
+  if (scene.plan->largest_time_step) request.largest_time_step = *scene.plan->largest_time_step;
+  request.start_time = scene.plan->start_time;
+  request.hold = scene.plan->hold;
+  request.latest = scene.plan->latest;
+  request.velocities = scene.plan->velocities;
+  request.velocity_scale = scene.plan->velocity_scale;
+  return request;
+}
+
+/// What is told of a plan of either kind.
+struct PlanReport {
+  bool solved;
+  std::string text;
+  nlohmann::ordered_json json;
+  std::string csv;
+};
+
+PlanReport answer(const RobotScene& scene, const PlanArguments& arguments, const RobotQuery& query,
+                  const std::function<bool(const PlanningProgress&)>& on_progress) {
+  const Robot& robot = query.robot();
+  const SelfCollision self = loadSelfCollision(scene, robot);
+  const Eigen::VectorXd start = robot.values(scene.plan->start);
+  const Eigen::VectorXd goal = robot.values(scene.plan->goal);
+  if (isPredicted(scene) || scene.plan->latest) {
+    TimedPlanningRequest request = timedRequestOf(scene, arguments);
+    request.planning.on_progress = on_progress;
+    const TimedPlan plan = planInTime(query, self, start, goal, request);
+    PlanReport report{plan.status == PlanningStatus::solved,
+                      planText(plan, robot, *request.state.threshold), planJson(plan, robot),
+                      planCsv(plan, robot)};
+    report.json["largest_time_step"] = request.largest_time_step;
+    return report;
+  }
+  CertifiedPlanningRequest request = requestOf(scene, arguments);
+  request.planning.on_progress = on_progress;
+  const CertifiedPlan plan = planCertified(query, self, start, goal, request);
+  return {plan.path.status == PlanningStatus::solved, planText(plan, robot), planJson(plan, robot),
+          planCsv(plan, robot)};
+}
+
 int runPlan(const PlanArguments& arguments) {
   const RobotScene scene = planSceneOf(arguments);
   const detail::Stopwatch building;
   const RobotQuery query = loadRobotQuery(scene);
   const Robot& robot = query.robot();
-  const SelfCollision self = loadSelfCollision(scene, robot);
-  CertifiedPlanningRequest request = requestOf(scene, arguments);
+  const PlanningRequest planning = requestOf(scene, arguments).planning;
   const double build_ms = building.milliseconds();
   noteInterrupts();
   ProgressBar bar("fcl_prob plan");
-  request.planning.on_progress = [&](const PlanningProgress& progress) {
-    const auto most = static_cast<double>(request.planning.max_states);
+  const auto on_progress = [&](const PlanningProgress& progress) {
+    const auto most = static_cast<double>(planning.max_states);
     bar.show(static_cast<double>(progress.states) / most,
              std::to_string(progress.states) + " states" +
                  (progress.shortening ? ", shortening a path" : ", looking for a path"));
     return !interrupted();
   };
   const detail::Stopwatch watch;
-  const CertifiedPlan plan = planCertified(query, self, robot.values(scene.plan->start),
-                                           robot.values(scene.plan->goal), request);
-  const bool solved = plan.path.status == PlanningStatus::solved;
+  const PlanReport plan = answer(scene, arguments, query, on_progress);
   const std::vector<std::string> notes =
       detail::allNotes(query, scene.request.toleranceAt(*scene.request.threshold));
   std::string report;
   for (const std::string& line : notes) report += onOneLine(line) + "\n";
-  report += planText(plan, robot);
+  report += plan.text;
   if (arguments.json) {
-    nlohmann::ordered_json json = planJson(plan, robot);
-    json["largest_step"] = request.planning.largest_step;
-    json["seed"] = request.planning.seed;
+    nlohmann::ordered_json json = plan.json;
+    json["largest_step"] = planning.largest_step;
+    json["seed"] = planning.seed;
     json["links_without_body"] = robot.linksWithoutBody();
     json["notes"] = notes;
     json["build_ms"] = build_ms;
@@ -106,8 +153,8 @@ int runPlan(const PlanArguments& arguments) {
     report = json.dump() + "\n";
   }
   deliver(report, arguments.output);
-  if (solved && !arguments.csv.empty()) writeFile(arguments.csv, planCsv(plan, robot));
-  return solved ? kAnswered : kStopped;
+  if (plan.solved && !arguments.csv.empty()) writeFile(arguments.csv, plan.csv);
+  return plan.solved ? kAnswered : kStopped;
 }
 
 }  // namespace

@@ -17,14 +17,21 @@ ordered_json byJoint(const Eigen::VectorXd& values, const Robot& robot) {
   return json;
 }
 
+std::string csvLine(const Eigen::VectorXd& values) {
+  std::string line;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    line += (i > 0 ? "," : "") + nlohmann::json(values[i]).dump();
+  }
+  return line + "\n";
+}
+
 /// What is known of the largest P of a state: by the decisions alone, where a limit ended the plan
 /// before more was asked.
-std::string largestText(const CertifiedPlan& plan) {
-  if (plan.largest.lower > 0.0 || plan.largest.upper < plan.state_threshold) {
-    return "certainly in " + intervalText(plan.largest);
+std::string largestText(const Bounds& largest, double threshold) {
+  if (largest.lower > 0.0 || largest.upper < threshold) {
+    return "certainly in " + intervalText(largest);
   }
-  return "certainly below " + numberText(plan.state_threshold, 6) +
-         ", as decided; nothing nearer is known";
+  return "certainly below " + numberText(threshold, 6) + ", as decided; nothing nearer is known";
 }
 
 /// \param known  [0, 1] where nothing is
@@ -59,12 +66,7 @@ std::string planCsv(const CertifiedPlan& plan, const Robot& robot) {
   std::string text;
   for (const RobotJoint& joint : robot.joints()) text += (text.empty() ? "" : ",") + joint.name;
   text += "\n";
-  for (const Eigen::VectorXd& values : plan.path.waypoints) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      text += (i > 0 ? "," : "") + nlohmann::json(values[i]).dump();
-    }
-    text += "\n";
-  }
+  for (const Eigen::VectorXd& values : plan.path.waypoints) text += csvLine(values);
   return text;
 }
 
@@ -77,8 +79,49 @@ std::string planText(const CertifiedPlan& plan, const Robot& robot) {
           numberText(plan.path.length, 6) + " in joint space, " +
           numberText(plan.path.planned_length, 6) + " before it was shortened\n";
   if (plan.descended) text += "moved along the gradient of P to get below its threshold\n";
-  text += "largest P of a state: " + largestText(plan) + "\n";
+  text += "largest P of a state: " + largestText(plan.largest, plan.state_threshold) + "\n";
   text += "P of the whole motion, the same errors all along: " + motionText(plan.motion) + "\n";
+  return text + planCsv(plan, robot);
+}
+
+ordered_json planJson(const TimedPlan& plan, const Robot& robot) {
+  ordered_json json{{"status", toString(plan.status)}, {"states", plan.states}};
+  json["waypoints"] = ordered_json::array();
+  if (plan.status != PlanningStatus::solved) return json;
+  json["arrival"] = plan.arrival;
+  json["length"] = plan.length;
+  json["shortened"] = plan.shortened;
+  json["largest"] = {{"lower", plan.largest.lower},
+                     {"upper", plan.largest.upper},
+                     {"time", plan.likeliest_time}};
+  for (const TimedWaypoint& waypoint : plan.waypoints) {
+    ordered_json entry{{"time", waypoint.time}};
+    entry.update(byJoint(waypoint.values, robot));
+    json["waypoints"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::string planCsv(const TimedPlan& plan, const Robot& robot) {
+  std::string text = "time";
+  for (const RobotJoint& joint : robot.joints()) text += "," + joint.name;
+  text += "\n";
+  for (const TimedWaypoint& waypoint : plan.waypoints) {
+    text += nlohmann::json(waypoint.time).dump() + "," + csvLine(waypoint.values);
+  }
+  return text;
+}
+
+std::string planText(const TimedPlan& plan, const Robot& robot, double threshold) {
+  std::string text = "status: " + toString(plan.status) + "\n" + std::to_string(plan.states) +
+                     " states asked for, each at its time, P of each below " +
+                     numberText(threshold, 6) + " or refused\n";
+  if (plan.status != PlanningStatus::solved) return text;
+  text += std::to_string(plan.waypoints.size()) + " waypoints, at the goal after " +
+          numberText(plan.arrival - plan.waypoints.front().time, 6) + " s, length " +
+          numberText(plan.length, 6) + " in joint space\n";
+  text += "largest P of a state, at " + numberText(plan.likeliest_time, 6) +
+          " s: " + largestText(plan.largest, threshold) + "\n";
   return text + planCsv(plan, robot);
 }
 

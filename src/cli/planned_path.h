@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fcl_prob/certified_planning.h"
+#include "fcl_prob/timed_planning.h"
 
 namespace fcl_prob::cli {
 
@@ -17,5 +18,10 @@ nlohmann::ordered_json planJson(const CertifiedPlan& plan, const Robot& robot);
 std::string planCsv(const CertifiedPlan& plan, const Robot& robot);
 
 std::string planText(const CertifiedPlan& plan, const Robot& robot);
+
+/// The same of a plan in time: `time`, seconds, comes before the joints.
+nlohmann::ordered_json planJson(const TimedPlan& plan, const Robot& robot);
+std::string planCsv(const TimedPlan& plan, const Robot& robot);
+std::string planText(const TimedPlan& plan, const Robot& robot, double threshold);
 
 }  // namespace fcl_prob::cli

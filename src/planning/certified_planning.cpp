@@ -61,11 +61,7 @@ class CertifiedPlanner {
     validateRequest(request.state);
     detail::refuseBand(request.state, "robots");
     detail::requireStaying(query.obstacles(), "plans are");
-    const auto is_same = [](const RobotJoint& x, const RobotJoint& y) { return x.name == y.name; };
-    const auto &x = self.robot().joints(), &y = query.robot().joints();
-    if (!std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same)) {
-      throw InvalidRequest("self-collision is of a robot with other joints than the query's");
-    }
+    detail::requireSameJoints(self.robot(), query.robot());
   }
 
   CertifiedPlan plan(const Eigen::VectorXd& start, const Eigen::VectorXd& goal) const {

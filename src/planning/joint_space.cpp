@@ -80,11 +80,13 @@ void requireSteps(const RobotJoint& joint, double low, double high, double step)
 }  // namespace
 
 JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
-                       const Eigen::VectorXd& goal, PlanningRun& run)
+                       const Eigen::VectorXd& goal, PlanningRun& run, bool has_time)
     : request_(run.request()), start_(start) {
-  requireWithinLimits(robot, start, "start");
-  requireWithinLimits(robot, goal, "goal");
+  const auto joints = static_cast<Eigen::Index>(robot.joints().size());
+  requireWithinLimits(robot, has_time ? start.head(joints).eval() : start, "start");
+  requireWithinLimits(robot, has_time ? goal.head(joints).eval() : goal, "goal");
   chooseJoints(robot, goal);
+  if (has_time) indices_.push_back(joints);
   const ob::StateSpacePtr space = makeSpace(robot, goal);
   information_ = std::make_shared<ob::SpaceInformation>(space);
   information_->setStateValidityChecker(
@@ -112,9 +114,14 @@ ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot, const Eigen::VectorX
   ob::RealVectorBounds bounds(static_cast<unsigned>(dimension()));
   for (std::size_t i = 0; i < dimension(); ++i) {
     const Eigen::Index index = indices_[i];
-    const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(index)];
     const auto [low, high] = std::minmax(start_[index], goal[index]);
     const auto at = static_cast<unsigned>(i);
+    if (static_cast<std::size_t>(index) == robot.joints().size()) {
+      bounds.setLow(at, low);
+      bounds.setHigh(at, high);
+      continue;
+    }
+    const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(index)];
     bounds.setLow(at, std::isfinite(joint.lower) ? joint.lower : low - kHalfTurn);
     bounds.setHigh(at, std::isfinite(joint.upper) ? joint.upper : high + kHalfTurn);
     requireSteps(joint, bounds.low[i], bounds.high[i], request_.largest_step);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot.h"
 
 namespace fcl_prob::detail {
@@ -22,6 +23,14 @@ inline std::vector<Eigen::Index> movingJoints(const Robot& robot,
     if (is_named && joint.lower < joint.upper) moving.push_back(static_cast<Eigen::Index>(i));
   }
   return moving;
+}
+
+/// \throws InvalidRequest unless the robot that may touch itself has the joints of the query's
+inline void requireSameJoints(const Robot& self, const Robot& robot) {
+  const auto is_same = [](const RobotJoint& x, const RobotJoint& y) { return x.name == y.name; };
+  const auto &x = self.joints(), &y = robot.joints();
+  if (std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same)) return;
+  throw InvalidRequest("self-collision is of a robot with other joints than the query's");
 }
 
 }  // namespace fcl_prob::detail

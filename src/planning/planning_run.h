@@ -4,17 +4,22 @@
 #pragma once
 
 #include <chrono>
+#include <utility>
 
 #include "fcl_prob/motion_planning.h"
 
 namespace fcl_prob::detail {
 
+/// Whether an edge may be at all, whatever its states are.
+using EdgeRule = std::function<bool(const Eigen::VectorXd& from, const Eigen::VectorXd& to)>;
+
 /// The test of states, until a limit is met or the caller cancels: then nothing is allowed any
 /// more, so that a planner finds no way on.
 class PlanningRun {
  public:
-  PlanningRun(const StateTest& allowed, const PlanningRequest& request)
-      : allowed_(allowed), request_(request) {}
+  /// \param rule  for edges; empty: every edge may be
+  /// \throws InvalidRequest for a step or a limit that is not > 0
+  PlanningRun(StateTest allowed, const PlanningRequest& request, EdgeRule rule = {});
 
   bool isAllowed(const Eigen::VectorXd& values);
 
@@ -35,8 +40,9 @@ class PlanningRun {
   void lookForLimits();
   void lookAtClock();
 
-  const StateTest& allowed_;
+  const StateTest allowed_;
   const PlanningRequest& request_;
+  const EdgeRule rule_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::size_t states_ = 0;
   bool shortening_ = false;

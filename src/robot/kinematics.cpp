@@ -64,7 +64,7 @@ void Kinematics::addJoints(const UrdfModel& model) {
     if (isFixed(joint) || joint.mimic) continue;
     joint_index_[name] = static_cast<int>(joints_.size());
     const bool turns = joint.type != UrdfJoint::Type::prismatic;
-    joints_.push_back({name, turns, joint.lower, joint.upper});
+    joints_.push_back({name, turns, joint.lower, joint.upper, joint.velocity});
   }
 }
 
@@ -79,7 +79,7 @@ void Kinematics::addLinks(const std::string& link, int parent, const UrdfModel& 
     // 0 to 0 is what limits are that nobody has given.
     if (carried.joint >= 0 && joint->mimic && joint->lower < joint->upper) {
       following_.push_back({joint->name, static_cast<std::size_t>(carried.joint), carried.factor,
-                            carried.offset, joint->lower, joint->upper, joint->where});
+                            carried.offset, joint->lower, joint->upper, joint->velocity, joint->where});
     }
     const int index = static_cast<int>(links_.size());
     link_index_[joint->child] = index;
@@ -101,6 +101,9 @@ void Kinematics::narrowLimits() {
     }
     joint.lower = std::max(joint.lower, lower);
     joint.upper = std::min(joint.upper, upper);
+    if (!(one.velocity > 0.0)) continue;
+    const double velocity = one.velocity / std::abs(one.factor);
+    joint.velocity = joint.velocity > 0.0 ? std::min(joint.velocity, velocity) : velocity;
   }
 }
 

@@ -23,6 +23,7 @@ struct FollowingJoint {
   double offset;         ///< and this
   double lower;
   double upper;
+  double velocity;    ///< see RobotJoint
   std::string where;  ///< begins messages
 };
 

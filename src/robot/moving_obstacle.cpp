@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::detail {
@@ -54,6 +56,43 @@ ObstacleState between(const ObstacleState& first, const ObstacleState& next, dou
 
 }  // namespace
 
+bool isPredicted(const Obstacle& obstacle) {
+  return !obstacle.over_time.empty() && obstacle.over_time[0].time.has_value();
+}
+
+void requireTimes(const Obstacle& obstacle) {
+  const auto fail = [&](std::size_t i, const std::string& fault) {
+    throw InvalidRequest("obstacle " + obstacle.name + ": over_time: state " + std::to_string(i) +
+                         " " + fault);
+  };
+  const bool predicted = isPredicted(obstacle);
+  for (std::size_t i = 0; i < obstacle.over_time.size(); ++i) {
+    const std::optional<double>& time = obstacle.over_time[i].time;
+    if (time.has_value() != predicted) fail(i, predicted ? "has no time" : "has a time");
+    if (time && !std::isfinite(*time)) fail(i, "has a time that is not finite");
+    if (!time || i == 0 || *time > *obstacle.over_time[i - 1].time) continue;
+    fail(i, "is at " + numberText(*time) + " s, the one before at " +
+                numberText(*obstacle.over_time[i - 1].time) + " s: times have to increase");
+  }
+}
+
+ObstacleState predictedAt(const Obstacle& obstacle, double time) {
+  const std::vector<ObstacleState>& states = obstacle.over_time;
+  if (!(time >= *states.front().time && time <= *states.back().time)) {
+    throw InvalidRequest("obstacle " + obstacle.name + " is predicted from " +
+                         numberText(*states.front().time) + " s to " +
+                         numberText(*states.back().time) + " s, not at " + numberText(time) + " s");
+  }
+  const auto next =
+      std::upper_bound(states.begin() + 1, states.end(), time,
+                       [](double at, const ObstacleState& state) { return at < *state.time; });
+  const ObstacleState& first = *(next - 1);
+  if (next == states.end()) return first;
+  ObstacleState state = between(first, *next, (time - *first.time) / (*next->time - *first.time));
+  state.time = time;
+  return state;
+}
+
 ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint) {
   if (obstacle.over_time.empty()) return {obstacle.pose, obstacle.displacement};
   return obstacle.over_time[waypoint];
@@ -61,6 +100,10 @@ ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint) {
 
 void requireStates(const Obstacle& obstacle, std::size_t waypoints) {
   if (obstacle.over_time.empty() || obstacle.over_time.size() == waypoints) return;
+  if (isPredicted(obstacle)) {
+    throw InvalidRequest("obstacle " + obstacle.name +
+                         " is predicted over time: ask RobotQuery::at() for a time first");
+  }
   throw InvalidRequest("obstacle " + obstacle.name + " has states at " +
                        std::to_string(obstacle.over_time.size()) + " waypoints, the motion has " +
                        std::to_string(waypoints));

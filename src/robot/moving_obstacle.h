@@ -14,6 +14,16 @@ namespace fcl_prob::detail {
 /// The obstacle as it is at a waypoint.
 ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint);
 
+/// Whether its states have times.
+bool isPredicted(const Obstacle& obstacle);
+
+/// \throws InvalidRequest unless all of its states have times, each later than the one before, or
+///         none has
+void requireTimes(const Obstacle& obstacle);
+
+/// \throws InvalidRequest unless it is predicted for that time; as statesAt()
+ObstacleState predictedAt(const Obstacle& obstacle, double time);
+
 /// \throws InvalidRequest unless it stays or has one state a waypoint
 void requireStates(const Obstacle& obstacle, std::size_t waypoints);
 

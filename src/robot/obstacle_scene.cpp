@@ -46,6 +46,7 @@ std::vector<ObstacleState> readStatesOverTime(StrictObject& object,
     if (entry.has("displacement")) {
       state.displacement = readDisplacement(entry.object("displacement"));
     }
+    if (entry.has("time")) state.time = entry.number("time");
     entry.finish();
     states.push_back(std::move(state));
   }
@@ -117,7 +118,7 @@ Obstacle loadObstacle(const RobotScene::PlacedObstacle& placed,
   obstacle.displacement = placed.displacement;
   obstacle.pose = of_first(placed.object.pose);
   for (const ObstacleState& state : states) {
-    obstacle.over_time.push_back({of_first(state.pose), state.displacement});
+    obstacle.over_time.push_back({of_first(state.pose), state.displacement, state.time});
   }
   return obstacle;
 }

@@ -65,6 +65,7 @@ RobotAmongObstacles::RobotAmongObstacles(std::shared_ptr<const PreparedRobot> ro
   }
   for (const Obstacle& obstacle : obstacles_) {
     validatePoses(obstacle);
+    requireTimes(obstacle);
     for (std::size_t i = 0; before != nullptr && i < before->obstacles_.size(); ++i) {
       if (!isSameThing(before->obstacles_[i], obstacle)) continue;
       prepared_.push_back(before->prepared_[i]);

@@ -365,6 +365,18 @@ RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
       among.prepared(), std::move(obstacles), among.allowed(), &among)));
 }
 
+RobotQuery RobotQuery::at(double time) const {
+  std::vector<Obstacle> obstacles = implementation_->among.obstacles();
+  for (Obstacle& obstacle : obstacles) {
+    if (!detail::isPredicted(obstacle)) continue;
+    const ObstacleState state = detail::predictedAt(obstacle, time);
+    obstacle.pose = state.pose;
+    obstacle.displacement = state.displacement;
+    obstacle.over_time.clear();
+  }
+  return withObstacles(std::move(obstacles));
+}
+
 RobotResult RobotQuery::state(const Eigen::VectorXd& values,
                               const ProbabilityRequest& request) const {
   return motion({values}, ErrorsOverTime::persistent, request);

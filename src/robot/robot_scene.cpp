@@ -2,8 +2,12 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/robot_scene.h"
 
+#include <algorithm>
 #include <filesystem>
 
+#include "base/constants.h"
+#include "base/number_text.h"
+#include "fcl_prob/exceptions.h"
 #include "io/quantities.h"
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
@@ -18,6 +22,9 @@ namespace {
 using detail::StrictObject;
 
 constexpr std::size_t kCellsOfPlannedState = 2'000;
+
+/// Of a waypoint, beside the names of joints.
+constexpr const char* kTime = "time";
 
 RobotScene::CarriedObject readAttached(StrictObject object, const std::filesystem::path& folder) {
   RobotScene::CarriedObject attached;
@@ -49,6 +56,12 @@ RobotScene::Plan readPlan(StrictObject object) {
   if (object.has("motion_threshold")) plan.motion_threshold = object.number("motion_threshold");
   if (object.has("seed")) plan.seed = object.count("seed");
   if (object.has("max_states")) plan.max_states = object.count("max_states");
+  if (object.has("largest_time_step")) plan.largest_time_step = object.number("largest_time_step");
+  if (object.has("start_time")) plan.start_time = object.number("start_time");
+  if (object.has("hold")) plan.hold = object.number("hold");
+  if (object.has("latest")) plan.latest = object.number("latest");
+  if (object.has("velocities")) plan.velocities = object.object("velocities").numbersByName();
+  if (object.has("velocity_scale")) plan.velocity_scale = object.number("velocity_scale");
   object.finish();
   return plan;
 }
@@ -109,12 +122,60 @@ BetweenWaypoints readBetween(StrictObject& root) {
   return BetweenWaypoints::swept;
 }
 
+bool isPredicted(const RobotScene::PlacedObstacle& obstacle) {
+  return !obstacle.over_time.empty() && obstacle.over_time[0].time.has_value();
+}
+
+/// Times of the waypoints, and of those between them.
+std::vector<double> timesOf(const RobotScene& scene, const std::string& obstacle,
+                            const std::vector<detail::WaypointStep>& steps) {
+  std::vector<double> given;
+  for (const auto& by_name : scene.waypoints) {
+    const auto time = by_name.find(kTime);
+    if (time == by_name.end()) {
+      throw InvalidRequest("waypoint " + std::to_string(given.size()) +
+                           " has no time, for which obstacle " + obstacle + " is predicted");
+    }
+    if (!given.empty() && !(time->second > given.back())) {
+      throw InvalidRequest("waypoint " + std::to_string(given.size()) + " is at " +
+                           detail::numberText(time->second) + " s, the one before at " +
+                           detail::numberText(given.back()) + " s: times have to increase");
+    }
+    given.push_back(time->second);
+  }
+  std::vector<double> times;
+  for (const detail::WaypointStep& step : steps) {
+    const double next = step.fraction == 0.0 ? 0.0 : given[step.from + 1];
+    times.push_back((1.0 - step.fraction) * given[step.from] + step.fraction * next);
+  }
+  return times;
+}
+
 std::vector<Eigen::VectorXd> valuesOf(const RobotScene& scene, const Robot& robot) {
   std::vector<Eigen::VectorXd> waypoints;
-  for (const auto& by_name : scene.waypoints) waypoints.push_back(robot.values(by_name));
+  for (auto by_name : scene.waypoints) {
+    by_name.erase(kTime);
+    waypoints.push_back(robot.values(by_name));
+  }
   // Here, since they are counted otherwise once there are others between them.
   detail::requireWithinLimits(robot, waypoints);
   return waypoints;
+}
+
+/// At every step of the waypoints; with a plan as it is.
+Obstacle loadPredicted(const RobotScene& scene, const Robot& robot,
+                       const RobotScene::PlacedObstacle& placed) {
+  Obstacle obstacle = detail::loadObstacle(placed, placed.over_time);
+  detail::requireTimes(obstacle);
+  if (scene.plan) return obstacle;
+  const double step = scene.largest_step.value_or(detail::kInfinity);
+  std::vector<ObstacleState> states;
+  for (const double time :
+       timesOf(scene, placed.name, detail::stepsBetween(valuesOf(scene, robot), step))) {
+    states.push_back(detail::predictedAt(obstacle, time));
+  }
+  obstacle.over_time = std::move(states);
+  return obstacle;
 }
 
 }  // namespace
@@ -145,7 +206,7 @@ RobotScene loadRobotScene(const std::string& path) {
   }
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     const std::size_t states = obstacle.over_time.size();
-    if (states == 0 || states == scene.waypoints.size()) continue;
+    if (states == 0 || states == scene.waypoints.size() || isPredicted(obstacle)) continue;
     root.fail("obstacles", obstacle.name + " has " + std::to_string(states) +
                                " states over time, " + "for " +
                                std::to_string(scene.waypoints.size()) + " waypoints");
@@ -180,10 +241,19 @@ SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot) {
   return SelfCollision(robot, loadAllowedPairs(scene.srdf, robot));
 }
 
+bool isPredicted(const RobotScene& scene) {
+  return std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
+                     [](const auto& obstacle) { return isPredicted(obstacle); });
+}
+
 RobotQuery loadRobotQuery(const RobotScene& scene) {
   const Robot robot = loadRobot(scene);
   std::vector<Obstacle> obstacles;
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
+    if (isPredicted(obstacle)) {
+      obstacles.push_back(loadPredicted(scene, robot, obstacle));
+      continue;
+    }
     if (!obstacle.over_time.empty() && obstacle.over_time.size() != scene.waypoints.size()) {
       throw InvalidRequest("obstacle " + obstacle.name + " has states at " +
                            std::to_string(obstacle.over_time.size()) +

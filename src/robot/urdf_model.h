@@ -63,6 +63,7 @@ struct UrdfJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit
   double lower = 0.0;                               ///< infinite for a continuous joint
   double upper = 0.0;
+  double velocity = 0.0;  ///< of the limit; 0: not given
   std::optional<UrdfMimic> mimic;
 };
 

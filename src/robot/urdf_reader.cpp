@@ -185,15 +185,19 @@ class UrdfReader {
   void readLimit(const UrdfContainer& container, const std::string& name, UrdfJoint& joint) {
     const XmlElement* element = container.atMostOne("limit");
     const bool turns = joint.type == UrdfJoint::Type::revolute;
-    if (!turns && joint.type != UrdfJoint::Type::prismatic) {
+    const bool has_range = turns || joint.type == UrdfJoint::Type::prismatic;
+    if (!has_range) {
       joint.lower = -kUnlimited;
       joint.upper = kUnlimited;
-      return;
+      if (element == nullptr || joint.type == UrdfJoint::Type::fixed) return;
     }
     if (element == nullptr) container.fail("has no limit");
     const UrdfValues limit(
         path_, *element, name + ": limit",
         {"lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"});
+    joint.velocity = limit.number("velocity", 0.0);
+    if (joint.velocity < 0.0) limit.fail("velocity is below 0: " + numberText(joint.velocity));
+    if (!has_range) return;
     joint.lower = limit.number("lower", 0.0);
     joint.upper = limit.number("upper", 0.0);
     const std::string both = numberText(joint.lower) + " to " + numberText(joint.upper);
