@@ -59,8 +59,8 @@ struct Meshes {
 };
 
 /// Two of them, whitened.
-struct QueryScene {
-  explicit QueryScene(RandomBodies& random)
+struct LayeredScene {
+  explicit LayeredScene(RandomBodies& random)
       : size(random.logUniform(1e-3, 1e3)),
         a(random, size, random.integer(0, 1) * 1e3 * size),
         b(random, size * random.logUniform(0.1, 10.0), 3 * size) {
@@ -100,7 +100,7 @@ TEST_CASE("layers of flat nodes hold their C-obstacles, at any scale and however
   RandomBodies random(4711);
   int near = 0, thin = 0, layers = 0;
   for (int i = 0; i < 300; ++i) {
-    const QueryScene scene(random);
+    const LayeredScene scene(random);
     NodeLayers of(scene.pair);
     for (int j = 0; j < 300; ++j) {
       const NodePair nodes{random.integer(0, static_cast<int>(scene.a.tree->nodes.size()) - 1),
@@ -156,7 +156,7 @@ TEST_CASE("slabs of nodes hold their corners exactly, and are as thin as they ar
 
 TEST_CASE("nothing is said of layers where shapes have bands") {
   RandomBodies random(8);
-  QueryScene scene(random);
+  LayeredScene scene(random);
   scene.pair.band = std::make_shared<const BandMargin>(0.1, 0.1, scene.whitening->matrix());
   NodeLayers of(scene.pair);
   for (int node = 0; node < static_cast<int>(scene.a.tree->nodes.size()); ++node) {
