@@ -128,7 +128,7 @@ struct Keyword {
 
 using R = ProbabilityRequest;
 
-constexpr std::array<Keyword, 17> kKeywords = {{
+constexpr std::array<Keyword, 16> kKeywords = {{
     {"method", [](Question& q, py::handle v, const char*) { setMethod(q, v); }},
     {"contact", [](Question& q, py::handle v, const char*) { setContact(q, v); }},
     {"relative_tolerance", setNumber<&R::relative_tolerance>},

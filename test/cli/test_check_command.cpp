@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob check from outside: answers, the JSON contract, exit codes, bad input.
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -46,28 +45,6 @@ struct Cubes {
     file = folder.write("cube.obj", obj);
   }
 };
-
-/// A prism of 16 sides, as an OBJ file.
-std::string prismFile(const TemporaryFolder& folder) {
-  constexpr int kSides = 16;
-  std::string obj, bottom = "f", top = "f", sides;
-  for (const char* z : {"-0.04", "0.04"}) {
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = 2.0 * M_PI * k / kSides;
-      obj += "v " + std::to_string(0.03 * std::cos(angle)) + " " +
-             std::to_string(0.03 * std::sin(angle)) + " " + z + "\n";
-    }
-  }
-  const auto name = [](int corner) { return " " + std::to_string(corner); };
-  for (int k = 0; k < kSides; ++k) {
-    const int next = (k + 1) % kSides;
-    bottom += name(kSides - k);
-    top += name(kSides + 1 + k);
-    sides += "f" + name(1 + k) + name(1 + next) + name(kSides + 1 + next) + name(kSides + 1 + k);
-    sides += "\n";
-  }
-  return folder.write("prism.obj", obj + bottom + "\n" + top + "\n" + sides);
-}
 
 }  // namespace
 
