@@ -99,7 +99,7 @@ Robot loadRobot(const RobotScene& scene);
 bool isPredicted(const RobotScene& scene);
 
 /// Reads what the scene names; obstacles that move have a state at each of waypointsOf(), predicted
-/// ones that of its time; with a plan these stay as they are. \throws FileError, InvalidGeometry,
+/// ones that of its time, or as they are where there are no waypoints. \throws FileError, InvalidGeometry,
 /// InvalidRequest
 RobotQuery loadRobotQuery(const RobotScene& scene);
 

@@ -69,8 +69,8 @@ struct TimedPlan {
 std::vector<TimedWaypoint> interpolated(const std::vector<TimedWaypoint>& waypoints,
                                         double largest_step, double largest_time_step);
 
-/// Plans in joints and time, by RRT-Connect towards several times of arrival; then the way is
-/// shortened and walked as soon as the test of its states allows. No state touches the robot
+/// Plans in joints and time, by RRT-Connect towards several times of arrival; then sooner ones are
+/// looked for, and the way is shortened. No state touches the robot
 /// itself, and P of each is certainly below the threshold among the obstacles as they are predicted
 /// for its time (RobotQuery::at()). What is between the states is not looked at.
 /// \throws InvalidRequest without a threshold; where no obstacle is predicted and `latest` is not

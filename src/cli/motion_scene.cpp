@@ -138,10 +138,10 @@ class MotionScene {
     if (group.members.empty()) return;
     for (PlacedMesh& member : group.members) member.pose = member.path.front();
     scene_.groups.push_back(std::move(group));
-    const double last = static_cast<double>(waypoints_.size() - 1);
+    const std::vector<double> times = timesOfWaypoints();
     for (const detail::WaypointStep& step : steps) {
-      const double time = static_cast<double>(step.from) + step.fraction;
-      scene_.times.push_back(kSecondsOfMotion * time / last);
+      const double next = times[std::min(step.from + 1, times.size() - 1)];
+      scene_.times.push_back((1.0 - step.fraction) * times[step.from] + step.fraction * next);
     }
   }
 
@@ -223,6 +223,20 @@ class MotionScene {
       }
     }
     scene_.groups.push_back(std::move(group));
+  }
+
+  /// Seconds since the first; where obstacles are predicted those of the motion.
+  std::vector<double> timesOfWaypoints() const {
+    const auto& obstacles = query_.obstacles();
+    const auto predicted = std::find_if(obstacles.begin(), obstacles.end(), &detail::isPredicted);
+    const double last = static_cast<double>(waypoints_.size() - 1);
+    std::vector<double> times;
+    for (std::size_t i = 0; i < waypoints_.size(); ++i) {
+      times.push_back(predicted == obstacles.end()
+                          ? kSecondsOfMotion * static_cast<double>(i) / last
+                          : *predicted->over_time[i].time - *predicted->over_time[0].time);
+    }
+    return times;
   }
 
   void addMovingObstacle(std::size_t index, const std::vector<detail::WaypointStep>& steps,

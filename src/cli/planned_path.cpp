@@ -91,9 +91,8 @@ ordered_json planJson(const TimedPlan& plan, const Robot& robot) {
   json["arrival"] = plan.arrival;
   json["length"] = plan.length;
   json["shortened"] = plan.shortened;
-  json["largest"] = {{"lower", plan.largest.lower},
-                     {"upper", plan.largest.upper},
-                     {"time", plan.likeliest_time}};
+  json["largest"] = {
+      {"lower", plan.largest.lower}, {"upper", plan.largest.upper}, {"time", plan.likeliest_time}};
   for (const TimedWaypoint& waypoint : plan.waypoints) {
     ordered_json entry{{"time", waypoint.time}};
     entry.update(byJoint(waypoint.values, robot));

@@ -79,14 +79,39 @@ void requireSteps(const RobotJoint& joint, double low, double high, double step)
 
 }  // namespace
 
+std::pair<double, double> sampledRange(const RobotJoint& joint, double start, double goal,
+                                       double largest_step) {
+  const auto [low, high] = std::minmax(start, goal);
+  const std::pair<double, double> range{
+      std::isfinite(joint.lower) ? joint.lower : low - kHalfTurn,
+      std::isfinite(joint.upper) ? joint.upper : high + kHalfTurn};
+  requireSteps(joint, range.first, range.second, largest_step);
+  return range;
+}
+
+void requireReachable(const Robot& robot, const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
+                      const std::vector<std::string>& names) {
+  requireWithinLimits(robot, start, "start");
+  requireWithinLimits(robot, goal, "goal");
+  const auto& joints = robot.joints();
+  for (const std::string& name : names) jointIndex(robot, name);
+  const std::vector<Eigen::Index> moving = movingJoints(robot, names);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    const bool moves = std::binary_search(moving.begin(), moving.end(), index);
+    if (!moves && start[index] != goal[index]) {
+      throw InvalidRequest("joint " + joints[i].name + " may not move, but is " +
+                           numberText(start[index]) + " at the start and " +
+                           numberText(goal[index]) + " at the goal");
+    }
+  }
+}
+
 JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
-                       const Eigen::VectorXd& goal, PlanningRun& run, bool has_time)
+                       const Eigen::VectorXd& goal, PlanningRun& run)
     : request_(run.request()), start_(start) {
-  const auto joints = static_cast<Eigen::Index>(robot.joints().size());
-  requireWithinLimits(robot, has_time ? start.head(joints).eval() : start, "start");
-  requireWithinLimits(robot, has_time ? goal.head(joints).eval() : goal, "goal");
-  chooseJoints(robot, goal);
-  if (has_time) indices_.push_back(joints);
+  requireReachable(robot, start, goal, request_.joints);
+  indices_ = movingJoints(robot, request_.joints);
   const ob::StateSpacePtr space = makeSpace(robot, goal);
   information_ = std::make_shared<ob::SpaceInformation>(space);
   information_->setStateValidityChecker(
@@ -95,36 +120,15 @@ JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
   information_->setup();
 }
 
-void JointSpace::chooseJoints(const Robot& robot, const Eigen::VectorXd& goal) {
-  const auto& joints = robot.joints();
-  for (const std::string& name : request_.joints) jointIndex(robot, name);
-  indices_ = movingJoints(robot, request_.joints);
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    const auto index = static_cast<Eigen::Index>(i);
-    const bool moves = std::binary_search(indices_.begin(), indices_.end(), index);
-    if (!moves && start_[index] != goal[index]) {
-      throw InvalidRequest("joint " + joints[i].name + " may not move, but is " +
-                           numberText(start_[index]) + " at the start and " +
-                           numberText(goal[index]) + " at the goal");
-    }
-  }
-}
-
 ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot, const Eigen::VectorXd& goal) const {
   ob::RealVectorBounds bounds(static_cast<unsigned>(dimension()));
   for (std::size_t i = 0; i < dimension(); ++i) {
     const Eigen::Index index = indices_[i];
-    const auto [low, high] = std::minmax(start_[index], goal[index]);
-    const auto at = static_cast<unsigned>(i);
-    if (static_cast<std::size_t>(index) == robot.joints().size()) {
-      bounds.setLow(at, low);
-      bounds.setHigh(at, high);
-      continue;
-    }
     const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(index)];
-    bounds.setLow(at, std::isfinite(joint.lower) ? joint.lower : low - kHalfTurn);
-    bounds.setHigh(at, std::isfinite(joint.upper) ? joint.upper : high + kHalfTurn);
-    requireSteps(joint, bounds.low[i], bounds.high[i], request_.largest_step);
+    const auto at = static_cast<unsigned>(i);
+    const auto [low, high] = sampledRange(joint, start_[index], goal[index], request_.largest_step);
+    bounds.setLow(at, low);
+    bounds.setHigh(at, high);
   }
   auto space = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(dimension()));
   space->setBounds(bounds);

@@ -2,14 +2,45 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/motion_planning.h"
 
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+
 #include <cmath>
 
 #include "planning/joint_space.h"
-#include "planning/rrt_connect.h"
+#include "planning/quiet_ompl.h"
 #include "planning/shorten_path.h"
 
 namespace fcl_prob {
 namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+/// How far the trees of RRT-Connect grow at once, in joint space. An edge is taken whole or not at
+/// all: long ones are refused more often.
+constexpr double kRange = 0.5;
+
+/// By RRT-Connect; nothing if a limit ended it.
+std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
+                                           detail::PlanningRun& run, const Eigen::VectorXd& start,
+                                           const Eigen::VectorXd& goal) {
+  const auto problem = std::make_shared<ob::ProblemDefinition>(space.information());
+  ob::ScopedState<> from(space.information()), to(space.information());
+  space.write(start, from.get());
+  space.write(goal, to.get());
+  problem->setStartAndGoalStates(from, to);
+  og::RRTConnect planner(space.information());
+  planner.setRange(kRange);
+  planner.setProblemDefinition(problem);
+  planner.setup();
+  // OMPL may go on for long without a state, where no nearer one is left.
+  const ob::PlannerTerminationCondition stop([&run] { return run.isStoppedNow(); });
+  if (planner.solve(stop) != ob::PlannerStatus::EXACT_SOLUTION) return nullptr;
+  return std::static_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+}
 
 class MotionPlan {
  public:
@@ -33,8 +64,10 @@ class MotionPlan {
       result.shortened = true;
       return PlanningStatus::solved;
     }
-    result.waypoints = detail::connected(space_, run_, start_, {goal_});
-    if (result.waypoints.empty()) return run_.stopped().value_or(PlanningStatus::state_limit);
+    const detail::QuietOmpl quiet;
+    const auto path = connect(space_, run_, start_, goal_);
+    if (!path) return run_.stopped().value_or(PlanningStatus::state_limit);
+    result.waypoints = space_.waypointsOf(*path);
     result.planned_length = jointLength(result.waypoints);
     if (run_.request().shorten) shorten(result);
     result.length = jointLength(result.waypoints);

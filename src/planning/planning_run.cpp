@@ -14,13 +14,11 @@ constexpr std::size_t kStatesPerLook = 16;
 
 void validateRequest(const PlanningRequest& request) {
   if (!(request.largest_step > 0.0)) {
-    throw InvalidRequest("the largest step must be > 0, is " +
-                         numberText(request.largest_step));
+    throw InvalidRequest("the largest step must be > 0, is " + numberText(request.largest_step));
   }
   if (request.max_states == 0) throw InvalidRequest("max_states must be at least 1");
   if (request.time_limit && !(*request.time_limit > 0.0)) {
-    throw InvalidRequest("the time limit must be > 0, is " +
-                         numberText(*request.time_limit));
+    throw InvalidRequest("the time limit must be > 0, is " + numberText(*request.time_limit));
   }
 }
 

@@ -13,9 +13,8 @@
 #include "fcl_prob/exceptions.h"
 #include "planning/joint_space.h"
 #include "planning/moving_joints.h"
-#include "planning/rrt_connect.h"
 #include "planning/shorten_path.h"
-#include "robot/joint_indices.h"
+#include "planning/timed_trees.h"
 #include "robot/moving_obstacle.h"
 #include "robot/state_screen.h"
 
@@ -25,75 +24,9 @@ namespace {
 /// Times of arrival that trees grow back from: more of them cost a test of the goal each.
 constexpr int kArrivals = 24;
 
-/// Times of arrival that a path is hurried to, the soonest first.
-constexpr int kHurries = 8;
-
-/// Of a velocity, next to which steps are rounded.
-constexpr double kVelocityRounding = 1e-9;
-
-/// States with their time as one more value, in a unit such that the largest step of a joint and
-/// that of time are the same.
-class TimedStates {
- public:
-  TimedStates(const Robot& robot, const TimedPlanningRequest& request)
-      : unit_(request.planning.largest_step / request.largest_time_step),
-        start_time_(request.start_time),
-        velocities_(velocitiesOf(robot, request)) {}
-
-  Eigen::VectorXd at(double time, const Eigen::VectorXd& values) const {
-    Eigen::VectorXd state(values.size() + 1);
-    state << values, (time - start_time_) * unit_;
-    return state;
-  }
-  static Eigen::VectorXd valuesOf(const Eigen::VectorXd& state) {
-    return state.head(state.size() - 1);
-  }
-  double timeOf(const Eigen::VectorXd& state) const {
-    return start_time_ + state[state.size() - 1] / unit_;
-  }
-
-  /// Seconds that the way from one to the other takes.
-  double soonest(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
-    double seconds = 0.0;
-    for (Eigen::Index i = 0; i < velocities_.size(); ++i) {
-      const double way = std::abs(to[i] - from[i]);
-      if (way > 0.0) seconds = std::max(seconds, way / velocities_[i]);
-    }
-    return seconds;
-  }
-
-  bool isForwardInTime(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
-    const double seconds = (to[to.size() - 1] - from[from.size() - 1]) / unit_;
-    return seconds > 0.0 && soonest(from, to) <= seconds * (1.0 + kVelocityRounding);
-  }
-
- private:
-  static Eigen::VectorXd velocitiesOf(const Robot& robot, const TimedPlanningRequest& request) {
-    Eigen::VectorXd velocities(static_cast<Eigen::Index>(robot.joints().size()));
-    for (const auto& [name, velocity] : request.velocities) {
-      detail::jointIndex(robot, name);
-      if (velocity > 0.0 && std::isfinite(velocity)) continue;
-      throw InvalidRequest("the velocity of joint " + name + " must be > 0 and finite, is " +
-                           detail::numberText(velocity));
-    }
-    for (std::size_t i = 0; i < robot.joints().size(); ++i) {
-      const RobotJoint& joint = robot.joints()[i];
-      const auto given = request.velocities.find(joint.name);
-      const double velocity = given == request.velocities.end() ? joint.velocity : given->second;
-      velocities[static_cast<Eigen::Index>(i)] = request.velocity_scale * velocity;
-    }
-    for (const Eigen::Index i : detail::movingJoints(robot, request.planning.joints)) {
-      if (velocities[i] > 0.0) continue;
-      throw InvalidRequest("joint " + robot.joints()[static_cast<std::size_t>(i)].name +
-                           " has no velocity in its URDF: a plan in time needs one");
-    }
-    return velocities;
-  }
-
-  double unit_;
-  double start_time_;
-  Eigen::VectorXd velocities_;
-};
+/// For a sooner arrival so many times the states may be asked for that the first path took, and so
+/// many more: it costs no more than the path does, about, for each of the halvings.
+constexpr std::size_t kStatesForSooner = 2, kMoreForSooner = 500;
 
 TimedPlanningRequest validated(TimedPlanningRequest request) {
   request.state = detail::ofOneCall(request.state);
@@ -126,13 +59,15 @@ double latestOf(const RobotQuery& query, const TimedPlanningRequest& request) {
                            " has states without times: a plan in time needs those of a prediction");
     }
     const double end = *obstacle.over_time.back().time - request.hold;
-    if (request.latest && *request.latest > end) detail::predictedAt(obstacle, *request.latest + request.hold);
+    if (request.latest && *request.latest > end)
+      detail::predictedAt(obstacle, *request.latest + request.hold);
     detail::predictedAt(obstacle, request.start_time);
     latest = std::min(latest.value_or(end), end);
   }
   if (!latest) {
-    throw InvalidRequest("no obstacle is predicted over time: a plan in time needs the latest time "
-                         "of arrival, or planCertified()");
+    throw InvalidRequest(
+        "no obstacle is predicted over time: a plan in time needs the latest time "
+        "of arrival, or planCertified()");
   }
   if (!(*latest > request.start_time)) {
     throw InvalidRequest("the latest time of arrival, " + detail::numberText(*latest) +
@@ -152,12 +87,11 @@ class TimedPlanner {
         request_(validated(request)),
         latest_(latestOf(query, request_)),
         states_(query.robot(), request_),
-        run_([this](const auto& state) { return isAllowed(state); }, request_.planning,
-             [this](const auto& from, const auto& to) { return states_.isForwardInTime(from, to); }),
+        run_(
+            [this](const auto& state) { return isAllowed(state); }, request_.planning,
+            [this](const auto& from, const auto& to) { return states_.isForwardInTime(from, to); }),
         start_(states_.at(request_.start_time, start)),
-        goal_(goal),
-        space_(detail::JointSpace::withTime(query.robot(), start_, states_.at(latest_, goal),
-                                            run_)) {}
+        goal_(goal) {}
 
   TimedPlan plan() {
     TimedPlan plan;
@@ -171,7 +105,7 @@ class TimedPlanner {
     if (!run_.isAllowed(start_)) return run_.stopped().value_or(PlanningStatus::start_refused);
     const std::vector<Eigen::VectorXd> goals = allowedGoals();
     if (goals.empty()) return run_.stopped().value_or(PlanningStatus::goal_refused);
-    path_ = detail::connected(space_, run_, start_, goals);
+    connect(goals);
     if (path_.empty()) return run_.stopped().value_or(PlanningStatus::state_limit);
     if (request_.planning.shorten) shorten();
     plan.shortened = request_.planning.shorten && !run_.isStopped();
@@ -181,7 +115,7 @@ class TimedPlanner {
   }
 
   bool isAllowed(const Eigen::VectorXd& state) const {
-    const Eigen::VectorXd values = TimedStates::valuesOf(state);
+    const Eigen::VectorXd values = detail::TimedStates::valuesOf(state);
     if (self_.collides(values)) return false;
     const RobotQuery then = query_.at(states_.timeOf(state));
     const detail::StateScreen screen(then.among());
@@ -199,7 +133,7 @@ class TimedPlanner {
   }
 
   Eigen::VectorXd heldFrom(const Eigen::VectorXd& goal) const {
-    return states_.at(states_.timeOf(goal) + request_.hold, TimedStates::valuesOf(goal));
+    return states_.at(states_.timeOf(goal) + request_.hold, detail::TimedStates::valuesOf(goal));
   }
 
   /// Whether the robot may be at the goal from then on, as long as it is held.
@@ -220,43 +154,32 @@ class TimedPlanner {
     return goals;
   }
 
+  /// By halving the times of arrival; what is not found soon may yet exist.
+  void connect(const std::vector<Eigen::VectorXd>& goals) {
+    const auto towards = [&](std::size_t count, std::size_t most_states) {
+      const std::vector<Eigen::VectorXd> first(goals.begin(), goals.begin() + count);
+      return detail::TimedTrees(query_.robot(), states_, run_, start_, first).connect(most_states);
+    };
+    const std::size_t before = run_.states();
+    path_ = towards(goals.size(), request_.planning.max_states);
+    const std::size_t most = kStatesForSooner * (run_.states() - before) + kMoreForSooner;
+    std::size_t none = 0, some = path_.empty() ? 0 : goals.size();
+    while (some - none > 1 && !run_.isStopped()) {
+      const std::size_t middle = (none + some) / 2;
+      std::vector<Eigen::VectorXd> sooner = towards(middle, most);
+      (sooner.empty() ? none : some) = middle;
+      if (!sooner.empty()) path_ = std::move(sooner);
+    }
+  }
+
   void shorten() {
     run_.beginShortening();
     path_ = detail::pulledTaut(detail::cutShort(std::move(path_), run_), run_);
-    if (hurry()) path_ = detail::pulledTaut(std::move(path_), run_);
-  }
-
-  /// The same way in less time, if its states are allowed then.
-  bool hurry() {
-    const double start = request_.start_time, arrival = states_.timeOf(path_.back());
-    const double soonest = start + states_.soonest(path_.front(), path_.back());
-    for (int i = 0; i < kHurries && !run_.isStopped(); ++i) {
-      const double sooner = soonest + (arrival - soonest) * i / kHurries;
-      std::vector<Eigen::VectorXd> hurried;
-      for (const Eigen::VectorXd& state : path_) {
-        const double part = (states_.timeOf(state) - start) / (arrival - start);
-        hurried.push_back(states_.at(start + part * (sooner - start), TimedStates::valuesOf(state)));
-      }
-      if (!isPathAllowed(hurried)) continue;
-      path_ = std::move(hurried);
-      return true;
-    }
-    return false;
-  }
-
-  bool isPathAllowed(const std::vector<Eigen::VectorXd>& path) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      if (!states_.isForwardInTime(path[i - 1], path[i])) return false;
-    }
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      if (!run_.isMotionAllowed(path[i - 1], path[i])) return false;
-    }
-    return isGoalAllowed(path.back());
   }
 
   void tell(TimedPlan& plan) const {
     for (const Eigen::VectorXd& state : path_) {
-      plan.waypoints.push_back({states_.timeOf(state), TimedStates::valuesOf(state)});
+      plan.waypoints.push_back({states_.timeOf(state), detail::TimedStates::valuesOf(state)});
       if (plan.waypoints.size() > 1) {
         plan.length += (plan.waypoints.back().values - plan.waypoints.rbegin()[1].values).norm();
       }
@@ -264,7 +187,7 @@ class TimedPlanner {
     plan.arrival = plan.waypoints.back().time - request_.hold;
     plan.largest = {0.0, 0.0};
     for (const Eigen::VectorXd& state : interpolated(path_, request_.planning.largest_step)) {
-      const Eigen::VectorXd values = TimedStates::valuesOf(state);
+      const Eigen::VectorXd values = detail::TimedStates::valuesOf(state);
       const RobotQuery then = query_.at(states_.timeOf(state));
       if (detail::StateScreen(then.among()).isBelow(values, plan.largest.lower)) continue;
       ProbabilityRequest request = withinLimits();
@@ -283,11 +206,10 @@ class TimedPlanner {
   const SelfCollision& self_;
   const TimedPlanningRequest request_;
   const double latest_;
-  const TimedStates states_;
+  const detail::TimedStates states_;
   detail::PlanningRun run_;
   const Eigen::VectorXd start_;
   const Eigen::VectorXd goal_;
-  detail::JointSpace space_;
   std::vector<Eigen::VectorXd> path_;
   const detail::Stopwatch watch_;
 };
@@ -304,7 +226,7 @@ std::vector<TimedWaypoint> interpolated(const std::vector<TimedWaypoint>& waypoi
   }
   std::vector<TimedWaypoint> result;
   for (const Eigen::VectorXd& state : interpolated(states, largest_step)) {
-    result.push_back({state[state.size() - 1] / unit, TimedStates::valuesOf(state)});
+    result.push_back({state[state.size() - 1] / unit, detail::TimedStates::valuesOf(state)});
   }
   return result;
 }
@@ -314,6 +236,7 @@ TimedPlan planInTime(const RobotQuery& query, const SelfCollision& self,
                      const TimedPlanningRequest& request) {
   query.robot().validate(start);
   query.robot().validate(goal);
+  detail::requireReachable(query.robot(), start, goal, request.planning.joints);
   detail::requireSameJoints(self.robot(), query.robot());
   return TimedPlanner(query, self, request, start, goal).plan();
 }

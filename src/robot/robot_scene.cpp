@@ -162,12 +162,12 @@ std::vector<Eigen::VectorXd> valuesOf(const RobotScene& scene, const Robot& robo
   return waypoints;
 }
 
-/// At every step of the waypoints; with a plan as it is.
+/// At every step of the waypoints; where there are none, with a plan, as it is.
 Obstacle loadPredicted(const RobotScene& scene, const Robot& robot,
                        const RobotScene::PlacedObstacle& placed) {
   Obstacle obstacle = detail::loadObstacle(placed, placed.over_time);
   detail::requireTimes(obstacle);
-  if (scene.plan) return obstacle;
+  if (scene.waypoints.empty()) return obstacle;
   const double step = scene.largest_step.value_or(detail::kInfinity);
   std::vector<ObstacleState> states;
   for (const double time :
