@@ -5,7 +5,6 @@
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -27,14 +26,6 @@ double gammaPInverse(double a, double value) { return boost::math::gamma_p_inv(a
 double gammaQInverse(double a, double value) { return boost::math::gamma_q_inv(a, value); }
 
 double normalQuantile(double below) { return quantile(boost::math::normal(), below); }
-
-double normalQuantileAbove(double above) {
-  return quantile(complement(boost::math::normal(), above));
-}
-
-double studentQuantileAbove(double freedom, double above) {
-  return quantile(complement(boost::math::students_t(freedom), above));
-}
 
 double chiSquaredQuantile(double freedom, double below) {
   return quantile(boost::math::chi_squared(freedom), below);

@@ -26,8 +26,6 @@ double gammaQInverse(double a, double value);
 
 /// Where a distribution has `below` of its mass below, or `above` above.
 double normalQuantile(double below);
-double normalQuantileAbove(double above);
-double studentQuantileAbove(double freedom, double above);
 double chiSquaredQuantile(double freedom, double below);
 double betaQuantile(double alpha, double beta, double below);
 double betaQuantileAbove(double alpha, double beta, double above);

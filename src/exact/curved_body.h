@@ -16,9 +16,6 @@ namespace fcl_prob::detail {
 struct Frustum {
   double half_height = 0.0, bottom = 0.0, top = 0.0;
 
-  /// A cylinder or a segment.
-  bool isStraight() const { return bottom == top; }
-
   /// No point is farther from the middle of the axis than that.
   double size() const { return half_height + (bottom > top ? bottom : top); }
 
