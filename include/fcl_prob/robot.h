@@ -119,6 +119,11 @@ class Robot {
   Robot withAttached(AttachedObject object) const;
 
   const std::string& name() const;
+
+  /// What it was read from, so that it can be read again.
+  const std::string& urdf() const;
+  const RobotOptions& options() const;
+
   const std::vector<RobotJoint>& joints() const;
 
   /// Those of the links, then what is attached to them.

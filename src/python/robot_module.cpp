@@ -14,6 +14,7 @@
 #include "python/arrays.h"
 #include "python/displacements.h"
 #include "python/geometries.h"
+#include "python/pickled.h"
 #include "python/results.h"
 #include "python/robot_values.h"
 #include "python/running.h"
@@ -37,6 +38,52 @@ Robot withAttached(const Robot& robot, const std::string& name, const std::strin
                    const std::vector<std::string>& touch_links) {
   return robot.withAttached(
       {name, link, geometryFrom(geometry, "geometry"), poseFrom(pose, "pose"), touch_links});
+}
+
+/// The files are read again.
+py::tuple robotState(const Robot& robot) {
+  const RobotOptions& options = robot.options();
+  py::list attached;
+  for (const AttachedObject& one : robot.attached()) {
+    attached.append(py::make_tuple(
+        one.name, one.link, std::const_pointer_cast<fcl::CollisionGeometryd>(one.geometry),
+        arrayOf(one.in_link.matrix()), one.touch_links));
+  }
+  return py::make_tuple(robot.urdf(), options.packages, options.links,
+                        arrayOf(options.base.matrix()), options.allow_outside_limits, attached);
+}
+
+std::shared_ptr<Robot> robotMadeAgain(const py::tuple& state) {
+  auto robot = loadRobot(state[0], state[1].cast<std::map<std::string, std::string>>(),
+                         state[2].cast<std::vector<std::string>>(), state[3],
+                         state[4].cast<bool>());
+  for (const py::handle one : state[5].cast<py::list>()) {
+    const auto of = one.cast<py::tuple>();
+    *robot = withAttached(*robot, of[0].cast<std::string>(), of[1].cast<std::string>(), of[2],
+                          of[3], of[4].cast<std::vector<std::string>>());
+  }
+  return robot;
+}
+
+/// (name, link, geometry, pose in the link) of every body.
+py::list bodiesOf(const Robot& robot) {
+  py::list bodies;
+  for (const RobotBody& body : robot.bodies()) {
+    bodies.append(py::make_tuple(body.name(), body.link,
+                                 std::const_pointer_cast<fcl::CollisionGeometryd>(body.geometry),
+                                 arrayOf(body.in_link.matrix())));
+  }
+  return bodies;
+}
+
+py::list carryingJoints(const Robot& robot, std::size_t body, const py::object& values) {
+  py::list joints;
+  for (const CarryingJoint& one :
+       robot.carryingJoints(body, jointValues(robot, values, "values"))) {
+    joints.append(py::make_tuple(robot.joints()[one.joint].name, one.factor, one.turns,
+                                 vectorArray(one.axis), vectorArray(one.point)));
+  }
+  return joints;
 }
 
 void bindRobot(py::module_& module) {
@@ -73,6 +120,25 @@ void bindRobot(py::module_& module) {
             return arrayOf(limits);
           },
           "(k, 2) float64, radians or metres.")
+      .def_property_readonly(
+          "velocities",
+          [](const Robot& robot) {
+            Eigen::VectorXd velocities(robot.joints().size());
+            for (Eigen::Index i = 0; i < velocities.size(); ++i) {
+              velocities[i] = robot.joints()[static_cast<std::size_t>(i)].velocity;
+            }
+            return vectorArray(velocities);
+          },
+          "(k,) float64, radians or metres per second; 0 where the URDF has none.")
+      .def_property_readonly(
+          "bodies", &bodiesOf,
+          "Collision elements and what is attached: tuples (name, link, geometry, pose in the\n"
+          "link, (4, 4), metres).")
+      .def("carrying_joints", &carryingJoints, py::arg("body"), py::arg("values"),
+           "What the Jacobian of bodies[body] is made of, from the root outwards: tuples (joint,\n"
+           "factor, turns, axis, point), the axis and a point on it in the world frame, metres; a\n"
+           "point x of the body moves by factor * axis × (x - point) per radian, or by factor *\n"
+           "axis per metre.")
       .def_property_readonly(
           "links",
           [](const Robot& robot) {
@@ -112,6 +178,7 @@ void bindRobot(py::module_& module) {
            py::arg("pose") = py::none(), py::arg("touch_links") = std::vector<std::string>(),
            "The robot with an object that a link carries at `pose` in the link's frame; it may\n"
            "touch the links named. Raises InvalidRequest, InvalidPose.")
+      .def(pickledAs<const Robot&>(&robotState, &robotMadeAgain))
       .def("__repr__", [](const Robot& robot) {
         return "<Robot " + robot.name() + " with " + std::to_string(robot.joints().size()) +
                " joints and " + std::to_string(robot.bodies().size()) + " collision elements>";
@@ -221,14 +288,39 @@ void bodiesFrom(py::handle value, const std::string& name, Obstacle& obstacle) {
   if (!obstacle.geometry) throw InvalidRequest(name + " has no bodies");
 }
 
-/// (name, geometry, displacement) or (name, geometry, displacement, pose).
+/// Tuples (time, pose, displacement).
+std::vector<ObstacleState> predictionFrom(py::handle value, const std::string& name) {
+  std::vector<ObstacleState> states;
+  for (const py::handle one : value) {
+    if (!py::isinstance<py::tuple>(one) || py::len(one) != 3) {
+      throw py::type_error(name + ": a state must be a tuple (time, pose, displacement), not " +
+                           textOf(one));
+    }
+    const auto parts = py::reinterpret_borrow<py::tuple>(one);
+    const Randomness error = randomnessFrom(parts[2], name + ": displacement");
+    const auto* gaussian = std::get_if<GaussianDisplacement>(&error);
+    if (gaussian == nullptr) {
+      throw py::type_error(name + ": a state has a GaussianDisplacement, not " + textOf(parts[2]));
+    }
+    try {
+      states.push_back(
+          {poseFrom(parts[1], name + ": pose"), *gaussian, parts[0].cast<double>()});
+    } catch (const py::cast_error&) {
+      throw py::type_error(name + ": time must be a number, not " + textOf(parts[0]));
+    }
+  }
+  return states;
+}
+
+/// (name, geometry, displacement), with a pose behind these, and a prediction behind that.
 Obstacle obstacleFrom(py::handle value, std::size_t number) {
   const std::string name = "obstacles[" + std::to_string(number) + "]";
-  if (!py::isinstance<py::tuple>(value) || py::len(value) < 3 || py::len(value) > 4 ||
+  if (!py::isinstance<py::tuple>(value) || py::len(value) < 3 || py::len(value) > 5 ||
       !py::isinstance<py::str>(py::reinterpret_borrow<py::tuple>(value)[0])) {
     throw py::type_error(name +
-                         " must be a tuple (name, geometry, displacement) or (name, "
-                         "geometry, displacement, pose), not " +
+                         " must be a tuple (name, geometry, displacement), (name, geometry, "
+                         "displacement, pose) or (name, geometry, displacement, pose, "
+                         "prediction), not " +
                          textOf(value));
   }
   const auto parts = py::reinterpret_borrow<py::tuple>(value);
@@ -237,7 +329,8 @@ Obstacle obstacleFrom(py::handle value, std::size_t number) {
     throw py::type_error(name + ": an obstacle has a displacement, not a PoseError");
   }
   Obstacle obstacle;
-  if (parts.size() == 4) obstacle.pose = poseFrom(parts[3], name + ": pose");
+  if (parts.size() > 3) obstacle.pose = poseFrom(parts[3], name + ": pose");
+  if (parts.size() > 4) obstacle.over_time = predictionFrom(parts[4], name + ": prediction");
   bodiesFrom(parts[1], name, obstacle);
   obstacle.name = parts[0].cast<std::string>();
   if (const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness)) {
@@ -405,13 +498,23 @@ void bindQuery(py::module_& module) {
   py::class_<RobotQuery, std::shared_ptr<RobotQuery>>(
       module, "RobotQuery",
       "RobotQuery(robot, obstacles): a robot among obstacles, each a tuple (name, geometry,\n"
-      "displacement) or (name, geometry, displacement, pose): displacements of the obstacle, "
-      "world\n"
-      "frame, independent of one another. May be used by several threads.")
+      "displacement), with a pose or a pose and a prediction behind these: displacements of the\n"
+      "obstacle, world frame, independent of one another. May be used by several threads.")
       .def(py::init(&makeQuery), py::arg("robot"), py::arg("obstacles"),
            py::arg("allowed") = std::vector<std::pair<std::string, std::string>>(),
-           "geometry may be a list of (geometry, pose): bodies that move as one. allowed: (body,\n"
+           "geometry may be a list of (geometry, pose): bodies that move as one. prediction: a\n"
+           "list of (time, pose, displacement), seconds, increasing; see at(). allowed: (body,\n"
            "obstacle) names or patterns whose contact counts for nothing.")
+      .def_property_readonly(
+          "robot", [](const RobotQuery& query) { return std::make_shared<Robot>(query.robot()); })
+      .def(
+          "at",
+          [](const RobotQuery& query, double time) {
+            return std::make_shared<RobotQuery>(query.at(time));
+          },
+          py::arg("time"),
+          "The same robot among the obstacles as they are predicted for a time, seconds: linear\n"
+          "between the states given. Raises InvalidRequest for a time beyond them.")
       .def("with_obstacles", &withObstacles, py::arg("obstacles"),
            "The same robot among other obstacles; what was prepared of those of the same name and\n"
            "geometries is shared.")

@@ -129,6 +129,13 @@ bool Interruption::lookAround(const std::function<py::tuple()>& arguments) {
 }
 
 bool Interruption::goOn(const ProbabilityProgress& progress) {
+  return goOn([&] {
+    return py::make_tuple(py::make_tuple(progress.interval.lower, progress.interval.upper),
+                          progress.fraction, progress.seconds);
+  });
+}
+
+bool Interruption::goOn(const std::function<py::tuple()>& arguments) {
   const Clock::time_point now = Clock::now();
   if (!asked_) next_ = on_progress_ ? now : now + kBetweenLooks;
   asked_ = true;
@@ -136,10 +143,7 @@ bool Interruption::goOn(const ProbabilityProgress& progress) {
   bool goes_on = true;
   {
     const py::gil_scoped_acquire acquired;
-    goes_on = lookAround([&] {
-      return py::make_tuple(py::make_tuple(progress.interval.lower, progress.interval.upper),
-                            progress.fraction, progress.seconds);
-    });
+    goes_on = lookAround(arguments);
   }
   next_ = Clock::now() + kBetweenLooks;
   return goes_on;

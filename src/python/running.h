@@ -27,6 +27,9 @@ class Interruption {
   /// For ProbabilityRequest::on_progress: takes the GIL now and then.
   bool goOn(const ProbabilityProgress& progress);
 
+  /// The same for what calls on_progress with other arguments, which are made with the GIL.
+  bool goOn(const std::function<py::tuple()>& arguments);
+
   /// With the GIL: lets signal handlers run, and on_progress with what `arguments` gives.
   bool lookAround(const std::function<py::tuple()>& arguments);
 

@@ -26,14 +26,14 @@ constexpr double kBeyondLimits = 1e-6;
 }  // namespace
 
 struct Robot::Implementation {
-  Implementation(detail::UrdfModel model, const std::string& path, const RobotOptions& options)
+  Implementation(detail::UrdfModel model, const std::string& path, const RobotOptions& given)
       : name(model.name),
         kinematics(model),
-        bodies(detail::bodiesOf(model, path, options)),
-        base(options.base),
-        allow_outside_limits(options.allow_outside_limits),
+        bodies(detail::bodiesOf(model, path, given)),
+        urdf(path),
+        options(given),
         notes(std::move(model.notes)) {
-    if (!allow_outside_limits) kinematics.narrowLimits();
+    if (!options.allow_outside_limits) kinematics.narrowLimits();
     for (const RobotBody& body : bodies) links.push_back(kinematics.linkIndex(body.link));
   }
 
@@ -52,7 +52,7 @@ struct Robot::Implementation {
 
   void requireWithinLimits(const Eigen::VectorXd& values) const {
     validate(values);
-    if (allow_outside_limits) return;
+    if (options.allow_outside_limits) return;
     for (std::size_t i = 0; i < kinematics.joints().size(); ++i) {
       const RobotJoint& joint = kinematics.joints()[i];
       const double value = values[static_cast<Eigen::Index>(i)];
@@ -112,8 +112,8 @@ struct Robot::Implementation {
   std::vector<RobotBody> bodies;
   std::vector<AttachedObject> attached;
   std::vector<int> links;  ///< of the bodies
-  fcl::Transform3d base;
-  bool allow_outside_limits;
+  std::string urdf;
+  RobotOptions options;
   std::vector<std::string> notes;
 };
 
@@ -133,6 +133,8 @@ Robot Robot::withAttached(AttachedObject object) const {
 }
 
 const std::string& Robot::name() const { return implementation_->name; }
+const std::string& Robot::urdf() const { return implementation_->urdf; }
+const RobotOptions& Robot::options() const { return implementation_->options; }
 const std::vector<RobotJoint>& Robot::joints() const {
   return implementation_->kinematics.joints();
 }
@@ -203,7 +205,7 @@ std::vector<fcl::Transform3d> Robot::poses(const Eigen::VectorXd& values) const 
   std::vector<fcl::Transform3d> result;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     const auto link = static_cast<std::size_t>(implementation_->links[i]);
-    result.push_back(implementation_->base * links[link] * bodies()[i].in_link);
+    result.push_back(implementation_->options.base * links[link] * bodies()[i].in_link);
     implementation_->requireFinite(result.back(), bodies()[i].name());
   }
   return result;
@@ -218,8 +220,8 @@ std::vector<CarryingJoint> Robot::carryingJoints(std::size_t body,
   }
   auto joints = implementation_->kinematics.carryingJoints(implementation_->links[body], values);
   for (CarryingJoint& joint : joints) {
-    joint.axis = implementation_->base.linear() * joint.axis;
-    joint.point = implementation_->base * joint.point;
+    joint.axis = implementation_->options.base.linear() * joint.axis;
+    joint.point = implementation_->options.base * joint.point;
     if (joint.axis.allFinite() && joint.point.allFinite()) continue;
     throw InvalidPose(name() + ": joint " + this->joints()[joint.joint].name +
                       " is not at a finite place");
@@ -232,7 +234,7 @@ fcl::Transform3d Robot::linkPose(const std::string& link, const Eigen::VectorXd&
   const int index = implementation_->kinematics.linkIndex(link);
   if (index < 0) throw InvalidRequest(implementation_->name + " has no link " + link);
   const fcl::Transform3d pose =
-      implementation_->base *
+      implementation_->options.base *
       implementation_->kinematics.linkPoses(values)[static_cast<std::size_t>(index)];
   implementation_->requireFinite(pose, link);
   return pose;

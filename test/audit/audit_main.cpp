@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// The audit as a program: scripts/audit runs it, docs/audit.md tells what it does.
+// The audit as a program: scripts/audit runs it, test/audit/README.md tells what it does.
 #include <filesystem>
 #include <iostream>
 

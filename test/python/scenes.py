@@ -15,6 +15,7 @@ DATA = SOURCE_DIR / "data"
 
 needs_io = pytest.mark.skipif(os.environ["FCL_PROB_WITH_IO"] == "0", reason="built without assimp")
 needs_robot = pytest.mark.skipif(os.environ["FCL_PROB_WITH_ROBOT"] == "0", reason="built without robots")
+needs_planning = pytest.mark.skipif(os.environ["FCL_PROB_WITH_PLANNING"] == "0", reason="built without planning")
 needs_command = pytest.mark.skipif("FCL_PROB_CLI" not in os.environ, reason="built without the command")
 
 PART = fcl_prob.Box(0.4, 0.3, 0.2)

@@ -8,8 +8,8 @@ Gaussian error? Lengths are metres, angles radians, frames the world frame.
     error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.08, 0.05, 0.02])
     print(fcl_prob.collision_probability(part, fixture, error, pose_a=[0.5, 0, 0]))
 
-`load_mesh` needs the assimp library, and `Robot` and what goes with it libxml2 and Orocos KDL: neither is
-touched before it is used.
+`load_mesh` needs the assimp library, `Robot` and what goes with it libxml2 and Orocos KDL, and `plan` OMPL and
+NLopt: none is touched before it is used.
 """
 from __future__ import annotations
 
@@ -55,6 +55,7 @@ from ._errors import (
 
 if TYPE_CHECKING:
     from ._io import load_mesh
+    from ._planning import Plan, TimedPlan, plan, plan_in_time
     from ._robot import (
         JointGradient,
         ProbableResult,
@@ -88,6 +89,7 @@ __all__ = [
     "Mesh",
     "MotionGradient",
     "OpenMesh",
+    "Plan",
     "Plane",
     "PoseError",
     "PreparedQuery",
@@ -98,6 +100,7 @@ __all__ = [
     "RobotResult",
     "SelfCollision",
     "Sphere",
+    "TimedPlan",
     "TruncatedGaussian",
     "UnsupportedGeometry",
     "__version__",
@@ -106,6 +109,8 @@ __all__ = [
     "collision_probability",
     "load_mesh",
     "load_robot_scene",
+    "plan",
+    "plan_in_time",
 ]
 
 # Each in an extension module of its own, with libraries of its own.
@@ -118,6 +123,10 @@ _LATER = {
     "RobotResult": "_robot",
     "SelfCollision": "_robot",
     "load_robot_scene": "_robot",
+    "Plan": "_planning",
+    "TimedPlan": "_planning",
+    "plan": "_planning",
+    "plan_in_time": "_planning",
 }
 
 

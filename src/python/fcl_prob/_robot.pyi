@@ -18,9 +18,11 @@ Values = Union[Numbers, Mapping[str, float]]
 Translation = Union[GaussianDisplacement, GaussianMixture, TruncatedGaussian]
 Body = Union[Geometry, AnyMesh]
 Bodies = Union[Body, list[Tuple[Body, Numbers]]]
+Prediction = Sequence[Tuple[float, Numbers, GaussianDisplacement]]
 Obstacle = Union[
     Tuple[str, Bodies, Translation],
-    Tuple[str, Bodies, Translation, Numbers],
+    Tuple[str, Bodies, Translation, Optional[Numbers]],
+    Tuple[str, Bodies, Translation, Optional[Numbers], Prediction],
 ]
 
 class Robot:
@@ -38,6 +40,13 @@ class Robot:
     def joints(self) -> list[str]: ...
     @property
     def limits(self) -> FloatArray: ...
+    @property
+    def velocities(self) -> FloatArray: ...
+    @property
+    def bodies(self) -> list[Tuple[str, str, Geometry, FloatArray]]: ...
+    def carrying_joints(
+        self, body: int, values: Values
+    ) -> list[Tuple[str, float, bool, FloatArray, FloatArray]]: ...
     @property
     def links(self) -> list[str]: ...
     @property
@@ -97,7 +106,10 @@ class RobotQuery:
         obstacles: Sequence[Obstacle],
         allowed: Sequence[Tuple[str, str]] = ...,
     ) -> None: ...
+    @property
+    def robot(self) -> Robot: ...
     def with_obstacles(self, obstacles: Sequence[Obstacle]) -> RobotQuery: ...
+    def at(self, time: float) -> RobotQuery: ...
     def decide_states(
         self,
         states: Union[Numbers, Sequence[Values]],
