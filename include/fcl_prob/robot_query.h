@@ -137,7 +137,8 @@ struct RobotResult {
 class RobotQuery {
  public:
   /// \throws InvalidRequest without an obstacle, for an allowed contact of a body or obstacle that
-  ///         is not there, or times of an obstacle that do not increase; InvalidPose, InvalidGeometry, UnsupportedGeometry
+  ///         is not there, or times of an obstacle that do not increase; InvalidPose,
+  ///         InvalidGeometry, UnsupportedGeometry
   RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
              std::vector<AllowedContact> allowed = {});
   ~RobotQuery();

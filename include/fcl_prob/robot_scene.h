@@ -24,10 +24,10 @@ struct RobotScene {
 
   struct PlacedObstacle {
     std::string name;
-    SceneObject object;                    ///< a mesh still in its file; only its pose counts with:
-    std::vector<SceneObject> bodies;       ///< several, in the frame of the obstacle, or
-    std::optional<StandingRobot> robot;    ///< one whose root link is where the obstacle is
-    GaussianDisplacement displacement;     ///< of the obstacle, metres, world frame
+    SceneObject object;                  ///< a mesh still in its file; only its pose counts with:
+    std::vector<SceneObject> bodies;     ///< several, in the frame of the obstacle, or
+    std::optional<StandingRobot> robot;  ///< one whose root link is where the obstacle is
+    GaussianDisplacement displacement;   ///< of the obstacle, metres, world frame
     /// Of one that moves: one a waypoint of the file, or with times.
     std::vector<ObstacleState> over_time;
   };
@@ -73,7 +73,8 @@ struct RobotScene {
   };
   std::optional<JointError> joint_error;
   std::optional<PoseError> base_error;
-  /// One is a state; none with a plan. Beside joints `time`, seconds, where obstacles are predicted.
+  /// One is a state; none with a plan. Beside joints `time`, seconds, where obstacles are
+  /// predicted.
   std::vector<std::map<std::string, double>> waypoints;
   std::optional<Plan> plan;
   ErrorsOverTime errors = ErrorsOverTime::persistent;
@@ -99,8 +100,8 @@ Robot loadRobot(const RobotScene& scene);
 bool isPredicted(const RobotScene& scene);
 
 /// Reads what the scene names; obstacles that move have a state at each of waypointsOf(), predicted
-/// ones that of its time, or as they are where there are no waypoints. \throws FileError, InvalidGeometry,
-/// InvalidRequest
+/// ones that of its time, or as they are where there are no waypoints. \throws FileError,
+/// InvalidGeometry, InvalidRequest
 RobotQuery loadRobotQuery(const RobotScene& scene);
 
 /// Errors of the robot that the scene names. \throws InvalidRequest, InvalidDistribution

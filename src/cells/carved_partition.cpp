@@ -24,13 +24,13 @@ constexpr double kToleranceOfDecision = 1e-3;
 
 double mostLossOf(const ProbabilityRequest& request) {
   const double tolerance = request.threshold ? kToleranceOfDecision : request.relative_tolerance;
-  return std::min(PolygonMesh::kMostLoss, kShareOfTolerance * tolerance);
+  return std::min(WhitenedPolygons::kMostLoss, kShareOfTolerance * tolerance);
 }
 
 // Nothing where there are none to be had.
 std::optional<std::string> polygonNote(const FatMembers& obstacles, const PartitionObject& mesh,
                                        bool mesh_is_a) {
-  const PolygonMesh::Held held = obstacles.pieces().held();
+  const WhitenedPolygons::Held held = obstacles.pieces().held();
   if (held.polygons == 0) return std::nullopt;
   return std::string("object ") + (mesh_is_a ? "A" : "B") + ": of its " +
          std::to_string(mesh.tree->triangles.size()) + " triangles " +

@@ -45,7 +45,7 @@ void CellCarver::divideBox(CarvedCell&& cell) {
 // Whether the one obstacle that reaches farthest beyond the box, as far as planes of nodes tell,
 // covers it: then it need not be divided. After gatherNodes().
 bool CellCarver::isCovered(const Cell& box) {
-  const PolygonMesh& pieces = obstacles_.pieces();
+  const WhitenedPolygons& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
   FatNode best{-1, -1};
@@ -66,7 +66,7 @@ bool CellCarver::isCovered(const Cell& box) {
   const NodeReach& reach = obstacles_.reachOf(best.member);
   if (highest_of != best.member) highest = reach.highestOf(middle, half);
   for (;;) {
-    const PolygonMesh::Node& node = pieces.nodes()[best.node];
+    const WhitenedPolygons::Node& node = pieces.nodes()[best.node];
     if (node.piece >= 0 && takesPiece(best.member, node.piece)) {
       ranged_.assign(static_cast<std::size_t>(obstacles_.count()), false);
       return covers(box.box(), {best.member, node.piece});
@@ -100,7 +100,7 @@ bool CellCarver::covers(const CellBox& box, FatObstacle obstacle) {
 
 // Those of the nodes, and of what is below them, that the box may meet.
 void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves) {
-  const PolygonMesh& pieces = obstacles_.pieces();
+  const WhitenedPolygons& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
   const double size = 2.0 * half.sum();
@@ -117,7 +117,7 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
     const NodeReach& reach = obstacles_.reachOf(member);
     if (isClearOf(reach.boxOf(node), box.lo.data(), box.hi.data())) continue;
     if (reach.isClearOf(lowest_[member], node)) continue;
-    const PolygonMesh::Node& in_tree = pieces.nodes()[node];
+    const WhitenedPolygons::Node& in_tree = pieces.nodes()[node];
     const bool is_small = !to_leaves && pieces.box(node).size() < kOpenRatio * size;
     const bool is_large_piece = in_tree.piece >= 0 && pieces.box(node).size() > kBesideRatio * size;
     if (is_large_piece && isBeside(box, {member, in_tree.piece})) continue;

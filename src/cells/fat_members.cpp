@@ -70,7 +70,8 @@ std::size_t FatMembers::memoryOfPieces(const PartitionObject& body, const Partit
   for (const PieceTree::Part& part : body.tree->parts) {
     if (part.nearly) pieces += part.nearly->pieces.size();
   }
-  return pieces * FatObstacles::leastMemory(PolygonMesh::mostPieces(mesh.tree->triangles.size()));
+  return pieces *
+         FatObstacles::leastMemory(WhitenedPolygons::mostPieces(mesh.tree->triangles.size()));
 }
 
 const std::vector<int>& FatMembers::piecesWithin(int hull) {
@@ -96,8 +97,8 @@ std::size_t FatMembers::leastMemory(const PartitionObject& body, const Partition
   std::size_t members = 0;
   for (const PieceTree::Part& part : body.tree->parts) members += part.fan ? 1 : 2;
   const std::size_t triangles = mesh.tree->triangles.size();
-  return members * (FatObstacles::leastMemory(PolygonMesh::mostPieces(triangles)) +
-                    NodeReach::memoryOf(PolygonMesh::mostNodes(triangles)));
+  return members * (FatObstacles::leastMemory(WhitenedPolygons::mostPieces(triangles)) +
+                    NodeReach::memoryOf(WhitenedPolygons::mostNodes(triangles)));
 }
 
 bool FatMembers::usable() const {

@@ -12,7 +12,7 @@
 #include "cells/fat_obstacles.h"
 #include "cells/node_reach.h"
 #include "mass/cell_mass.h"
-#include "scene/polygon_mesh.h"
+#include "scene/whitened_polygons.h"
 
 namespace fcl_prob::detail {
 
@@ -39,7 +39,7 @@ class FatMembers {
   /// Keeps references to the pair and the body.
   FatMembers(const WhitenedPair& pair, const PartitionObject& body, const PartitionObject& mesh,
              bool fan_is_a, const Eigen::Matrix3d& matrix,
-             double most_loss = PolygonMesh::kMostLoss);
+             double most_loss = WhitenedPolygons::kMostLoss);
 
   /// Of one that has not been asked for anything.
   static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);
@@ -71,7 +71,7 @@ class FatMembers {
   /// if there are none.
   const std::vector<int>& piecesWithin(int hull);
 
-  const PolygonMesh& pieces() const { return pieces_; }
+  const WhitenedPolygons& pieces() const { return pieces_; }
 
   /// Where the faces of a member begin among those of all.
   int firstFace(int member) const { return first_faces_[member]; }
@@ -109,7 +109,7 @@ class FatMembers {
   const PartitionObject& body_;
   const bool fan_is_a_;
   const Eigen::Matrix3d matrix_;
-  const PolygonMesh pieces_;
+  const WhitenedPolygons pieces_;
   bool hulls_stay_closed_ = false;
   std::vector<std::unique_ptr<FatObstacles>> members_;  ///< null: not made yet
   std::vector<OfPart> parts_;                           ///< by member

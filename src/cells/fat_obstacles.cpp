@@ -50,7 +50,7 @@ Eigen::Vector3d areaOf(const Eigen::Matrix3Xd& corners) {
 
 FatObstacles::FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part,
                            const ConvexFan& fan, bool fan_is_a, const Eigen::Matrix3d& linear,
-                           const PolygonMesh& pieces)
+                           const WhitenedPolygons& pieces)
     : WhitenedFan(pair, part, fan, fan_is_a, linear),
       pieces_(pieces),
       details_(static_cast<std::size_t>(pieces.pieceCount())),

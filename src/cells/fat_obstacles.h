@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "scene/polygon_mesh.h"
 #include "scene/whitened_fan.h"
+#include "scene/whitened_polygons.h"
 
 namespace fcl_prob::detail {
 
@@ -34,7 +34,7 @@ struct ObstaclePlane {
 class FatObstacles : public WhitenedFan {
  public:
   FatObstacles(const WhitenedPair& pair, const PieceTree::Part& part, const ConvexFan& fan,
-               bool fan_is_a, const Eigen::Matrix3d& linear, const PolygonMesh& pieces);
+               bool fan_is_a, const Eigen::Matrix3d& linear, const WhitenedPolygons& pieces);
 
   /// Of one of so many pieces that has not been asked for anything.
   static std::size_t leastMemory(std::size_t pieces) { return pieces * sizeof(Slot); }
@@ -82,7 +82,7 @@ class FatObstacles : public WhitenedFan {
   /// Box of P ⊕ T_t.
   NodeBox obstacleBoxOf(int piece) const;
 
-  const PolygonMesh& pieces() const { return pieces_; }
+  const WhitenedPolygons& pieces() const { return pieces_; }
 
   std::size_t memory() const { return memory_; }
   std::size_t built() const { return built_; }
@@ -133,7 +133,7 @@ class FatObstacles : public WhitenedFan {
   std::vector<int> arcsAcross(const Eigen::VectorXd& on_normals, double parallel) const;
   ObstaclePlane planeAcross(double extent, const Eigen::Vector3d& n, double of_p) const;
 
-  const PolygonMesh& pieces_;
+  const WhitenedPolygons& pieces_;
   std::vector<Slot> details_;
   std::array<std::mutex, 16> mutexes_;  ///< each for what is made of some of the triangles
   std::atomic<bool> failed_{false};

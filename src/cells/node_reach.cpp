@@ -10,7 +10,7 @@
 
 namespace fcl_prob::detail {
 
-NodeReach::NodeReach(const WhitenedFan& fan, const PolygonMesh& pieces)
+NodeReach::NodeReach(const WhitenedFan& fan, const WhitenedPolygons& pieces)
     : rounding_(fan.padding(Eigen::Vector3d::Ones())) {
   std::vector<int> faces(static_cast<std::size_t>(fan.faceCount()));
   std::iota(faces.begin(), faces.end(), 0);
@@ -31,7 +31,7 @@ NodeReach::NodeReach(const WhitenedFan& fan, const PolygonMesh& pieces)
   boxes_.resize(pieces.nodes().size());
   for (std::size_t i = highest_.size(); i-- > 0;) {
     boxes_[i] = fan.obstacleBox(pieces.box(static_cast<int>(i)));
-    const PolygonMesh::Node& node = pieces.nodes()[i];
+    const WhitenedPolygons::Node& node = pieces.nodes()[i];
     if (node.left < 0) {
       const Eigen::Vector3i& t = mesh.tree->triangles[node.piece];
       highest_[i] = at_vertices[t[0]].max(at_vertices[t[1]]).max(at_vertices[t[2]]);

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "scene/polygon_mesh.h"
 #include "scene/whitened_fan.h"
+#include "scene/whitened_polygons.h"
 
 namespace fcl_prob::detail {
 
@@ -20,7 +20,7 @@ class NodeReach {
   using Heights = Eigen::Array<float, kFaces, 1>;
 
   /// Of the nodes of `pieces`.
-  NodeReach(const WhitenedFan& fan, const PolygonMesh& pieces);
+  NodeReach(const WhitenedFan& fan, const WhitenedPolygons& pieces);
 
   /// What no point of a box is below, along those normals.
   Heights lowestOf(const Eigen::Vector3d& middle, const Eigen::Vector3d& half) const;

@@ -83,12 +83,12 @@ SelfCollision selfOf(const RobotQuery& query, const std::shared_ptr<SelfCollisio
 /// Runs a plan without the GIL; on_progress has the states asked for so far, seconds, and whether a
 /// path is being shortened.
 template <class Plan, class Request>
-Plan planned(Request request, Question question,
-             const std::function<Plan(const Request&)>& plan) {
+Plan planned(Request request, Question question, const std::function<Plan(const Request&)>& plan) {
   Interruption interruption(std::move(question.on_progress));
   request.state = std::move(question.request);
   request.planning.on_progress = [&](const PlanningProgress& now) {
-    return interruption.goOn([&] { return py::make_tuple(now.states, now.seconds, now.shortening); });
+    return interruption.goOn(
+        [&] { return py::make_tuple(now.states, now.seconds, now.shortening); });
   };
   std::optional<Plan> result;
   {
@@ -111,9 +111,8 @@ CertifiedPlan plan(const RobotQuery& query, const py::object& start, const py::o
   const Eigen::VectorXd to = jointValues(query.robot(), goal, "goal");
   const SelfCollision self = selfOf(query, self_collision);
   return planned<CertifiedPlan, CertifiedPlanningRequest>(
-      std::move(request), given.states(threshold), [&](const CertifiedPlanningRequest& of) {
-        return planCertified(query, self, from, to, of);
-      });
+      std::move(request), given.states(threshold),
+      [&](const CertifiedPlanningRequest& of) { return planCertified(query, self, from, to, of); });
 }
 
 TimedPlan planTimed(const RobotQuery& query, const py::object& start, const py::object& goal,
@@ -183,17 +182,18 @@ PYBIND11_MODULE(_planning, module) {
   // Of which robots and queries are.
   py::module_::import("fcl_prob._robot");
   fcl_prob::python::bindPlans(module);
-  module.def("plan", &fcl_prob::python::plan, py::arg("query"), py::arg("start"), py::arg("goal"),
-             py::arg("threshold"), py::arg("self_collision") = py::none(),
-             py::arg("motion_threshold") = py::none(),
-             "A motion of the query's robot, every state of which does not touch the robot itself\n"
-             "and has a P that is certainly below the threshold (Plan).\n\n"
-             "self_collision: a SelfCollision; None: of the robot without an SRDF.\n"
-             "motion_threshold: P of the whole motion stays below it, too. keywords: joints (names\n"
-             "of those that may move), largest_step (radians, metres), seed, max_states,\n"
-             "time_limit (seconds, of the plan), shorten, descend; of a state as\n"
-             "collision_probability, max_cells being 2,000. on_progress(states, seconds,\n"
-             "shortening) returns False to stop.");
+  module.def(
+      "plan", &fcl_prob::python::plan, py::arg("query"), py::arg("start"), py::arg("goal"),
+      py::arg("threshold"), py::arg("self_collision") = py::none(),
+      py::arg("motion_threshold") = py::none(),
+      "A motion of the query's robot, every state of which does not touch the robot itself\n"
+      "and has a P that is certainly below the threshold (Plan).\n\n"
+      "self_collision: a SelfCollision; None: of the robot without an SRDF.\n"
+      "motion_threshold: P of the whole motion stays below it, too. keywords: joints (names\n"
+      "of those that may move), largest_step (radians, metres), seed, max_states,\n"
+      "time_limit (seconds, of the plan), shorten, descend; of a state as\n"
+      "collision_probability, max_cells being 2,000. on_progress(states, seconds,\n"
+      "shortening) returns False to stop.");
   module.def("plan_in_time", &fcl_prob::python::planTimed, py::arg("query"), py::arg("start"),
              py::arg("goal"), py::arg("threshold"), py::arg("self_collision") = py::none(),
              "The same among obstacles with predictions, each state at its time (TimedPlan).\n\n"

@@ -14,176 +14,12 @@
 #include "python/arrays.h"
 #include "python/displacements.h"
 #include "python/geometries.h"
-#include "python/pickled.h"
 #include "python/results.h"
 #include "python/robot_values.h"
 #include "python/running.h"
 
 namespace fcl_prob::python {
 namespace {
-
-/// What loads a file, without the GIL.
-std::shared_ptr<Robot> loadRobot(const py::object& path,
-                                 const std::map<std::string, std::string>& packages,
-                                 const std::vector<std::string>& links, const py::object& base,
-                                 bool allow_outside_limits) {
-  const std::string name = pathFrom(path);
-  const RobotOptions options{packages, links, poseFrom(base, "base"), allow_outside_limits};
-  const py::gil_scoped_release released;
-  return std::make_shared<Robot>(name, options);
-}
-
-Robot withAttached(const Robot& robot, const std::string& name, const std::string& link,
-                   const py::object& geometry, const py::object& pose,
-                   const std::vector<std::string>& touch_links) {
-  return robot.withAttached(
-      {name, link, geometryFrom(geometry, "geometry"), poseFrom(pose, "pose"), touch_links});
-}
-
-/// The files are read again.
-py::tuple robotState(const Robot& robot) {
-  const RobotOptions& options = robot.options();
-  py::list attached;
-  for (const AttachedObject& one : robot.attached()) {
-    attached.append(py::make_tuple(
-        one.name, one.link, std::const_pointer_cast<fcl::CollisionGeometryd>(one.geometry),
-        arrayOf(one.in_link.matrix()), one.touch_links));
-  }
-  return py::make_tuple(robot.urdf(), options.packages, options.links,
-                        arrayOf(options.base.matrix()), options.allow_outside_limits, attached);
-}
-
-std::shared_ptr<Robot> robotMadeAgain(const py::tuple& state) {
-  auto robot = loadRobot(state[0], state[1].cast<std::map<std::string, std::string>>(),
-                         state[2].cast<std::vector<std::string>>(), state[3],
-                         state[4].cast<bool>());
-  for (const py::handle one : state[5].cast<py::list>()) {
-    const auto of = one.cast<py::tuple>();
-    *robot = withAttached(*robot, of[0].cast<std::string>(), of[1].cast<std::string>(), of[2],
-                          of[3], of[4].cast<std::vector<std::string>>());
-  }
-  return robot;
-}
-
-/// (name, link, geometry, pose in the link) of every body.
-py::list bodiesOf(const Robot& robot) {
-  py::list bodies;
-  for (const RobotBody& body : robot.bodies()) {
-    bodies.append(py::make_tuple(body.name(), body.link,
-                                 std::const_pointer_cast<fcl::CollisionGeometryd>(body.geometry),
-                                 arrayOf(body.in_link.matrix())));
-  }
-  return bodies;
-}
-
-py::list carryingJoints(const Robot& robot, std::size_t body, const py::object& values) {
-  py::list joints;
-  for (const CarryingJoint& one :
-       robot.carryingJoints(body, jointValues(robot, values, "values"))) {
-    joints.append(py::make_tuple(robot.joints()[one.joint].name, one.factor, one.turns,
-                                 vectorArray(one.axis), vectorArray(one.point)));
-  }
-  return joints;
-}
-
-void bindRobot(py::module_& module) {
-  py::class_<Robot, std::shared_ptr<Robot>>(
-      module, "Robot",
-      "Robot(urdf, packages={}, links=[], base=None, allow_outside_limits=False): joints and\n"
-      "collision elements of a robot.\n\n"
-      "packages: the folder of each package or model that the URDF names; links: those whose\n"
-      "collision elements are taken, all if there are none; base: pose of the root link, (4, 4),\n"
-      "metres, world frame; allow_outside_limits: queries answer for states beyond the limits of\n"
-      "joints, too, which they refuse otherwise (InvalidRequest). Immutable. Raises FileError,\n"
-      "InvalidPose.")
-      .def(py::init(&loadRobot), py::arg("urdf"),
-           py::arg("packages") = std::map<std::string, std::string>(),
-           py::arg("links") = std::vector<std::string>(), py::arg("base") = py::none(),
-           py::arg("allow_outside_limits") = false)
-      .def_property_readonly("name", &Robot::name)
-      .def_property_readonly(
-          "joints",
-          [](const Robot& robot) {
-            py::list names;
-            for (const RobotJoint& joint : robot.joints()) names.append(joint.name);
-            return names;
-          },
-          "Names of the joints that move, in the order of their values.")
-      .def_property_readonly(
-          "limits",
-          [](const Robot& robot) {
-            Eigen::MatrixXd limits(robot.joints().size(), 2);
-            for (Eigen::Index i = 0; i < limits.rows(); ++i) {
-              const RobotJoint& joint = robot.joints()[i];
-              limits.row(i) << joint.lower, joint.upper;
-            }
-            return arrayOf(limits);
-          },
-          "(k, 2) float64, radians or metres.")
-      .def_property_readonly(
-          "velocities",
-          [](const Robot& robot) {
-            Eigen::VectorXd velocities(robot.joints().size());
-            for (Eigen::Index i = 0; i < velocities.size(); ++i) {
-              velocities[i] = robot.joints()[static_cast<std::size_t>(i)].velocity;
-            }
-            return vectorArray(velocities);
-          },
-          "(k,) float64, radians or metres per second; 0 where the URDF has none.")
-      .def_property_readonly(
-          "bodies", &bodiesOf,
-          "Collision elements and what is attached: tuples (name, link, geometry, pose in the\n"
-          "link, (4, 4), metres).")
-      .def("carrying_joints", &carryingJoints, py::arg("body"), py::arg("values"),
-           "What the Jacobian of bodies[body] is made of, from the root outwards: tuples (joint,\n"
-           "factor, turns, axis, point), the axis and a point on it in the world frame, metres; a\n"
-           "point x of the body moves by factor * axis × (x - point) per radian, or by factor *\n"
-           "axis per metre.")
-      .def_property_readonly(
-          "links",
-          [](const Robot& robot) {
-            py::list links;
-            for (const RobotBody& body : robot.bodies()) links.append(body.link);
-            return links;
-          },
-          "The link of each collision element.")
-      .def_property_readonly("links_without_body", &Robot::linksWithoutBody,
-                             "Links that have no collision element here: nothing touches them.")
-      .def_property_readonly("notes", &Robot::notes,
-                             "What of the URDF may be meant otherwise than it was read, and what\n"
-                             "was passed over in files of its meshes.")
-      .def(
-          "values",
-          [](const Robot& robot, const py::dict& by_name) {
-            return vectorArray(jointValues(robot, by_name, "by_name"));
-          },
-          py::arg("by_name"), "(k,) float64 from values by name; the others are 0.")
-      .def(
-          "poses",
-          [](const Robot& robot, const py::object& values) {
-            py::list poses;
-            for (const auto& pose : robot.poses(jointValues(robot, values, "values"))) {
-              poses.append(arrayOf(pose.matrix()));
-            }
-            return poses;
-          },
-          py::arg("values"), "A (4, 4) for each collision element, metres, world frame.")
-      .def(
-          "link_pose",
-          [](const Robot& robot, const std::string& link, const py::object& values) {
-            return arrayOf(robot.linkPose(link, jointValues(robot, values, "values")).matrix());
-          },
-          py::arg("link"), py::arg("values"), "(4, 4), metres, world frame.")
-      .def("with_attached", &withAttached, py::arg("name"), py::arg("link"), py::arg("geometry"),
-           py::arg("pose") = py::none(), py::arg("touch_links") = std::vector<std::string>(),
-           "The robot with an object that a link carries at `pose` in the link's frame; it may\n"
-           "touch the links named. Raises InvalidRequest, InvalidPose.")
-      .def(pickledAs<const Robot&>(&robotState, &robotMadeAgain))
-      .def("__repr__", [](const Robot& robot) {
-        return "<Robot " + robot.name() + " with " + std::to_string(robot.joints().size()) +
-               " joints and " + std::to_string(robot.bodies().size()) + " collision elements>";
-      });
-}
 
 std::string reprOf(const RobotResult& result) {
   std::ostringstream text;
@@ -303,8 +139,7 @@ std::vector<ObstacleState> predictionFrom(py::handle value, const std::string& n
       throw py::type_error(name + ": a state has a GaussianDisplacement, not " + textOf(parts[2]));
     }
     try {
-      states.push_back(
-          {poseFrom(parts[1], name + ": pose"), *gaussian, parts[0].cast<double>()});
+      states.push_back({poseFrom(parts[1], name + ": pose"), *gaussian, parts[0].cast<double>()});
     } catch (const py::cast_error&) {
       throw py::type_error(name + ": time must be a number, not " + textOf(parts[0]));
     }

@@ -21,6 +21,9 @@ Eigen::VectorXd jointValues(const Robot& robot, py::handle value, const std::str
 /// (n, k), or a list of what jointValues() takes.
 std::vector<Eigen::VectorXd> waypointsFrom(const Robot& robot, const py::object& value);
 
+/// Robot, in the module of robots.
+void bindRobot(py::module_& module);
+
 /// Self-collision, probable decisions and gradients, in the module of robots.
 void bindDecisions(py::module_& module);
 

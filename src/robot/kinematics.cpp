@@ -79,7 +79,8 @@ void Kinematics::addLinks(const std::string& link, int parent, const UrdfModel& 
     // 0 to 0 is what limits are that nobody has given.
     if (carried.joint >= 0 && joint->mimic && joint->lower < joint->upper) {
       following_.push_back({joint->name, static_cast<std::size_t>(carried.joint), carried.factor,
-                            carried.offset, joint->lower, joint->upper, joint->velocity, joint->where});
+                            carried.offset, joint->lower, joint->upper, joint->velocity,
+                            joint->where});
     }
     const int index = static_cast<int>(links_.size());
     link_index_[joint->child] = index;

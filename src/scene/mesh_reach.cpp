@@ -94,8 +94,7 @@ class ReachSearch {
 
 }  // namespace
 
-SurroundingMesh::SurroundingMesh(const MeshView& view,
-                                 const std::vector<Eigen::Vector3d>& vertices,
+SurroundingMesh::SurroundingMesh(const MeshView& view, const std::vector<Eigen::Vector3d>& vertices,
                                  const Eigen::Vector3d& moved_by)
     : view_(view), vertices_(vertices), moved_by_(moved_by), solid_(view, "mesh") {
   lengths_.reserve(view.vertex_count);
@@ -128,8 +127,7 @@ double SurroundingMesh::reachInto(const ConvexFan& fan,
   return farthest;
 }
 
-bool SurroundingMesh::surrounds(ConvexFan& fan,
-                                const std::vector<Eigen::Vector3d>& normals) const {
+bool SurroundingMesh::surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const {
   const double reach = reachInto(fan, normals);
   if (!(reach <= kMostReach) || !hasCentreWithin(fan, solid_, moved_by_)) return false;
   for (std::size_t f = 0; f < fan.depths.size(); ++f) {

@@ -26,9 +26,10 @@ class SurroundingMesh {
                   const Eigen::Vector3d& moved_by);
 
   /// Whether the mesh winds around P and hardly reaches into it: no triangle meets the inside of P
-  /// shrunk about its centre by a share of kMostReach at the most, since there is a plane between the
-  /// two. The depths are then no smaller than that share of P, so that what is told of P's inside
-  /// is told of what the mesh does not reach. \param normals  of planes to try beside those of P
+  /// shrunk about its centre by a share of kMostReach at the most, since there is a plane between
+  /// the two. The depths are then no smaller than that share of P, so that what is told of P's
+  /// inside is told of what the mesh does not reach. \param normals  of planes to try beside those
+  /// of P
   bool surrounds(ConvexFan& fan, const std::vector<Eigen::Vector3d>& normals) const;
 
  private:

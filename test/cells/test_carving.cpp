@@ -125,8 +125,8 @@ TEST_CASE("the planes of P ⊕ T hold it, and what is within their margins", "[c
       const auto& tree = body_is_a ? scene_meshes.tree_a : scene_meshes.tree_b;
       REQUIRE(tree->parts[0].fan);
       const Eigen::Matrix3d linear = scene_meshes.whitening.matrix();
-      const PolygonMesh pieces(body_is_a ? scene_meshes.pair.b : scene_meshes.pair.a,
-                               scene_meshes.objectOf(!body_is_a), linear);
+      const WhitenedPolygons pieces(body_is_a ? scene_meshes.pair.b : scene_meshes.pair.a,
+                                    scene_meshes.objectOf(!body_is_a), linear);
       FatObstacles obstacles(scene_meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
                              linear, pieces);
       REQUIRE(obstacles.usable());

@@ -40,8 +40,8 @@ TEST_CASE("boxes clear of nodes hold nothing of them", "[whole]") {
     const WhitenedMeshes meshes(body_is_a ? body : other, body_is_a ? other : body);
     const auto& tree = body_is_a ? meshes.tree_a : meshes.tree_b;
     const Eigen::Matrix3d& matrix = meshes.whitening.matrix();
-    const PolygonMesh pieces(body_is_a ? meshes.pair.b : meshes.pair.a, meshes.objectOf(!body_is_a),
-                             matrix);
+    const WhitenedPolygons pieces(body_is_a ? meshes.pair.b : meshes.pair.a,
+                                  meshes.objectOf(!body_is_a), matrix);
     const FatObstacles obstacles(meshes.pair, tree->parts[0], *tree->parts[0].fan, body_is_a,
                                  matrix, pieces);
     const NodeReach reach(obstacles, pieces);

@@ -13,7 +13,7 @@ namespace fcl_prob::detail {
 
 /// Pieces are the triangles of a mesh, by their indices, and behind them the polygons of all its
 /// parts. A polygon is the hull of its corners, put into a plane across its normal.
-class PolygonMesh {
+class WhitenedPolygons {
  public:
   using Node = MeshPolygons::Node;
 
@@ -25,8 +25,8 @@ class PolygonMesh {
   /// \param most_loss  polygons that move planes by more are not used
   ///
   /// Keeps a reference to the mesh.
-  PolygonMesh(const WhitenedTree& mesh, const PartitionObject& object,
-              const Eigen::Matrix3d& matrix, double most_loss = kMostLoss);
+  WhitenedPolygons(const WhitenedTree& mesh, const PartitionObject& object,
+                   const Eigen::Matrix3d& matrix, double most_loss = kMostLoss);
 
   int triangleCount() const { return static_cast<int>(mesh_.tree->triangles.size()); }
   int pieceCount() const { return triangleCount() + static_cast<int>(places_.size()); }

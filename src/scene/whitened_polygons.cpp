@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "scene/polygon_mesh.h"
+#include "scene/whitened_polygons.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace fcl_prob::detail {
 
-PolygonMesh::PolygonMesh(const WhitenedTree& mesh, const PartitionObject& object,
-                         const Eigen::Matrix3d& matrix, double most_loss)
+WhitenedPolygons::WhitenedPolygons(const WhitenedTree& mesh, const PartitionObject& object,
+                                   const Eigen::Matrix3d& matrix, double most_loss)
     : mesh_(mesh), most_loss_(most_loss) {
   nodes_.reserve(mesh.tree->nodes.size());
   boxes_.reserve(mesh.tree->nodes.size());
@@ -22,8 +22,8 @@ PolygonMesh::PolygonMesh(const WhitenedTree& mesh, const PartitionObject& object
   countMemory();
 }
 
-void PolygonMesh::addPart(const PieceTree::Part& part, const PlacedPart& placed,
-                          const Eigen::Matrix3d& matrix) {
+void WhitenedPolygons::addPart(const PieceTree::Part& part, const PlacedPart& placed,
+                               const Eigen::Matrix3d& matrix) {
   const MeshPolygons* const polygons = mesh_.tree->polygonsOf(part);
   const auto root = static_cast<int>(nodes_.size());
   const auto of_part = part.triangles.end - part.triangles.begin;
@@ -48,7 +48,7 @@ void PolygonMesh::addPart(const PieceTree::Part& part, const PlacedPart& placed,
 }
 
 // Of the last part.
-void PolygonMesh::addPlaces(const MeshPolygons& polygons) {
+void WhitenedPolygons::addPlaces(const MeshPolygons& polygons) {
   const PlacedPolygons& part = parts_.back();
   const Eigen::Matrix3d unturned = part.linear.inverse().transpose();
   for (const FlatPolygon& polygon : polygons.polygons) {
@@ -59,8 +59,8 @@ void PolygonMesh::addPlaces(const MeshPolygons& polygons) {
 
 // By how much its corners leave a plane across n, and what its triangles may be off their hull
 // besides, here.
-double PolygonMesh::offOf(const FlatPolygon& polygon, const PlacedPolygons& part,
-                          const Eigen::Vector3d& n) const {
+double WhitenedPolygons::offOf(const FlatPolygon& polygon, const PlacedPolygons& part,
+                               const Eigen::Vector3d& n) const {
   const Eigen::Vector3d& from = mesh_.vertices[part.first_vertex + polygon.corners[0]];
   double lowest = 0.0;
   double highest = 0.0;
@@ -76,14 +76,14 @@ double PolygonMesh::offOf(const FlatPolygon& polygon, const PlacedPolygons& part
 }
 
 // Parts of the same geometry share theirs.
-void PolygonMesh::countMemory() {
+void WhitenedPolygons::countMemory() {
   std::set<const MeshPolygons*> counted{nullptr};
   for (const PlacedPolygons& part : parts_) {
     if (counted.insert(part.polygons).second) memory_of_polygons_ += part.polygons->memory();
   }
 }
 
-int PolygonMesh::copyNodes(int node) {
+int WhitenedPolygons::copyNodes(int node) {
   const PieceTree::Node& from = mesh_.tree->nodes[node];
   const auto index = static_cast<int>(nodes_.size());
   nodes_.push_back({-1, -1, from.piece});
@@ -96,7 +96,7 @@ int PolygonMesh::copyNodes(int node) {
   return index;
 }
 
-void PolygonMesh::fitBoxes(int root) {
+void WhitenedPolygons::fitBoxes(int root) {
   boxes_.resize(nodes_.size());
   for (auto i = static_cast<int>(nodes_.size()); i-- > root;) {
     const Node& node = nodes_[i];
@@ -111,7 +111,7 @@ void PolygonMesh::fitBoxes(int root) {
   }
 }
 
-PolygonMesh::Held PolygonMesh::held() const {
+WhitenedPolygons::Held WhitenedPolygons::held() const {
   Held held{places_.size(), 0};
   for (const Place& place : places_) held.triangles += place.polygon->triangles.size();
   return held;
