@@ -27,19 +27,20 @@ double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
 }  // namespace
 
 double upperTogether(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
-                     const std::vector<double>& reaches, const PreparedObstacle& obstacle,
+                     const LinearErrors* errors, const PreparedObstacle& obstacle,
                      const fcl::Transform3d& pose, const GaussianDisplacement& of_bodies,
                      double enough) {
-  CommonHalfSpaces common(of_bodies);
+  CommonHalfSpaces common =
+      errors ? CommonHalfSpaces(of_bodies, *errors) : CommonHalfSpaces(of_bodies);
   const std::vector<fcl::Transform3d> poses = obstacle.poses(pose);
   for (const PlacedBody& placed : bodies) {
     const PreparedGeometry& body = *robot.geometries[placed.body];
-    const double reach = reaches.empty() ? 0.0 : reaches[placed.body];
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const PreparedGeometry& other = *obstacle.geometries()[i];
       if (whyNeverInContact(body.geometry(), other.geometry())) continue;
       if (!body.hasRootBody() || !other.hasRootBody()) return 1.0;
-      common.add(robot.hulls.of(placed.body), placed.pose, obstacle.hulls().of(i), poses[i], reach);
+      common.add(robot.hulls.of(placed.body), placed.pose, obstacle.hulls().of(i), poses[i],
+                 placed.body);
     }
   }
   return common.upper(enough);
@@ -83,7 +84,7 @@ double BodyBounds::together(double enough) const {
     }
   }
   const double of_near =
-      upperTogether(robot_, near, {}, obstacle_, pose_, of_bodies_, enough - apart);
+      upperTogether(robot_, near, nullptr, obstacle_, pose_, of_bodies_, enough - apart);
   return std::min(sum(), sumAbove(of_near, apart));
 }
 

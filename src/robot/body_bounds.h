@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
+#include "robot/linear_errors.h"
 #include "robot/placed_body.h"
 #include "robot/prepared_obstacle.h"
 #include "robot/prepared_robot.h"
@@ -13,10 +14,10 @@
 namespace fcl_prob::detail {
 
 /// Certainly not below P that any of the bodies touches the obstacle: by half-spaces that they have
-/// in common. Stops when that is below `enough`, or when it is out of reach. \param reaches  by so
-/// much bodies may be off their poses, metres, by body of the robot; empty: none
+/// in common. Stops when that is below `enough`, or when it is out of reach.
+/// \param errors  of the robot, within which it touches; null: it is exact
 double upperTogether(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
-                     const std::vector<double>& reaches, const PreparedObstacle& obstacle,
+                     const LinearErrors* errors, const PreparedObstacle& obstacle,
                      const fcl::Transform3d& pose, const GaussianDisplacement& of_bodies,
                      double enough);
 

@@ -8,6 +8,7 @@
 
 #include "convex/pair_frame.h"
 #include "fcl_prob/gaussian_displacement.h"
+#include "robot/linear_errors.h"
 #include "robot/node_hulls.h"
 
 namespace fcl_prob::detail {
@@ -23,13 +24,18 @@ class CommonHalfSpaces {
   explicit CommonHalfSpaces(GaussianDisplacement displacement)
       : displacement_(std::move(displacement)) {}
 
-  /// The hulls must outlive this. \param pose_a, pose_b  valid ones
-  /// \param reach  a may be that far from where it is, metres. \throws InvalidGeometry
-  void add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
-           const fcl::Transform3d& pose_b, double reach = 0.0);
+  /// \param errors  of the robot that the bodies a are of; must outlive this
+  CommonHalfSpaces(GaussianDisplacement displacement, const LinearErrors& errors)
+      : displacement_(std::move(displacement)), errors_(&errors) {}
 
-  /// Certainly not below P that any of the pairs added meets. Stops when it is below `enough`, or
-  /// when that is out of reach.
+  /// The hulls must outlive this. \param pose_a, pose_b  valid ones
+  /// \param body  of the robot, that a is. \throws InvalidGeometry
+  void add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
+           const fcl::Transform3d& pose_b, std::size_t body);
+
+  /// Certainly not below P that any of the pairs added meets; with errors of the robot, that this
+  /// happens while they are within LinearErrors::within(). Stops when it is below `enough`, or when
+  /// that is out of reach.
   double upper(double enough);
 
  private:
@@ -38,6 +44,14 @@ class CommonHalfSpaces {
     const NodeHulls& a;
     const NodeHulls& b;
     PairFrame frame;
+    fcl::Transform3d pose_a;
+    std::size_t body;
+  };
+
+  /// y and the errors z of the robot together: towards·y + along·z.
+  struct Direction {
+    Eigen::Vector3d towards = Eigen::Vector3d::Zero();  ///< unit, whitened frame
+    Eigen::VectorXd along;                              ///< empty without errors
   };
 
   /// A node of each.
@@ -45,21 +59,29 @@ class CommonHalfSpaces {
     std::size_t of;  ///< in bodies_
     int a;
     int b;
-    Eigen::Vector3d towards = Eigen::Vector3d::Zero();  ///< as GJK proposes
+    Direction direction;                                ///< as GJK proposes
     double own = 1.0;                                   ///< the mass of the half-space there
     std::vector<double> distances;  ///< by half-space: to where it would have to begin
     double cost = 1.0;              ///< the least mass that has to be added to hold it
     int cheapest = -1;              ///< the half-space that would be enlarged; -1: one of its own
   };
 
-  /// { towards·y >= distance } in the whitened frame.
+  /// { towards·y + along·z >= distance }, in deviations of that.
   struct HalfSpace {
-    Eigen::Vector3d towards;
+    Direction direction;
     double distance;
     double mass;
   };
 
-  double distanceAlong(const Pair& pair, const Eigen::Vector3d& towards) const;
+  double distanceAlong(const Pair& pair, const Direction& direction) const;
+  struct Foremost {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< metres, world frame
+    Eigen::VectorXd errors;
+  };
+  Foremost foremost(const Pair& pair, const Eigen::Vector3d& towards) const;
+  Eigen::Vector3d farthestOf(const Pair& pair, const Eigen::Vector3d& m) const;
+  double turnedBeyond(const Pair& pair, const Eigen::Vector3d& towards,
+                      const Eigen::Vector3d& point) const;
   void open(Pair pair, double most);
   void appraise(Pair& pair) const;
   bool isLeaf(const Pair& pair) const;
@@ -68,6 +90,7 @@ class CommonHalfSpaces {
   double held() const;
 
   GaussianDisplacement displacement_;
+  const LinearErrors* errors_ = nullptr;  ///< null: the robot is exact
   bool can_tell_ = true;  ///< all frames have rank 3, and numbers that stay finite
   std::deque<Bodies> bodies_;
   std::vector<Pair> pairs_;  ///< not held yet

@@ -22,12 +22,14 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// Deviations within which all errors are: the more, the less is beyond and the wider the bands.
-/// The narrowest answer counts, whichever gives it.
+/// Deviations within which all errors are, for bands: the more, the less is beyond and the wider
+/// the bands. The narrowest answer counts, whichever gives it.
 constexpr double kDeviations[] = {3.5, 5.0, 2.5};
 
-/// Without a threshold: half-spaces that tell that P is below this need not tell more.
-constexpr double kHardlyLikely = 0.01;
+/// Of a threshold, or of a probability that is small: what errors of the robot that half-spaces know
+/// nothing of may have. Less of it is a larger error of what they do know.
+constexpr double kShareBeyond = 0.01;
+constexpr double kSmall = 0.01;
 
 /// A band of so many of the obstacle's largest deviations is not asked for: it leaves nearly all
 /// open, and its cells take seconds each.
@@ -94,10 +96,9 @@ class IntervalWithErrors {
   }
 
   /// Of P that any body touches an obstacle, while no point is farther off than that.
-  /// \param enough   an upper bound below it ends the search
   /// \param largest  the widest band of all that was asked for
   Bounds ofObstacle(std::size_t index, const std::vector<double>& reaches,
-                    const ProbabilityRequest& request, double enough, double& largest,
+                    const ProbabilityRequest& request, double& largest,
                     ProbabilityStatistics& spent) const {
     const Obstacle& obstacle = among_.obstacles()[index];
     const PreparedObstacle& prepared = among_.preparedObstacle(index);
@@ -117,21 +118,14 @@ class IntervalWithErrors {
     }
     largest = std::max(largest, width);
     const auto& displacement = std::get<GaussianDisplacement>(state.displacement);
-    // Each body as far off as it may be itself, where bands are as wide as the widest needs.
-    const GaussianDisplacement of_bodies = displacement.reversed();
-    const double of_near = upperTogether(*among_.prepared(), bodies, reaches, prepared, state.pose,
-                                         of_bodies, enough - far);
-    const double upper = std::min(1.0, sumAbove(of_near, far));
-    if (upper < enough || width > kWidest * displacement.standardDeviations().maxCoeff()) {
-      return {0.0, upper};
-    }
+    if (width > kWidest * displacement.standardDeviations().maxCoeff()) return {0.0, 1.0};
     ProbabilityRequest banded = request;
     banded.band_a = Band::within(width);
     const GroupsQuery query(std::move(geometries), prepared.geometries());
     const ProbabilityResult result =
-        query.answer(poses, prepared.poses(state.pose), of_bodies, banded);
+        query.answer(poses, prepared.poses(state.pose), displacement.reversed(), banded);
     addStatistics(result.statistics, spent);
-    return {result.lower.value_or(0.0), std::min(upper, sumAbove(result.upper.value_or(1.0), far))};
+    return {result.lower.value_or(0.0), std::min(1.0, sumAbove(result.upper.value_or(1.0), far))};
   }
 
  private:
@@ -144,6 +138,30 @@ class IntervalWithErrors {
 
 }  // namespace
 
+double upperWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
+                       const Eigen::MatrixXd& covariance, const std::optional<PoseError>& base,
+                       double enough) {
+  const double chance = kShareBeyond * std::min(enough, kSmall);
+  const LinearErrors errors(among.robot(), among.balls(), values, covariance, base, chance);
+  const std::vector<fcl::Transform3d> poses = among.robot().poses(values);
+  std::vector<Ball> balls = among.balls();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    balls[i].radius += errors.farthest(i, balls[i].radius);
+  }
+  double upper = errors.chance();
+  for (std::size_t j = 0; j < among.obstacles().size() && upper < enough; ++j) {
+    const PreparedObstacle& prepared = among.preparedObstacle(j);
+    const ObstacleState state = stateAt(among.obstacles()[j], 0);
+    std::vector<PlacedBody> bodies = among.placed(j, poses);
+    upper = sumAbove(upper, leaveOutFar(balls, prepared.around(), state, chance, bodies));
+    if (bodies.empty()) continue;
+    const auto& displacement = std::get<GaussianDisplacement>(state.displacement);
+    upper = sumAbove(upper, upperTogether(*among.prepared(), bodies, &errors, prepared, state.pose,
+                                          displacement.reversed(), enough - upper));
+  }
+  return std::min(1.0, upper);
+}
+
 ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
                                      const Eigen::VectorXd& values,
                                      const Eigen::MatrixXd& covariance,
@@ -151,17 +169,23 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
                                      const ProbabilityRequest& request) {
   Budget budget(request);
   Known known(request);
-  const IntervalWithErrors parts(among, values, base);
+  const double enough = request.threshold.value_or(kSmall);
+  const double upper = upperWithErrors(among, values, covariance, base, enough);
+  known.narrow({0.0, upper});
   ProbabilityResult result;
+  result.plan.push_back("half-spaces for bodies and errors of the robot together: P is at most " +
+                        numberText(upper));
+  result.status = known.satisfied().value_or(ProbabilityStatus::resolution_limit);
+  const IntervalWithErrors parts(among, values, base);
   bool cancelled = false;
   const auto tell = [&](ProbabilityProgress progress) {
     progress.interval = known.interval();
     cancelled = cancelled || !request.on_progress(progress);
     return !cancelled;
   };
-  const auto obstacles = static_cast<double>(among.obstacles().size());
   std::size_t left = std::size(kDeviations) * among.obstacles().size();
   for (const double deviations : kDeviations) {
+    if (result.status != ProbabilityStatus::resolution_limit) break;
     const Within errors = within(deviations, covariance, base);
     const std::vector<double> reaches = parts.reaches(errors);
     std::vector<Bounds> events;
@@ -172,9 +196,7 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
       if (request.on_progress) part.on_progress = tell;
       budget.share(left, part);
       ProbabilityStatistics spent;
-      const double enough =
-          request.threshold ? (*request.threshold - errors.chance) / obstacles : kHardlyLikely;
-      events.push_back(parts.ofObstacle(i, reaches, part, enough, width, spent));
+      events.push_back(parts.ofObstacle(i, reaches, part, width, spent));
       budget.spend(spent);
       addStatistics(spent, result.statistics);
     }
@@ -189,7 +211,6 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
                              ? ProbabilityStatus::cancelled
                              : budget.exhausted().value_or(ProbabilityStatus::resolution_limit);
     result.status = known.satisfied().value_or(stopped);
-    if (result.status != ProbabilityStatus::resolution_limit) break;
   }
   known.tell(result);
   return result;

@@ -39,13 +39,14 @@ bool isAboutConvex(const MeshView& mesh, const ConvexBody& whole) {
   return enclosedVolume(triangleMesh(mesh)) > kConvexShare * of_hull;
 }
 
-double radiusOf(const ConvexBody& body) {
+/// Around a box around it.
+Ball ballOf(const ConvexBody& body) {
   Eigen::AlignedBox3d box;
   for (int k = 0; k < 3; ++k) {
     box.extend(body.supportPoint(Eigen::Vector3d::Unit(k)));
     box.extend(body.supportPoint(-Eigen::Vector3d::Unit(k)));
   }
-  return 0.5 * box.sizes().norm();
+  return {box.center(), 0.5 * box.sizes().norm()};
 }
 
 void measure(NodeHulls& tree) {
@@ -81,7 +82,7 @@ class HullsOfModel {
  private:
   int add(int node) {
     const ConvexBody hull = hullOf(node);
-    tree_.nodes.push_back({hull, radiusOf(hull)});
+    tree_.nodes.push_back({hull, ballOf(hull)});
     return static_cast<int>(tree_.nodes.size()) - 1;
   }
 
@@ -117,7 +118,7 @@ class HullsOfModel {
 
 NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody& whole) {
   NodeHulls tree;
-  tree.nodes.push_back({whole, radiusOf(whole)});
+  tree.nodes.push_back({whole, ballOf(whole)});
   if (kindOf(geometry) == GeometryKind::mesh && !isAboutConvex(meshView(geometry), whole)) {
     visitMesh(geometry, [&tree](const auto& model) {
       HullsOfModel hulls(model, tree);

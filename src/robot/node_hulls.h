@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "query/prepared_geometry.h"
+#include "robot/body_balls.h"
 
 namespace fcl_prob::detail {
 
@@ -18,7 +19,7 @@ namespace fcl_prob::detail {
 struct NodeHulls {
   struct Node {
     ConvexBody hull;
-    double radius;   ///< metres: half the diagonal of a box around it
+    Ball ball;       ///< around it
     int left = -1;   ///< index of the first child, greater than the node's own; -1 at a leaf
     int right = -1;  ///< index of the second child
     bool isLeaf() const { return left < 0; }

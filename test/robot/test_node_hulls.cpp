@@ -50,7 +50,7 @@ TEST_CASE("every triangle of a mesh is within the hull of a leaf, every leaf wit
     REQUIRE(held >= 1);
   }
   for (const NodeHulls::Node& node : hulls.nodes) {
-    CHECK(node.radius > 0.0);
+    CHECK(node.ball.radius > 0.0);
     CHECK(node.hull.set().size() <= hulls.size);
     CHECK(node.hull.set().slack() <= hulls.slack);
     if (node.isLeaf()) continue;
@@ -68,7 +68,7 @@ TEST_CASE("what is no mesh, few triangles or about convex has one hull") {
   CHECK(nodeHullsOf(*makeModel<fcl::OBBd>(ball), ConvexBody(ball.vertices)).nodes.size() == 1);
   const fcl::Boxd box(1.0, 2.0, 3.0);
   CHECK(nodeHullsOf(box, ConvexBody(box)).nodes.size() == 1);
-  CHECK(nodeHullsOf(box, ConvexBody(box)).nodes[0].radius == Approx(0.5 * std::sqrt(14.0)));
+  CHECK(nodeHullsOf(box, ConvexBody(box)).nodes[0].ball.radius == Approx(0.5 * std::sqrt(14.0)));
   const auto mesh = boxMesh({1.0, 2.0, 3.0});
   CHECK(nodeHullsOf(*makeModel<fcl::AABBd>(mesh), ConvexBody(mesh.vertices)).nodes.size() == 1);
 }

@@ -3,6 +3,7 @@
 // Errors of joints and base beside the obstacles' displacements, against counting.
 #include "arm_motions.h"
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/normal_mass.h"
 #include "fcl_prob/robot_scene.h"
 #include "random_bodies.h"
 #include "temporary_folder.h"
@@ -109,6 +110,43 @@ TEST_CASE("certified intervals over errors of a robot hold what counting finds")
     narrow += result.any.width() < 0.3;
   }
   CHECK(narrow > 15);
+}
+
+// Beside a wall the errors of a joint that slides and of the wall add up: P in closed form.
+TEST_CASE("half-spaces know errors of the robot as they are") {
+  const fcl_prob_test::TemporaryFolder folder;
+  const Robot slide(folder.write("slide.urdf", R"(<robot name="slide"><link name="base"/>
+    <joint name="x" type="prismatic"><parent link="base"/><child link="box"/><axis xyz="1 0 0"/>
+      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint>
+    <link name="box"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+    </robot>)"));
+  Obstacle wall;
+  wall.name = "wall";
+  wall.geometry = std::make_shared<fcl::Boxd>(2.0, 20.0, 20.0);
+  wall.pose.translation().x() = 1.0;
+  wall.displacement = GaussianDisplacement::fromStandardDeviations({0.04, 0.04, 0.04});
+  const RobotQuery query(slide, {wall});
+  RobotErrors errors;
+  errors.joints = jointCovariance(slide, {{"x", 0.03}});
+  ProbabilityRequest request;
+  request.method = ProbabilityMethod::interval;
+  for (const double deviations : {1.0, 2.0, 3.0}) {
+    const Eigen::VectorXd values = Eigen::VectorXd::Constant(1, -0.1 - 0.05 * deviations);
+    const double truth = normalTailMass(deviations);
+    request.threshold = 1.2 * truth;
+    const RobotResult result = query.state(values, errors, request);
+    CHECK(result.decision == Decision::below);
+    CHECK(result.any.upper >= truth);
+    CHECK(result.any.upper <= 1.02 * truth);
+  }
+  // Of two bodies behind one wall the errors count once, of two walls twice.
+  errors.base = PoseError::fromStandardDeviations({0.12, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  request.threshold = 0.03;
+  const double both = std::hypot(0.05, 0.12);
+  const Eigen::VectorXd values = Eigen::VectorXd::Constant(1, -0.1 - 2.0 * both);
+  const double upper = query.state(values, errors, request).any.upper;
+  CHECK(upper >= normalTailMass(2.0));
+  CHECK(upper <= 1.02 * normalTailMass(2.0));
 }
 
 TEST_CASE("turns of the base move what is far from it") {
