@@ -24,6 +24,10 @@ struct CertifiedPlanningRequest {
   /// another path is looked for.
   bool descend = true;
 
+  /// Of joints and base, drawn anew in every state. P is then certain by half-spaces alone
+  /// (RobotQuery::decideStates()); `largest` begins at 0.
+  RobotErrors errors;
+
   PlanningRequest planning;
 };
 
@@ -41,7 +45,8 @@ struct CertifiedPlan {
   /// interpolated(path.waypoints, largest_step), certified.
   Bounds largest{0.0, 1.0};   ///< contains the largest P of a state
   std::size_t likeliest = 0;  ///< the state that it is of, by its upper bound
-  Bounds motion{0.0, 1.0};    ///< P that any of them touches, errors being the same all along
+  Bounds motion{0.0, 1.0};    ///< P that any of them touches, errors being the same all along; with
+                              ///< errors of the robot nothing is told of it
 };
 
 struct LargestProbability {
@@ -58,7 +63,8 @@ LargestProbability largestProbability(const RobotQuery& query,
 /// Plans as planMotion() does: no state that was asked for touches the robot itself, and P of each
 /// is certainly below the threshold. What is between the states is not looked at.
 /// \param self  of a robot with the same joints, of which it may know more links
-/// \throws InvalidRequest without a threshold, and as RobotQuery::state() and planMotion()
+/// \throws InvalidRequest without a threshold, with one for the motion and errors of the robot, and
+///         as RobotQuery::state() and planMotion()
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,
                             const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                             const CertifiedPlanningRequest& request);

@@ -234,6 +234,13 @@ class RobotQuery {
       const Eigen::MatrixXd& states, const ProbabilityRequest& request,
       std::optional<double> chance_of_error = std::nullopt) const;
 
+  /// The same where the robot is known up to errors of its joints and base only. What is told as
+  /// below is so by half-spaces in the space of displacements and errors together, in a millisecond
+  /// a state. \throws as state() with errors
+  std::vector<ProbableDecision> decideStates(
+      const Eigen::MatrixXd& states, const RobotErrors& errors, const ProbabilityRequest& request,
+      std::optional<double> chance_of_error = std::nullopt) const;
+
   /// P at any of the waypoints, with persistent errors, and how it changes with the joint values at
   /// each: estimates. Bodies that are likelier than 1e-12 to touch an obstacle take part.
   /// \throws InvalidRequest for a truncated displacement, as GroupQuery::motionGradient() for the

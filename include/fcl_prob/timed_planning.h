@@ -24,6 +24,10 @@ struct TimedPlanningRequest {
   /// How a state is decided; needs a threshold. As CertifiedPlanningRequest::state.
   ProbabilityRequest state;
 
+  /// Of joints and base, drawn anew in every state. P is then certain by half-spaces alone
+  /// (RobotQuery::decideStates()); `largest` begins at 0.
+  RobotErrors errors;
+
   PlanningRequest planning;
 
   /// Seconds: of an edge states are asked for that are no further apart in time than this, nor in

@@ -104,6 +104,7 @@ PlanReport answer(const RobotScene& scene, const PlanArguments& arguments, const
   const Eigen::VectorXd goal = robot.values(scene.plan->goal);
   if (isPredicted(scene) || scene.plan->latest) {
     TimedPlanningRequest request = timedRequestOf(scene, arguments);
+    request.errors = errorsOf(scene, robot);
     request.planning.on_progress = on_progress;
     const TimedPlan plan = planInTime(query, self, start, goal, request);
     PlanReport report{plan.status == PlanningStatus::solved,
@@ -113,6 +114,7 @@ PlanReport answer(const RobotScene& scene, const PlanArguments& arguments, const
     return report;
   }
   CertifiedPlanningRequest request = requestOf(scene, arguments);
+  request.errors = errorsOf(scene, robot);
   request.planning.on_progress = on_progress;
   const CertifiedPlan plan = planCertified(query, self, start, goal, request);
   return {plan.path.status == PlanningStatus::solved, planText(plan, robot), planJson(plan, robot),

@@ -12,8 +12,8 @@
 #include "fcl_prob/exceptions.h"
 #include "planning/motion_descent.h"
 #include "planning/moving_joints.h"
+#include "planning/state_decision.h"
 #include "robot/moving_obstacle.h"
-#include "robot/state_screen.h"
 
 namespace fcl_prob {
 namespace {
@@ -29,27 +29,24 @@ ProbabilityRequest intervalOf(ProbabilityRequest request) {
   return request;
 }
 
-LargestProbability largestScreened(const RobotQuery& query, const detail::StateScreen& screen,
-                                   const std::vector<Eigen::VectorXd>& states,
-                                   const std::function<ProbabilityRequest()>& request) {
-  LargestProbability largest;
+LargestProbability largestOf(const detail::StateDecision& decision,
+                             const std::vector<Eigen::VectorXd>& states,
+                             const std::function<ProbabilityRequest()>& request) {
+  detail::LargestOfStates largest;
+  std::size_t likeliest = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
     // What is below the P of another state is not the largest.
-    if (screen.isBelow(states[i], largest.probability.lower)) continue;
-    const Bounds any = query.state(states[i], intervalOf(request())).any;
-    largest.probability.lower = std::max(largest.probability.lower, any.lower);
-    if (any.upper <= largest.probability.upper) continue;
-    largest.probability.upper = any.upper;
-    largest.state = i;
+    const double least = largest.probability.lower;
+    if (largest.add(decision.above(states[i], least, request()))) likeliest = i;
   }
-  return largest;
+  return {largest.probability, likeliest};
 }
 
 class CertifiedPlanner {
  public:
   CertifiedPlanner(const RobotQuery& query, const SelfCollision& self,
                    const CertifiedPlanningRequest& request)
-      : query_(query), self_(self), screen_(query.among()), request_(request) {
+      : query_(query), self_(self), request_(request), decision_(query, request_.errors) {
     request_.state = detail::ofOneCall(request_.state);
     request_.planning = detail::ofOneCall(request_.planning);
     if (!request.state.threshold) throw InvalidRequest("a certified plan needs a threshold");
@@ -57,6 +54,10 @@ class CertifiedPlanner {
     if (most && !(*most > 0.0 && *most <= 1.0)) {
       throw InvalidRequest("the threshold of a motion must be in (0, 1], is " +
                            detail::numberText(*most));
+    }
+    if (most && !request.errors.none()) {
+      throw InvalidRequest(
+          "errors of the robot leave no P of the whole motion: it has no threshold");
     }
     validateRequest(request.state);
     detail::refuseBand(request.state, "robots");
@@ -96,8 +97,7 @@ class CertifiedPlanner {
     return [this, &state, states](const Eigen::VectorXd& values) mutable {
       ++states;
       if (self_.collides(values)) return false;
-      if (const auto told = screen_.tell(values, *state.threshold)) return *told;
-      return query_.state(values, withinLimits(state, states, false)).decision == Decision::below;
+      return decision_.isBelow(values, withinLimits(state, states, false));
     };
   }
 
@@ -137,6 +137,7 @@ class CertifiedPlanner {
 
   /// Whether the whole motion is below its threshold, if there is one.
   bool certifyMotion(CertifiedPlan& plan) const {
+    if (!request_.errors.none()) return true;
     const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
     ProbabilityRequest motion = intervalOf(withinLimits(request_.state, plan.path.states));
     motion.max_cells *= kCellsOfMotion;
@@ -179,8 +180,8 @@ class CertifiedPlanner {
 
   void certifyStates(CertifiedPlan& plan) const {
     const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
-    const LargestProbability largest = largestScreened(
-        query_, screen_, states, [&] { return withinLimits(request_.state, plan.path.states); });
+    const LargestProbability largest = largestOf(
+        decision_, states, [&] { return withinLimits(request_.state, plan.path.states); });
     plan.largest = largest.probability;
     plan.likeliest = largest.state;
     // By the decisions, which may have been closer to the threshold than the tolerance.
@@ -193,8 +194,8 @@ class CertifiedPlanner {
 
   const RobotQuery& query_;
   const SelfCollision& self_;
-  detail::StateScreen screen_;
   CertifiedPlanningRequest request_;
+  detail::StateDecision decision_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -204,8 +205,7 @@ LargestProbability largestProbability(const RobotQuery& query,
                                       const std::vector<Eigen::VectorXd>& states,
                                       const ProbabilityRequest& request) {
   const ProbabilityRequest of_call = detail::ofOneCall(request);
-  return largestScreened(query, detail::StateScreen(query.among()), states,
-                         [&] { return of_call; });
+  return largestOf(detail::StateDecision(query, {}), states, [&] { return of_call; });
 }
 
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,

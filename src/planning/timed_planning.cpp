@@ -14,9 +14,9 @@
 #include "planning/joint_space.h"
 #include "planning/moving_joints.h"
 #include "planning/shorten_path.h"
+#include "planning/state_decision.h"
 #include "planning/timed_trees.h"
 #include "robot/moving_obstacle.h"
-#include "robot/state_screen.h"
 
 namespace fcl_prob {
 namespace {
@@ -118,9 +118,7 @@ class TimedPlanner {
     const Eigen::VectorXd values = detail::TimedStates::valuesOf(state);
     if (self_.collides(values)) return false;
     const RobotQuery then = query_.at(states_.timeOf(state));
-    const detail::StateScreen screen(then.among());
-    if (const auto told = screen.tell(values, *request_.state.threshold)) return *told;
-    return then.state(values, withinLimits()).decision == Decision::below;
+    return detail::StateDecision(then, request_.errors).isBelow(values, withinLimits());
   }
 
   /// A state gives what it has where the plan's time ends. A limit must be > 0.
@@ -185,19 +183,17 @@ class TimedPlanner {
       }
     }
     plan.arrival = plan.waypoints.back().time - request_.hold;
-    plan.largest = {0.0, 0.0};
+    detail::LargestOfStates largest;
     for (const Eigen::VectorXd& state : interpolated(path_, request_.planning.largest_step)) {
       const Eigen::VectorXd values = detail::TimedStates::valuesOf(state);
       const RobotQuery then = query_.at(states_.timeOf(state));
-      if (detail::StateScreen(then.among()).isBelow(values, plan.largest.lower)) continue;
-      ProbabilityRequest request = withinLimits();
-      request.threshold.reset();
-      const Bounds any = then.state(values, request).any;
-      plan.largest.lower = std::max(plan.largest.lower, any.lower);
-      if (any.upper <= plan.largest.upper) continue;
-      plan.largest.upper = any.upper;
-      plan.likeliest_time = states_.timeOf(state);
+      const detail::StateDecision decision(then, request_.errors);
+      const double least = largest.probability.lower;
+      if (largest.add(decision.above(values, least, withinLimits()))) {
+        plan.likeliest_time = states_.timeOf(state);
+      }
     }
+    plan.largest = largest.probability;
     // By the decisions, which may have been closer to the threshold than the tolerance.
     plan.largest.upper = std::min(plan.largest.upper, *request_.state.threshold);
   }

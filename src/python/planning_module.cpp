@@ -99,6 +99,14 @@ Plan planned(Request request, Question question, const std::function<Plan(const 
   return std::move(*result);
 }
 
+/// Takes these keywords, too.
+RobotErrors errorsOf(const RobotQuery& query, PlanKeywords& given) {
+  py::object joint_error = py::none(), base_error = py::none();
+  given.take("joint_error", joint_error);
+  given.take("base_error", base_error);
+  return robotErrorsFrom(query.robot(), joint_error, base_error);
+}
+
 CertifiedPlan plan(const RobotQuery& query, const py::object& start, const py::object& goal,
                    double threshold, const std::shared_ptr<SelfCollision>& self_collision,
                    const std::optional<double>& motion_threshold, const py::kwargs& keywords) {
@@ -106,6 +114,7 @@ CertifiedPlan plan(const RobotQuery& query, const py::object& start, const py::o
   CertifiedPlanningRequest request;
   request.motion_threshold = motion_threshold;
   given.take("descend", request.descend);
+  request.errors = errorsOf(query, given);
   request.planning = given.planning();
   const Eigen::VectorXd from = jointValues(query.robot(), start, "start");
   const Eigen::VectorXd to = jointValues(query.robot(), goal, "goal");
@@ -126,6 +135,7 @@ TimedPlan planTimed(const RobotQuery& query, const py::object& start, const py::
   given.take("latest", request.latest);
   given.take("velocities", request.velocities);
   given.take("velocity_scale", request.velocity_scale);
+  request.errors = errorsOf(query, given);
   request.planning = given.planning();
   const Eigen::VectorXd from = jointValues(query.robot(), start, "start");
   const Eigen::VectorXd to = jointValues(query.robot(), goal, "goal");
@@ -191,7 +201,8 @@ PYBIND11_MODULE(_planning, module) {
       "self_collision: a SelfCollision; None: of the robot without an SRDF.\n"
       "motion_threshold: P of the whole motion stays below it, too. keywords: joints (names\n"
       "of those that may move), largest_step (radians, metres), seed, max_states,\n"
-      "time_limit (seconds, of the plan), shorten, descend; of a state as\n"
+      "time_limit (seconds, of the plan), shorten, descend, joint_error and base_error (as of\n"
+      "RobotQuery.state); of a state as\n"
       "collision_probability, max_cells being 2,000. on_progress(states, seconds,\n"
       "shortening) returns False to stop.");
   module.def("plan_in_time", &fcl_prob::python::planTimed, py::arg("query"), py::arg("start"),

@@ -200,55 +200,26 @@ std::shared_ptr<RobotQuery> withObstacles(const RobotQuery& query, const py::lis
   return std::make_shared<RobotQuery>(query.withObstacles(std::move(all)));
 }
 
-/// A (k, k) covariance, or a dict of standard deviations by name.
-Eigen::MatrixXd jointErrorFrom(const Robot& robot, const py::object& value) {
-  if (value.is_none()) return {};
-  if (py::isinstance<py::dict>(value)) {
-    try {
-      return jointCovariance(robot, value.cast<std::map<std::string, double>>());
-    } catch (const py::cast_error&) {
-      throw py::type_error("joint_error must have a number for each name, not " + textOf(value));
-    }
-  }
-  const Numbers numbers(value, "joint_error");
-  const std::size_t count = robot.joints().size();
-  const auto size = static_cast<std::ptrdiff_t>(count);
-  if (!numbers.hasShape({size, size})) numbers.refuseShape("(k, k) for k joints");
-  Eigen::MatrixXd covariance(size, size);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j < count; ++j) {
-      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = numbers.at(i, j);
-    }
-  }
-  return covariance;
-}
-
-PoseError baseErrorFrom(const py::object& value) {
-  const Randomness randomness = randomnessFrom(value, "base_error");
-  if (const auto* error = std::get_if<PoseError>(&randomness)) return *error;
-  throw py::type_error("base_error must be a PoseError, not " + textOf(value));
-}
-
 RobotResult state(const RobotQuery& query, const py::object& values, const py::object& joint_error,
                   const py::object& base_error, const py::kwargs& request) {
   const Eigen::VectorXd at = jointValues(query.robot(), values, "values");
-  RobotErrors errors;
-  errors.joints = jointErrorFrom(query.robot(), joint_error);
-  if (!base_error.is_none()) errors.base = baseErrorFrom(base_error);
+  const RobotErrors errors = robotErrorsFrom(query.robot(), joint_error, base_error);
   return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
     return query.state(at, errors, of);
   });
 }
 
 py::list decideStates(const RobotQuery& query, const py::object& states, double threshold,
-                      const std::optional<double>& chance_of_error, const py::kwargs& request) {
+                      const std::optional<double>& chance_of_error, const py::object& joint_error,
+                      const py::object& base_error, const py::kwargs& request) {
+  const RobotErrors errors = robotErrorsFrom(query.robot(), joint_error, base_error);
   const std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), states);
   Eigen::MatrixXd columns(query.robot().joints().size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = all[i];
   const auto decisions =
       run<std::vector<ProbableDecision>>(questionFrom(request), [&](ProbabilityRequest of) {
         of.threshold = threshold;
-        return query.decideStates(columns, of, chance_of_error);
+        return query.decideStates(columns, errors, of, chance_of_error);
       });
   py::list names;
   for (const ProbableDecision one : decisions) names.append(toString(one));
@@ -360,9 +331,12 @@ void bindQuery(py::module_& module) {
            "either an estimate, or for method 'interval' a certified interval. request: as\n"
            "collision_probability takes it; method 'auto', 'interval' or 'estimate'.")
       .def("decide_states", &decideStates, py::arg("states"), py::arg("threshold"),
-           py::arg("chance_of_error") = py::none(),
+           py::arg("chance_of_error") = py::none(), py::kw_only(),
+           py::arg("joint_error") = py::none(), py::arg("base_error") = py::none(),
            "Whether P in each state (n, k) is below the threshold: names as of ProbableResult,\n"
-           "certain ones unless a chance of error is given. request: limits and threads.")
+           "certain ones unless a chance of error is given. joint_error, base_error: as of "
+           "state().\n"
+           "request: limits and threads.")
       .def(
           "motion", &motion, py::arg("waypoints"), py::arg("errors") = "persistent",
           py::arg("largest_step") = py::none(), py::arg("between") = "ignored",

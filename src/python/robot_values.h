@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fcl_prob/robot.h"
+#include "fcl_prob/robot_errors.h"
 
 namespace fcl_prob::python {
 
@@ -20,6 +21,11 @@ Eigen::VectorXd jointValues(const Robot& robot, py::handle value, const std::str
 
 /// (n, k), or a list of what jointValues() takes.
 std::vector<Eigen::VectorXd> waypointsFrom(const Robot& robot, const py::object& value);
+
+/// \param joint_error  (k, k) covariance, or a dict of standard deviations by name, or None
+/// \param base_error   a PoseError, or None. \throws py::type_error, and as jointCovariance()
+RobotErrors robotErrorsFrom(const Robot& robot, const py::object& joint_error,
+                            const py::object& base_error);
 
 /// Robot, in the module of robots.
 void bindRobot(py::module_& module);

@@ -38,8 +38,7 @@ double massBehind(double distance) {
 
 void CommonHalfSpaces::add(const NodeHulls& a, const fcl::Transform3d& pose_a, const NodeHulls& b,
                            const fcl::Transform3d& pose_b, std::size_t body) {
-  bodies_.push_back(
-      {a, b, PairFrame(displacement_, pose_a, a.size, pose_b, b.size), pose_a, body});
+  bodies_.push_back({a, b, PairFrame(displacement_, pose_a, a.size, pose_b, b.size), pose_a, body});
   PairFrame& frame = bodies_.back().frame;
   frame.error += a.slack + b.slack + (errors_ ? errors_->of(body).reach : 0.0);
   can_tell_ = can_tell_ && frame.rank == 3 && frame.fits;
@@ -100,9 +99,8 @@ double CommonHalfSpaces::distanceAlong(const Pair& pair, const Direction& direct
   if (!errors_) return distance;
   const Foremost own = foremost(pair, direction.towards);
   // What the direction does not have of the point's errors is at most its length times that of z.
-  distance -= (1.0 + kRoundedMass) *
-              (turnedBeyond(pair, direction.towards, own.point) +
-               errors_->within() * (own.errors - direction.along).norm());
+  distance -= (1.0 + kRoundedMass) * (turnedBeyond(pair, direction.towards, own.point) +
+                                      errors_->within() * (own.errors - direction.along).norm());
   return distance / std::sqrt(1.0 + direction.along.squaredNorm()) * (1.0 - kRoundedMass);
 }
 

@@ -59,8 +59,8 @@ class CommonHalfSpaces {
     std::size_t of;  ///< in bodies_
     int a;
     int b;
-    Direction direction;                                ///< as GJK proposes
-    double own = 1.0;                                   ///< the mass of the half-space there
+    Direction direction;            ///< as GJK proposes
+    double own = 1.0;               ///< the mass of the half-space there
     std::vector<double> distances;  ///< by half-space: to where it would have to begin
     double cost = 1.0;              ///< the least mass that has to be added to hold it
     int cheapest = -1;              ///< the half-space that would be enlarged; -1: one of its own
@@ -91,7 +91,7 @@ class CommonHalfSpaces {
 
   GaussianDisplacement displacement_;
   const LinearErrors* errors_ = nullptr;  ///< null: the robot is exact
-  bool can_tell_ = true;  ///< all frames have rank 3, and numbers that stay finite
+  bool can_tell_ = true;                  ///< all frames have rank 3, and numbers that stay finite
   std::deque<Bodies> bodies_;
   std::vector<Pair> pairs_;  ///< not held yet
   std::vector<HalfSpace> half_spaces_;

@@ -3,7 +3,6 @@
 #include "robot/interval_with_errors.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/budget.h"
 #include "base/decision.h"
@@ -11,10 +10,8 @@
 #include "base/number_text.h"
 #include "base/statistics.h"
 #include "fcl_prob/combined_bounds.h"
-#include "fcl_prob/normal_mass.h"
 #include "query/groups_query.h"
 #include "robot/body_bounds.h"
-#include "robot/body_sweep.h"
 #include "robot/moving_obstacle.h"
 #include "robot/placed_query.h"
 #include "robot/sum_above.h"
@@ -22,75 +19,35 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// Deviations within which all errors are, for bands: the more, the less is beyond and the wider
-/// the bands. The narrowest answer counts, whichever gives it.
-constexpr double kDeviations[] = {3.5, 5.0, 2.5};
+/// Chances that errors are larger than bands allow for: the less, the wider the bands. The
+/// narrowest answer counts, whichever gives it.
+constexpr double kBeyondBands[] = {1e-3, 1e-5, 0.02};
 
-/// Of a threshold, or of a probability that is small: what errors of the robot that half-spaces know
-/// nothing of may have. Less of it is a larger error of what they do know.
+/// Of a threshold, or of a probability that is small: what errors of the robot that half-spaces
+/// know nothing of may have. Less of it is a larger error of what they do know.
 constexpr double kShareBeyond = 0.01;
 constexpr double kSmall = 0.01;
+
+/// What is to be below this is asked for what half-spaces tell best.
+constexpr double kTiny = 1e-12;
 
 /// A band of so many of the obstacle's largest deviations is not asked for: it leaves nearly all
 /// open, and its cells take seconds each.
 constexpr double kWidest = 2.0;
 
-// More than what a deviation, a mass, a length and a turn are rounded by.
-constexpr double kErrorRounding = 1e-8;
-
-/// What the errors are but for a chance.
-struct Within {
-  Eigen::VectorXd joints;  ///< |error| of each, radians or metres
-  double shift = 0.0;      ///< of the base, metres
-  double turn = 0.0;       ///< of the base, radians
-  double chance = 0.0;     ///< that they are not: certainly no more
-};
-
-Within within(double deviations, const Eigen::MatrixXd& covariance,
-              const std::optional<PoseError>& base) {
-  const double most = deviations * (1.0 + kErrorRounding);
-  Within result;
-  result.joints = most * covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  Eigen::Index varying = (result.joints.array() > 0.0).count();
-  if (base) {
-    const PoseError::Vector6 of_base =
-        most * base->covariance().diagonal().cwiseMax(0.0).cwiseSqrt();
-    varying += (of_base.array() > 0.0).count();
-    result.shift =
-        (1.0 + kErrorRounding) * (base->mean().head<3>().norm() + of_base.head<3>().norm());
-    result.turn =
-        (1.0 + kErrorRounding) * (base->mean().tail<3>().norm() + of_base.tail<3>().norm());
-  }
-  const double tails = 2.0 * static_cast<double>(varying) * normalTailMass(deviations);
-  result.chance = std::min(1.0, (1.0 + kErrorRounding) * tails);
-  return result;
-}
+/// Of what is multiplied by the chance that errors are as expected.
+constexpr double kRoundedChance = 1e-8;
 
 class IntervalWithErrors {
  public:
-  IntervalWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
-                     const std::optional<PoseError>& base)
-      : among_(among),
-        values_(values),
-        poses_(among.robot().poses(values)),
-        turns_about_origin_(base && base->convention() == PoseConvention::world_exponential) {
-    const Robot& robot = among.robot();
-    if (base) base_ = robot.linkPose(robot.links()[0].name, values).translation();
-  }
+  IntervalWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values)
+      : among_(among), poses_(among.robot().poses(values)) {}
 
   /// By no more than this are points of the bodies where they are not expected, metres, by body.
-  std::vector<double> reaches(const Within& errors) const {
-    const JointStep step{values_, Eigen::VectorXd::Zero(values_.size()), values_.cwiseAbs(),
-                         errors.joints};
+  std::vector<double> reaches(const LinearErrors& errors) const {
     std::vector<double> reaches;
     for (std::size_t i = 0; i < poses_.size(); ++i) {
-      const Ball& ball = among_.balls()[i];
-      double reach = sweepOf(among_.robot(), i, poses_[i], ball, step).reach;
-      const Ball around = ball.placed(poses_[i]);
-      const Eigen::Vector3d centre = turns_about_origin_ ? Eigen::Vector3d::Zero().eval() : base_;
-      const double lever = (around.centre - centre).norm() + around.radius + reach;
-      reach += errors.shift + errors.turn * lever;
-      reaches.push_back((1.0 + kErrorRounding) * reach);
+      reaches.push_back(errors.farthest(i, among_.balls()[i].radius));
     }
     return reaches;
   }
@@ -130,10 +87,7 @@ class IntervalWithErrors {
 
  private:
   const RobotAmongObstacles& among_;
-  const Eigen::VectorXd& values_;
   std::vector<fcl::Transform3d> poses_;
-  Eigen::Vector3d base_ = Eigen::Vector3d::Zero();
-  bool turns_about_origin_;
 };
 
 }  // namespace
@@ -141,7 +95,7 @@ class IntervalWithErrors {
 double upperWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
                        const Eigen::MatrixXd& covariance, const std::optional<PoseError>& base,
                        double enough) {
-  const double chance = kShareBeyond * std::min(enough, kSmall);
+  const double chance = kShareBeyond * (enough > kTiny ? std::min(enough, kSmall) : kSmall);
   const LinearErrors errors(among.robot(), among.balls(), values, covariance, base, chance);
   const std::vector<fcl::Transform3d> poses = among.robot().poses(values);
   std::vector<Ball> balls = among.balls();
@@ -176,17 +130,17 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
   result.plan.push_back("half-spaces for bodies and errors of the robot together: P is at most " +
                         numberText(upper));
   result.status = known.satisfied().value_or(ProbabilityStatus::resolution_limit);
-  const IntervalWithErrors parts(among, values, base);
+  const IntervalWithErrors parts(among, values);
   bool cancelled = false;
   const auto tell = [&](ProbabilityProgress progress) {
     progress.interval = known.interval();
     cancelled = cancelled || !request.on_progress(progress);
     return !cancelled;
   };
-  std::size_t left = std::size(kDeviations) * among.obstacles().size();
-  for (const double deviations : kDeviations) {
+  std::size_t left = std::size(kBeyondBands) * among.obstacles().size();
+  for (const double chance : kBeyondBands) {
     if (result.status != ProbabilityStatus::resolution_limit) break;
-    const Within errors = within(deviations, covariance, base);
+    const LinearErrors errors(among.robot(), among.balls(), values, covariance, base, chance);
     const std::vector<double> reaches = parts.reaches(errors);
     std::vector<Bounds> events;
     double width = 0.0;
@@ -202,10 +156,9 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
     }
     // Given the errors of the robot the obstacles are independent events.
     const Bounds any = anyOfIndependent(events);
-    known.narrow({any.lower * (1.0 - errors.chance) * (1.0 - kErrorRounding),
-                  std::min(1.0, sumAbove(any.upper, errors.chance))});
-    result.plan.push_back("errors of the robot within " + numberText(deviations) +
-                          " deviations, but for a chance of " + numberText(errors.chance) +
+    known.narrow({any.lower * (1.0 - errors.chance()) * (1.0 - kRoundedChance),
+                  std::min(1.0, sumAbove(any.upper, errors.chance()))});
+    result.plan.push_back("errors of the robot but for a chance of " + numberText(errors.chance()) +
                           ": bodies within " + numberText(width) + " m of where they are expected");
     const auto stopped = cancelled
                              ? ProbabilityStatus::cancelled

@@ -26,8 +26,7 @@ Eigen::MatrixXd rootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   const Eigen::VectorXd roots = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   const Eigen::Index rank = (roots.array() > 0.0).count();
-  return (1.0 + kRounded) * solver.eigenvectors().rightCols(rank) *
-         roots.tail(rank).asDiagonal();
+  return (1.0 + kRounded) * solver.eigenvectors().rightCols(rank) * roots.tail(rank).asDiagonal();
 }
 
 double largestSingularValue(const Eigen::MatrixXd& matrix) {
@@ -44,7 +43,9 @@ class CarriedBody {
   /// \param within  |z|
   CarriedBody(const std::vector<CarryingJoint>& joints, const Ball& ball,
               const Eigen::MatrixXd& root, double within)
-      : joints_(joints), ball_(ball), errors_(static_cast<Eigen::Index>(joints.size()), root.cols()) {
+      : joints_(joints),
+        ball_(ball),
+        errors_(static_cast<Eigen::Index>(joints.size()), root.cols()) {
     for (std::size_t j = 0; j < joints.size(); ++j) {
       errors_.row(static_cast<Eigen::Index>(j)) =
           joints[j].factor * root.row(static_cast<Eigen::Index>(joints[j].joint));

@@ -14,6 +14,7 @@
 #include "io/import_notes.h"
 #include "query/motion_gradient.h"
 #include "robot/certified_motion.h"
+#include "robot/decide_with_errors.h"
 #include "robot/gradient_parts.h"
 #include "robot/many_states.h"
 #include "robot/moving_obstacle.h"
@@ -458,6 +459,13 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
         .decision;
   };
   return detail::manyStates(states, detail::ofOneCall(request), decide);
+}
+
+std::vector<ProbableDecision> RobotQuery::decideStates(
+    const Eigen::MatrixXd& states, const RobotErrors& errors, const ProbabilityRequest& request,
+    std::optional<double> chance_of_error) const {
+  if (errors.none()) return decideStates(states, request, chance_of_error);
+  return detail::decideWithErrors(*this, states, errors, request, chance_of_error);
 }
 
 JointGradient RobotQuery::gradient(const std::vector<Eigen::VectorXd>& waypoints,

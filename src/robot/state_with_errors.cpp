@@ -84,6 +84,16 @@ Eigen::MatrixXd covarianceOf(const RobotErrors& errors, Eigen::Index joints) {
 
 }  // namespace
 
+Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
+                                const RobotErrors& errors) {
+  requireStaying(among.obstacles(), "errors of a robot are");
+  for (const Obstacle& obstacle : among.obstacles()) gaussianOf(obstacle);
+  const Eigen::MatrixXd covariance = covarianceOf(errors, values.size());
+  const auto nowhere = [](const Eigen::VectorXd&) { return std::vector<fcl::Transform3d>(); };
+  const RandomJoints validated(values, covariance, nowhere, {}, GaussianDisplacement());
+  return covariance;
+}
+
 // Given the joints and the base, a single obstacle leaves a Gaussian translation, which is answered
 // exactly or counted; of several the displacements are drawn with the joints.
 ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,

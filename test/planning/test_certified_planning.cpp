@@ -253,6 +253,46 @@ TEST_CASE("certified plans refuse what makes no sense") {
         PlanningStatus::start_refused);
 }
 
+TEST_CASE("a plan with errors of the joints stays below its threshold, counted with them") {
+  const PlanScene scene;
+  CertifiedPlanningRequest request = scene.request(1);
+  const double deviation = 0.008;
+  request.errors.joints =
+      jointCovariance(scene.query.robot(), {{"turn", deviation}, {"shoulder", deviation}});
+  const CertifiedPlan plan = scene.plan(request);
+  REQUIRE(plan.path.status == PlanningStatus::solved);
+  CHECK(plan.largest.upper <= 0.05);
+  CHECK(plan.motion.upper == 1.0);
+  constexpr int kDraws = 300;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const Robot& robot = scene.query.robot();
+  for (const Eigen::VectorXd& values : interpolated(plan.path.waypoints, 0.2)) {
+    int hits = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      Eigen::VectorXd drawn = values;
+      for (const char* name : {"turn", "shoulder"}) {
+        for (std::size_t k = 0; k < robot.joints().size(); ++k) {
+          if (robot.joints()[k].name == name)
+            drawn[static_cast<Eigen::Index>(k)] += deviation * normal(random);
+        }
+      }
+      const auto poses = robot.poses(drawn);
+      bool hit = false;
+      for (const Obstacle& obstacle : scene.query.obstacles()) {
+        const auto& error = std::get<GaussianDisplacement>(obstacle.displacement);
+        Eigen::Vector3d y;
+        for (int k = 0; k < 3; ++k) y[k] = normal(random) * error.standardDeviations()[k];
+        hit = hit || touchesDisplaced(robot, poses, obstacle, error.mean() + error.axes() * y);
+      }
+      hits += hit;
+    }
+    CHECK(hits / static_cast<double>(kDraws) <= 0.05 + 5.0 * std::sqrt(0.05 / kDraws));
+  }
+  request.motion_threshold = 0.1;
+  CHECK_THROWS_AS(scene.plan(request), InvalidRequest);
+}
+
 TEST_CASE("what a plan certifies keeps to its limits, too") {
   const PlanScene scene;
   CertifiedPlanningRequest request = scene.request(1);

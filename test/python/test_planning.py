@@ -114,5 +114,10 @@ def test_plans_past_what_stays():
     assert plan.status == "solved" and plan.largest[1] <= 0.05
     assert (plan.waypoints[0] == robot.values(start)).all() and (plan.waypoints[-1] == robot.values(goal)).all()
     assert plan.motion[0] <= plan.motion[1] and plan.state_threshold == 0.05
+    wide = fcl_prob.plan(query, start, goal, 0.05, self_collision, largest_step=0.1, max_states=5000,
+                         joint_error={"turn": 0.01})
+    assert wide.status == "solved" and wide.motion == (0.0, 1.0) and wide.largest[1] <= 0.05
+    decisions = query.decide_states(wide.waypoints, 0.05, joint_error={"turn": 0.01})
+    assert set(decisions) == {"certainly-below"}
     none = fcl_prob.plan(query, start, goal, 0.05, self_collision, max_states=1)
     assert none.status == "state-limit" and none.waypoints.shape[0] == 0

@@ -103,7 +103,8 @@ TEST_CASE("half-spaces that bodies have in common bound P that any touches") {
 TEST_CASE("bodies behind one plane count once") {
   const NodeHulls small = boxHulls(0.1), large = boxHulls(2.0);
   CommonHalfSpaces common(kUnit);
-  for (int i = 0; i < 5; ++i) common.add(small, placedAt(3.05, 0.2 * i - 0.4, 0.0), large, kStill, 0);
+  for (int i = 0; i < 5; ++i)
+    common.add(small, placedAt(3.05, 0.2 * i - 0.4, 0.0), large, kStill, 0);
   CHECK(common.upper(0.03) == Approx(fcl_prob::normalTailMass(2.0)).epsilon(1e-6));
 }
 

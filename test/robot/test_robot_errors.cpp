@@ -186,6 +186,41 @@ TEST_CASE("an interval over errors of a robot decides what is far from the thres
   CHECK(query.state(values, errors, request).status == ProbabilityStatus::cancelled);
 }
 
+TEST_CASE("many states are decided with errors of the robot, as counting has them") {
+  constexpr int kDraws = 1'000;
+  const RobotQuery query(shippedArm(), ballAndBox());
+  RobotErrors errors;
+  errors.joints = jointCovariance(query.robot(), {{"turn", 0.01}, {"shoulder", 0.005}});
+  Eigen::MatrixXd states(query.robot().joints().size(), 24);
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    const double at = static_cast<double>(i);
+    states.col(i) = query.robot().values({{"turn", -0.8 + 0.1 * at}, {"elbow", 0.02 * at}});
+  }
+  ProbabilityRequest request;
+  request.threshold = 0.2;
+  request.threads = 2;
+  const auto certain = query.decideStates(states, errors, request);
+  const auto probable = query.decideStates(states, errors, request, 1e-4);
+  std::map<ProbableDecision, int> found;
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double truth =
+        countedWithErrors(query, states.col(i), deviationsOf(errors.joints), 0.0, kDraws);
+    const double slack = 5.0 * std::sqrt(truth * (1.0 - truth) / kDraws) + 5.0 / kDraws;
+    CAPTURE(i, truth);
+    if (certain[k] == ProbableDecision::certainly_below) CHECK(truth - slack < 0.2);
+    if (certain[k] == ProbableDecision::certainly_above) CHECK(truth + slack > 0.2);
+    if (probable[k] == ProbableDecision::probably_below) CHECK(truth - slack < 0.2);
+    if (probable[k] == ProbableDecision::probably_above) CHECK(truth + slack > 0.2);
+    ++found[probable[k]];
+  }
+  CHECK(found[ProbableDecision::certainly_below] > 3);
+  CHECK(found[ProbableDecision::probably_above] > 3);
+  CHECK(found[ProbableDecision::undecided] == 0);
+  errors.joints = Eigen::MatrixXd::Identity(2, 2);
+  CHECK_THROWS_AS(query.decideStates(states, errors, request), InvalidDistribution);
+}
+
 TEST_CASE("a robot whose errors are none is where it is said to be") {
   const RobotQuery query(shippedArm(), {ballAndBox()[0]});
   const Eigen::VectorXd values = query.robot().values({{"turn", 0.35}, {"elbow", 0.3}});

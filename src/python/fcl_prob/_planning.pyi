@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the fcl_prob authors
-from typing import Callable, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Mapping, Optional, Sequence, Tuple, Union
 
+from ._core import PoseError
 from ._robot import RobotQuery, SelfCollision, Values
-from ._types import FloatArray
+from ._types import FloatArray, Numbers
 
 PlanProgress = Callable[[int, float, bool], Optional[bool]]
 
@@ -50,6 +51,8 @@ def plan(
     motion_threshold: Optional[float] = None,
     *,
     joints: Sequence[str] = ...,
+    joint_error: Union[None, Numbers, Mapping[str, float]] = None,
+    base_error: Optional[PoseError] = None,
     largest_step: float = 0.05,
     seed: int = 1,
     max_states: int = 200_000,
@@ -67,6 +70,8 @@ def plan_in_time(
     self_collision: Optional[SelfCollision] = None,
     *,
     joints: Sequence[str] = ...,
+    joint_error: Union[None, Numbers, Mapping[str, float]] = None,
+    base_error: Optional[PoseError] = None,
     largest_step: float = 0.05,
     largest_time_step: float = 0.05,
     start_time: float = 0.0,

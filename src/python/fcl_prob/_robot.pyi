@@ -116,6 +116,8 @@ class RobotQuery:
         threshold: float,
         chance_of_error: Optional[float] = None,
         *,
+        joint_error: Union[None, Numbers, Mapping[str, float]] = None,
+        base_error: Optional[PoseError] = None,
         contact: str = "fcl",
         time_limit: Optional[float] = None,
         max_cells: int = ...,

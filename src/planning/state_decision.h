@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// Whether a state of a plan is certainly below its threshold, and what its P is.
+#pragma once
+
+#include "fcl_prob/robot_query.h"
+#include "robot/interval_with_errors.h"
+#include "robot/state_screen.h"
+#include "robot/state_with_errors.h"
+
+namespace fcl_prob::detail {
+
+/// One query, which must outlive it, and errors of its robot.
+class StateDecision {
+ public:
+  StateDecision(const RobotQuery& query, const RobotErrors& errors)
+      : query_(query), errors_(errors), screen_(query.among()) {}
+
+  /// \param request  with a threshold
+  bool isBelow(const Eigen::VectorXd& values, const ProbabilityRequest& request) const {
+    if (!errors_.none()) return upper(values, *request.threshold) < *request.threshold;
+    if (const auto told = screen_.tell(values, *request.threshold)) return *told;
+    return query_.state(values, request).decision == Decision::below;
+  }
+
+  /// Of P that anything is touched; nothing where that is certainly below `least`.
+  std::optional<Bounds> above(const Eigen::VectorXd& values, double least,
+                              ProbabilityRequest request) const {
+    if (!errors_.none()) return Bounds{0.0, upper(values, least)};
+    if (screen_.isBelow(values, least)) return std::nullopt;
+    request.threshold.reset();
+    return query_.state(values, request).any;
+  }
+
+ private:
+  double upper(const Eigen::VectorXd& values, double enough) const {
+    const Eigen::MatrixXd covariance = validCovariance(query_.among(), values, errors_);
+    return upperWithErrors(query_.among(), values, covariance, errors_.base, enough);
+  }
+
+  const RobotQuery& query_;
+  const RobotErrors& errors_;
+  StateScreen screen_;
+};
+
+/// The largest P of several, as it becomes known.
+struct LargestOfStates {
+  Bounds probability{0.0, 0.0};
+
+  /// Whether this one is the likeliest by now, by its upper bound.
+  bool add(const std::optional<Bounds>& one) {
+    if (!one) return false;
+    probability.lower = std::max(probability.lower, one->lower);
+    if (one->upper <= probability.upper) return false;
+    probability.upper = one->upper;
+    return true;
+  }
+};
+
+}  // namespace fcl_prob::detail
