@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,9 @@ class PairBounds {
 
   /// Certified mass of the polytope whose faces the C-obstacle gives.
   Bounds mass(const CObstacle& obstacle, const MassEffort& effort = {});
+
+  /// The first moment of the same, of a polytope of rank 3; nothing if its faces cannot be had.
+  std::optional<VectorBounds> moment(const CObstacle& obstacle, const Interruption& interruption);
 
  private:
   /// Brings the faces of `obstacle` into scratch_, cut and extruded if the displacement has rank 1

@@ -177,4 +177,14 @@ Bounds PairBounds::mass(const CObstacle& obstacle, const MassEffort& effort) {
   return mass;
 }
 
+std::optional<VectorBounds> PairBounds::moment(const CObstacle& obstacle,
+                                               const Interruption& interruption) {
+  const PairFrame& frame = obstacle.frame();
+  if (!frame.fits || frame.rank < 3 || !obstacle.isPolytope()) return std::nullopt;
+  setInterruption(interruption);
+  const EnclosingFaces enclosing = obstacle.outerFaces(scratch_);
+  if (enclosing.only_box) return std::nullopt;
+  return polytopeMoment(toClosedPolytope(scratch_.faces), frame.whitened(enclosing.error).norm());
+}
+
 }  // namespace fcl_prob::detail

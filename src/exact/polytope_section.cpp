@@ -303,22 +303,25 @@ class PolytopeSection {
   static Bounds massOfPrismOver(const std::vector<LongVector2>& polygon,
                                 const Eigen::Vector2d& moved) {
     const int count = static_cast<int>(polygon.size());
-    LongPolytope prism;
+    FaceSet prism;
+    double farthest = 0.0;
     for (const double height : {-kPrismHalfWidth, kPrismHalfWidth}) {
-      for (const LongVector2& p : polygon) prism.vertices.push_back({p.x(), p.y(), height});
+      for (const LongVector2& p : polygon) {
+        const Eigen::Vector2d corner = p.cast<double>();
+        prism.addVertex({corner.x(), corner.y(), height});
+        farthest = std::max(farthest, corner.norm());
+      }
     }
-    std::vector<int> bottom, top;
     for (int k = 0; k < count; ++k) {
       const int next = (k + 1) % count;
-      bottom.push_back(count - 1 - k);
-      top.push_back(count + k);
-      prism.faces.push_back({LongVector3::UnitX(), {k, next, count + next, count + k}});
+      prism.addFace({k, next, count + next, count + k});
     }
-    prism.faces.push_back({LongVector3::UnitX(), bottom});
-    prism.faces.push_back({LongVector3::UnitX(), top});
-    prism.findNormals();
-    const Bounds mass =
-        polytopeMass(HeavyPart{prism}, Eigen::Vector3d(moved.x(), moved.y(), 0.0), MassEffort{});
+    prism.beginFace();
+    for (int k = count; k-- > 0;) prism.addCorner(k);
+    prism.beginFace();
+    for (int k = 0; k < count; ++k) prism.addCorner(count + k);
+    const double error = moved.norm() + kEpsilon * farthest;
+    const Bounds mass = polytopeMass(toClosedPolytope(prism), error, MassEffort{});
     const double rounding = 8.0 * kIntervalMassRelativeError;
     return {std::clamp(mass.lower / (prismMass(2) * (1.0 + rounding)), 0.0, 1.0),
             std::clamp(mass.upper / (prismMass(2) * (1.0 - rounding)) + kUnderflow, 0.0, 1.0)};

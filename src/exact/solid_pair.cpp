@@ -4,10 +4,8 @@
 
 #include <Eigen/LU>
 
-#include "base/agreed_bounds.h"
 #include "convex/room_within.h"
 #include "exact/convex_pair_mass.h"
-#include "exact/polytope_pair.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -20,21 +18,10 @@ LongMatrix3 turnFrom(const Eigen::Matrix3d& guest, const Eigen::Matrix3d& host) 
 
 }  // namespace
 
-/// With corners to more digits, else with what doubles are rounded by, which the insets are within.
 Bounds solidPairMass(const PlacedSolid& a, const PlacedSolid& b,
                      const GaussianDisplacement& displacement, const Interruption& interruption) {
-  constexpr double kEnough = 1e-9;
-  Bounds known{0.0, 1.0};
-  const ConvexBody &of_a = a.solid.hull, &of_b = b.solid.hull;
-  const double inset = a.solid.inset + b.solid.inset;
-  if (displacement.rank() == 3) {
-    const auto both =
-        polytopePairMass(of_a, a.pose, of_b, b.pose, displacement, false, interruption, inset);
-    if (both) known = both->mass;
-    if (known.width() <= kEnough * known.upper) return known;
-  }
-  return agreed(known,
-                convexPairMass(of_a, a.pose, of_b, b.pose, displacement, interruption, inset));
+  return convexPairMass(a.solid.hull, a.pose, b.solid.hull, b.pose, displacement, interruption,
+                        a.solid.inset + b.solid.inset);
 }
 
 /// That of the room for the guest's origin, beside which the guest is a point.

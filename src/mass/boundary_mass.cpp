@@ -89,9 +89,9 @@ SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*di
                          double extra) {
   SlabMass sum;
   for (const FaceFrame& face : boundary.faces) {
-    const double reach = face.*distance + extra + face.displacement;
+    const double reach = face.*distance + extra;
     if (reach == 0) continue;
-    const double area = kSlabRounding * areaMass(face, reach + face.deviation + boundary.shift);
+    const double area = kSlabRounding * areaMass(face, reach + face.deviation);
     const SlabMass layer = layerMass(face.height, reach);
     sum.gain += area * layer.gain;
     sum.loss += area * layer.loss;

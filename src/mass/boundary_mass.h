@@ -39,7 +39,7 @@ struct SlabMass {
   double loss = 0.0;
 };
 
-/// Mass within `face.*distance + extra` and its displacement of each face, outside and inside,
+/// Mass within `face.*distance + extra` of each face, outside and inside,
 /// summed over the faces.
 SlabMass surfaceSlabMass(const PolytopeBoundary& boundary, double FaceFrame::*distance,
                          double extra);

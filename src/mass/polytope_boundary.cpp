@@ -222,13 +222,6 @@ double footDistance(const EdgeSide& side) {
   return std::sqrt(side.inset * side.inset + leastSquareBetween(side.t_from, side.t_to));
 }
 
-void displaceFaces(const Eigen::Vector3d& vertex_error, PolytopeBoundary& boundary) {
-  boundary.shift = vertex_error.norm();
-  for (FaceFrame& face : boundary.faces) {
-    face.displacement = face.normal.cwiseAbs().dot(vertex_error);
-  }
-}
-
 PolytopeBoundary polytopeBoundary(const ConvexPolytope& polytope) {
   requireValid(polytope);
   PolytopeBoundary boundary;

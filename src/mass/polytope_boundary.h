@@ -18,7 +18,6 @@ struct FaceFrame {
   double height = 0.0;           ///< normal·y of the plane; > 0 if the origin is on the inner side
   double deviation = 0.0;        ///< no vertex is farther from where the frame puts it
   double unevenness = 0.0;       ///< no vertex is farther from the plane of the others
-  double displacement = 0.0;     ///< along the normal, of what its vertices stand for
   Eigen::Vector2d lo, hi;        ///< bounding rectangle
   double angle = 0.0;  ///< by which the contour turns around the foot: 0 or 2π, or in between
                        ///<   if the foot is a vertex
@@ -60,13 +59,9 @@ double footDistance(const EdgeSide& side);
 struct PolytopeBoundary {
   std::vector<FaceFrame> faces;
   std::vector<BoundaryEdge> edges;
-  double shift = 0.0;     ///< no vertex is farther from what it stands for, in any direction
-  double distance = 0.0;  ///< from the origin to the boundary, up to rounding
+  double distance = 0.0;              ///< from the origin to the boundary, up to rounding
   std::optional<bool> origin_inside;  ///< of the convex body; nothing if that cannot be told
 };
-
-/// Counts as displacement of faces that each coordinate of a vertex may be off by so much.
-void displaceFaces(const Eigen::Vector3d& vertex_error, PolytopeBoundary& boundary);
 
 /// \throws InvalidGeometry if a vertex or normal is not finite, an index is out of range, or the
 /// faces

@@ -5,7 +5,6 @@
 
 #include "base/interruption.h"
 #include "fcl_prob/polytope_mass.h"
-#include "mass/long_polytope.h"
 
 namespace fcl_prob::detail {
 
@@ -20,13 +19,5 @@ struct MassEffort {
 
 /// polytopeMass() with so much effort.
 Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error, const MassEffort& effort);
-
-/// The mass and the moment of a polytope with volume whose vertices are known better than doubles
-/// tell: they are rounded near the origin, and for cubature near one of them, so that neither far
-/// corners nor the distance cost digits.
-/// \param vertex_error  of a vertex along each axis: whitening may stretch one by 1e12 of another
-Bounds polytopeMass(const HeavyPart& polytope, const Eigen::Vector3d& vertex_error,
-                    const MassEffort& effort);
-VectorBounds polytopeMoment(const HeavyPart& polytope, const Eigen::Vector3d& vertex_error);
 
 }  // namespace fcl_prob::detail

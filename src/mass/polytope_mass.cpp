@@ -32,8 +32,6 @@ constexpr double kFairRelativeWidth = 1e-11;
 constexpr double kPoorRelativeWidth = 9e-11;
 constexpr double kSliverRelativeWidth = 1e-3;
 constexpr int kMaxPieces = 512;
-constexpr int kMaxExactPieces = 4096;
-constexpr double kMostTetrahedra = 4e5;
 
 // Planes of a body that are tried for its narrowest side.
 constexpr std::size_t kMostPlanes = 1024;
@@ -70,18 +68,11 @@ double expectedPieces(const ConvexPolytope& polytope, const PolytopeBoundary& bo
   return pieces(length) * pieces(0.5 * area / length) * pieces(2 * volume / area);
 }
 
-// How many pieces a cubature may be expected to take where margins are poor. Those of exact masses
-// get what many faces leave of a fixed number of tetrahedra.
-double mostPieces(const ConvexPolytope& polytope, bool is_exact) {
-  if (!is_exact) return 256;
-  return std::clamp(kMostTetrahedra / static_cast<double>(polytope.faces.size()), 256.0, 4096.0);
-}
-
 bool isWorthCubature(const ConvexPolytope& polytope, const PolytopeBoundary& boundary,
-                     const Bounds& bounds, double enough, bool is_exact) {
+                     const Bounds& bounds, double enough) {
   const double relative_width = bounds.width() / bounds.upper;
   if (!(relative_width > std::max(enough, kGoodRelativeWidth))) return false;
-  const double limit = relative_width > kPoorRelativeWidth   ? mostPieces(polytope, is_exact)
+  const double limit = relative_width > kPoorRelativeWidth   ? 256
                        : relative_width > kFairRelativeWidth ? 32
                                                              : 2;
   return expectedPieces(polytope, boundary) <= limit;
@@ -130,14 +121,6 @@ void requireVertexError(double vertex_error) {
   }
 }
 
-// A polytope as it is seen from a point near it.
-struct NearView {
-  Eigen::Vector3d point;
-  ConvexPolytope polytope;
-  double rounding;               // of a vertex as seen from there
-  Eigen::Vector3d vertex_error;  // besides, along each axis
-};
-
 std::optional<Bounds> massByCubature(const ConvexPolytope& polytope, double vertex_error,
                                      PolytopeBoundary& boundary, double lower_bound,
                                      const detail::MassEffort& effort) {
@@ -147,46 +130,22 @@ std::optional<Bounds> massByCubature(const ConvexPolytope& polytope, double vert
                                                       vertex_error + solid->cut_error));
 }
 
-// \param boundary  gets the unevenness of its faces as seen from near
-std::optional<Bounds> massByCubature(const NearView& view, PolytopeBoundary& boundary,
-                                     double lower_bound, const detail::MassEffort& effort) {
-  const auto solid =
-      detail::solidMassAround(view.point, view.polytope, lower_bound, kMaxExactPieces, effort);
-  if (!solid) return std::nullopt;
-  const PolytopeBoundary near = detail::polytopeBoundary(view.polytope);
-  for (std::size_t f = 0; f < near.faces.size(); ++f) {
-    boundary.faces[f].unevenness = near.faces[f].unevenness;
-  }
-  return widened(solid->mass, detail::surfaceSlabMass(boundary, &FaceFrame::unevenness,
-                                                      view.rounding + solid->cut_error));
-}
-
-Bounds massOfFaces(const ConvexPolytope& polytope, double vertex_error, const NearView* view,
+Bounds massOfFaces(const ConvexPolytope& polytope, double vertex_error,
                    const detail::MassEffort& effort) {
   PolytopeBoundary boundary = detail::polytopeBoundary(polytope);
-  if (view) detail::displaceFaces(view->vertex_error, boundary);
   const auto by_boundary = detail::boundaryMass(boundary, effort.interruption);
-  const double reach = vertex_error + boundary.shift;
-  if (!by_boundary) return {0, massOfEnclosingBox(polytope, reach)};
+  if (!by_boundary) return {0, massOfEnclosingBox(polytope, vertex_error)};
   Bounds bounds =
       widened(*by_boundary, detail::surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error));
-  if (isWorthCubature(polytope, boundary, bounds, effort.enough, view != nullptr)) {
-    const auto by_cubature =
-        view ? massByCubature(*view, boundary, bounds.lower, effort)
-             : massByCubature(polytope, vertex_error, boundary, bounds.lower, effort);
+  if (isWorthCubature(polytope, boundary, bounds, effort.enough)) {
+    const auto by_cubature = massByCubature(polytope, vertex_error, boundary, bounds.lower, effort);
     if (by_cubature) bounds = detail::agreed(bounds, *by_cubature);
   }
   if (bounds.width() > kSliverRelativeWidth * bounds.upper) {
     bounds.upper =
-        std::max(bounds.lower, std::min(bounds.upper, massBetweenPlanes(polytope, reach)));
+        std::max(bounds.lower, std::min(bounds.upper, massBetweenPlanes(polytope, vertex_error)));
   }
   return bounds;
-}
-
-double largestVertex(const ConvexPolytope& polytope) {
-  double largest = 0;
-  for (const Eigen::Vector3d& v : polytope.vertices) largest = std::max(largest, v.norm());
-  return largest;
 }
 
 }  // namespace
@@ -195,22 +154,7 @@ Bounds detail::polytopeMass(const ConvexPolytope& polytope, double vertex_error,
                             const MassEffort& effort) {
   requireVertexError(vertex_error);
   if (polytope.faces.empty()) return flatMass(polytope, vertex_error);
-  return massOfFaces(polytope, vertex_error, nullptr, effort);
-}
-
-Bounds detail::polytopeMass(const HeavyPart& heavy, const Eigen::Vector3d& vertex_error,
-                            const MassEffort& effort) {
-  requireVertexError(vertex_error.norm());
-  const ConvexPolytope rounded = heavy.polytope.seenFrom(LongVector3::Zero());
-  NearView view;
-  view.point = rounded.vertices.front();
-  view.polytope = heavy.polytope.seenFrom(view.point.cast<long double>());
-  view.rounding = kEpsilon * largestVertex(view.polytope);
-  view.vertex_error = vertex_error + heavy.cut_error;
-  Bounds bounds = massOfFaces(rounded, kEpsilon * largestVertex(rounded), &view, effort);
-  const double left_out = 6.0 * normalTailMass(heavy.reach) * (1 + kIntervalMassRelativeError);
-  bounds.upper = std::min(bounds.upper + left_out, 1.0);
-  return bounds;
+  return massOfFaces(polytope, vertex_error, effort);
 }
 
 Bounds polytopeMass(const ConvexPolytope& polytope, double vertex_error) {

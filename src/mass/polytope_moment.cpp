@@ -34,7 +34,7 @@ double surfaceError(const ConvexPolytope& polytope, const PolytopeBoundary& boun
                     double vertex_error) {
   const detail::SlabMass slabs =
       detail::surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error);
-  return std::min(farthestVertex(polytope) + vertex_error + boundary.shift, kFarthestMass) *
+  return std::min(farthestVertex(polytope) + vertex_error, kFarthestMass) *
          (slabs.gain + slabs.loss);
 }
 
@@ -78,18 +78,6 @@ VectorBounds polytopeMoment(const ConvexPolytope& polytope, double vertex_error)
     return around(Eigen::Vector3d::Zero(), most * polytopeMass(polytope, vertex_error).upper);
   }
   return momentOf(polytope, detail::polytopeBoundary(polytope), vertex_error);
-}
-
-VectorBounds detail::polytopeMoment(const HeavyPart& heavy, const Eigen::Vector3d& vertex_error) {
-  const ConvexPolytope rounded = heavy.polytope.seenFrom(LongVector3::Zero());
-  PolytopeBoundary boundary = polytopeBoundary(rounded);
-  displaceFaces(vertex_error + heavy.cut_error, boundary);
-  VectorBounds moment = momentOf(rounded, boundary, kEpsilon * farthestVertex(rounded));
-  // ∫ |y| φ over what is beyond reach along an axis, by Mills' ratio.
-  const double left_out = heavy.reach < kInfinity ? 12.0 * normalDensity(heavy.reach) : 0.0;
-  moment.lower.array() -= left_out;
-  moment.upper.array() += left_out;
-  return moment;
 }
 
 }  // namespace fcl_prob

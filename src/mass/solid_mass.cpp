@@ -178,13 +178,7 @@ std::optional<SolidMass> solidMass(const ConvexPolytope& polytope, double lower_
   const Vector3d anchor = polytope.vertices.front();
   ConvexPolytope body = polytope;
   for (Vector3d& vertex : body.vertices) vertex -= anchor;
-  return solidMassAround(anchor, body, lower_bound, max_pieces, effort);
-}
-
-std::optional<SolidMass> solidMassAround(const Vector3d& point, const ConvexPolytope& polytope,
-                                         double lower_bound, int max_pieces,
-                                         const MassEffort& effort) {
-  return SolidIntegral(point, polytope, lower_bound, effort).integrate(max_pieces);
+  return SolidIntegral(anchor, body, lower_bound, effort).integrate(max_pieces);
 }
 
 }  // namespace fcl_prob::detail

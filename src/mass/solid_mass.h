@@ -29,10 +29,4 @@ struct SolidMass {
 std::optional<SolidMass> solidMass(const ConvexPolytope& polytope, double lower_bound,
                                    int max_pieces, const MassEffort& effort = {});
 
-/// Of a polytope that is seen from a point near it: what rounding moves is a share of its size, not
-/// of its distance.
-std::optional<SolidMass> solidMassAround(const Eigen::Vector3d& point,
-                                         const ConvexPolytope& polytope, double lower_bound,
-                                         int max_pieces, const MassEffort& effort = {});
-
 }  // namespace fcl_prob::detail

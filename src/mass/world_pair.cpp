@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "mass/world_pair.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -81,7 +83,17 @@ std::optional<SummedFaces> facesOfMeshes(const PairFrame& frame, const ConvexBod
   return result;
 }
 
+long double highest(const LongPoints& points, const LongVector3& direction) {
+  long double most = -std::numeric_limits<long double>::infinity();
+  for (const LongVector3& p : points) most = std::max(most, direction.dot(p));
+  return most;
+}
+
 }  // namespace
+
+long double DifferenceBody::reach(const LongVector3& direction) const {
+  return highest(of_b, direction) + highest(minus_a, direction) + direction.dot(origin);
+}
 
 WorldPair worldPair(const PairFrame& frame, const ConvexBody& a, const fcl::Transform3d& pose_a,
                     const ConvexBody& b, const fcl::Transform3d& pose_b,

@@ -5,11 +5,23 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "convex/pair_obstacle.h"
-#include "mass/shell_reach.h"
+#include "gaussian/long_vector.h"
 
 namespace fcl_prob::detail {
+
+using LongPoints = std::vector<LongVector3>;
+
+/// The hull of all differences b - a + origin of two sets of points.
+struct DifferenceBody {
+  LongPoints of_b, minus_a;
+  LongVector3 origin;
+
+  /// The largest n·y.
+  long double reach(const LongVector3& direction) const;
+};
 
 /// B about its own origin, A reflected about its own.
 struct WorldPair {

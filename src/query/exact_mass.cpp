@@ -9,10 +9,11 @@
 #include "base/budget.h"
 #include "base/decision.h"
 #include "bounds/convex_bound.h"
+#include "bounds/pair_bounds.h"
+#include "convex/pair_obstacle.h"
 #include "exact/convex_pair_mass.h"
 #include "exact/curved_pair.h"
 #include "exact/ellipsoid_polytope.h"
-#include "exact/polytope_pair.h"
 #include "exact/rounded_pair.h"
 
 namespace fcl_prob::detail {
@@ -39,11 +40,7 @@ class ExactMass {
         flat_(pair.a.rootBody().isPolytope() && pair.b.rootBody().isPolytope()) {}
 
   ProbabilityResult answer() {
-    if (flat_) {
-      findFlatMass();
-    } else if (request_.gradient) {
-      findGradient();
-    }
+    if (request_.gradient) flat_ ? findFlatGradient() : findGradient();
     if (!isSettled()) {
       narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
     }
@@ -82,19 +79,17 @@ class ExactMass {
 
   /// Whether what is known spares the bodies as they are enclosed elsewhere.
   bool isSettled() const {
-    if (flat_) return mass_.width() <= std::max(kRoundingWidth * mass_.upper, kNothing);
+    if (flat_) return false;
     return gradient_ && status() != ProbabilityStatus::resolution_limit;
   }
 
-  /// With corners to more digits than the bodies have that others are bounded with.
-  void findFlatMass() {
-    if (displacement_.rank() < 3) return;
+  void findFlatGradient() {
     const ConvexBody &a = pair_.a.rootBody(), &b = pair_.b.rootBody();
-    const auto both = polytopePairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_,
-                                       request_.gradient, limits_.interruption());
-    if (!both) return;
-    narrow(both->mass);
-    gradient_ = both->gradient;
+    const PairFrame frame = pairFrame(a, pair_.pose_a, b, pair_.pose_b, displacement_);
+    const PairObstacle obstacle(frame, a.set(), b.set());
+    PairBounds bounds;
+    const auto moment = bounds.moment(*obstacle, limits_.interruption());
+    if (moment) gradient_ = gradientOf(*moment, frame.whitening);
   }
 
   /// Of curved shapes.
