@@ -140,8 +140,7 @@ class MotionScene {
     scene_.groups.push_back(std::move(group));
     const std::vector<double> times = timesOfWaypoints();
     for (const detail::WaypointStep& step : steps) {
-      const double next = times[std::min(step.from + 1, times.size() - 1)];
-      scene_.times.push_back((1.0 - step.fraction) * times[step.from] + step.fraction * next);
+      scene_.times.push_back(detail::timeOf(step, times));
     }
   }
 

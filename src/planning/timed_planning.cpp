@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/number_text.h"
 #include "base/refuse_band.h"
 #include "base/stopwatch.h"
@@ -17,6 +18,7 @@
 #include "planning/state_decision.h"
 #include "planning/timed_trees.h"
 #include "robot/moving_obstacle.h"
+#include "robot/waypoint_steps.h"
 
 namespace fcl_prob {
 namespace {
@@ -47,6 +49,15 @@ TimedPlanningRequest validated(TimedPlanningRequest request) {
                          detail::numberText(request.velocity_scale));
   }
   return request;
+}
+
+/// Of all predictions; infinite where there is none.
+double endOf(const RobotQuery& query) {
+  double end = detail::kInfinity;
+  for (const Obstacle& obstacle : query.obstacles()) {
+    if (detail::isPredicted(obstacle)) end = std::min(end, *obstacle.over_time.back().time);
+  }
+  return end;
 }
 
 /// When the robot has to be at the goal.
@@ -86,7 +97,7 @@ class TimedPlanner {
         self_(self),
         request_(validated(request)),
         latest_(latestOf(query, request_)),
-        states_(query.robot(), request_),
+        states_(query.robot(), request_, endOf(query)),
         run_(
             [this](const auto& state) { return isAllowed(state); }, request_.planning,
             [this](const auto& from, const auto& to) { return states_.isForwardInTime(from, to); }),
@@ -215,14 +226,18 @@ class TimedPlanner {
 std::vector<TimedWaypoint> interpolated(const std::vector<TimedWaypoint>& waypoints,
                                         double largest_step, double largest_time_step) {
   std::vector<Eigen::VectorXd> states;
+  std::vector<double> times;
   const double unit = largest_step / largest_time_step;
   for (const TimedWaypoint& waypoint : waypoints) {
     states.emplace_back(waypoint.values.size() + 1);
     states.back() << waypoint.values, waypoint.time * unit;
+    times.push_back(waypoint.time);
   }
+  const auto steps = detail::stepsBetween(states, largest_step);
+  states = interpolated(states, largest_step);
   std::vector<TimedWaypoint> result;
-  for (const Eigen::VectorXd& state : interpolated(states, largest_step)) {
-    result.push_back({state[state.size() - 1] / unit, detail::TimedStates::valuesOf(state)});
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    result.push_back({detail::timeOf(steps[i], times), detail::TimedStates::valuesOf(states[i])});
   }
   return result;
 }

@@ -40,9 +40,10 @@ Eigen::VectorXd velocitiesOf(const Robot& robot, const TimedPlanningRequest& req
 
 }  // namespace
 
-TimedStates::TimedStates(const Robot& robot, const TimedPlanningRequest& request)
+TimedStates::TimedStates(const Robot& robot, const TimedPlanningRequest& request, double end)
     : unit_(request.planning.largest_step / request.largest_time_step),
       start_time_(request.start_time),
+      end_(end),
       velocities_(velocitiesOf(robot, request)) {}
 
 Eigen::VectorXd TimedStates::at(double time, const Eigen::VectorXd& values) const {

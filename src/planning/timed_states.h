@@ -3,6 +3,8 @@
 // States of a robot with their time, and how fast its joints may be.
 #pragma once
 
+#include <algorithm>
+
 #include "fcl_prob/timed_planning.h"
 
 namespace fcl_prob::detail {
@@ -11,16 +13,17 @@ namespace fcl_prob::detail {
 /// that of time are the same.
 class TimedStates {
  public:
+  /// \param end  seconds: no state is later, whatever is rounded
   /// \throws InvalidRequest for a joint that is to move without a velocity, or one given that is
   ///         none
-  TimedStates(const Robot& robot, const TimedPlanningRequest& request);
+  TimedStates(const Robot& robot, const TimedPlanningRequest& request, double end);
 
   Eigen::VectorXd at(double time, const Eigen::VectorXd& values) const;
   static Eigen::VectorXd valuesOf(const Eigen::VectorXd& state) {
     return state.head(state.size() - 1);
   }
   double timeOf(const Eigen::VectorXd& state) const {
-    return start_time_ + state[state.size() - 1] / unit_;
+    return std::min(start_time_ + state[state.size() - 1] / unit_, end_);
   }
 
   /// Seconds that the way from one to the other takes.
@@ -32,6 +35,7 @@ class TimedStates {
  private:
   double unit_;  ///< of time, per second
   double start_time_;
+  double end_;
   Eigen::VectorXd velocities_;
 };
 

@@ -144,10 +144,7 @@ std::vector<double> timesOf(const RobotScene& scene, const std::string& obstacle
     given.push_back(time->second);
   }
   std::vector<double> times;
-  for (const detail::WaypointStep& step : steps) {
-    const double next = step.fraction == 0.0 ? 0.0 : given[step.from + 1];
-    times.push_back((1.0 - step.fraction) * given[step.from] + step.fraction * next);
-  }
+  for (const detail::WaypointStep& step : steps) times.push_back(detail::timeOf(step, given));
   return times;
 }
 

@@ -18,4 +18,11 @@ struct WaypointStep {
 std::vector<WaypointStep> stepsBetween(const std::vector<Eigen::VectorXd>& waypoints,
                                        double largest_step);
 
+/// Of a step, by times of the waypoints: that of a waypoint as it is, and never beyond the next
+/// one.
+inline double timeOf(const WaypointStep& step, const std::vector<double>& times) {
+  if (step.fraction == 0.0) return times[step.from];
+  return (1.0 - step.fraction) * times[step.from] + step.fraction * times[step.from + 1];
+}
+
 }  // namespace fcl_prob::detail

@@ -153,6 +153,28 @@ TEST_CASE("a plan in time keeps slower velocities and rests at the goal") {
   CHECK(plan.arrival <= 12.0);
 }
 
+TEST_CASE("rounding of times never leaves a prediction") {
+  fcl_prob_test::RandomBodies random(5);
+  for (int i = 0; i < 60; ++i) {
+    Obstacle away = comer();
+    const double start = random.uniform(0.0, 3.0), end = start + random.uniform(5.0, 9.0);
+    away.over_time = {predicted(start, 5.0, 0.0, 0.01), predicted(end, 5.0, 3.0, 0.02)};
+    const Lane lane(away);
+    TimedPlanningRequest request = lane.request();
+    request.start_time = start;
+    request.hold = i % 2 ? random.uniform(0.0, 1.0) : 0.0;
+    request.planning.largest_step = random.uniform(0.03, 0.1);
+    request.planning.shorten = false;
+    request.largest_time_step = random.uniform(0.03, 0.2);
+    const TimedPlan plan = lane.plan(request);
+    REQUIRE(plan.status == PlanningStatus::solved);
+    for (const TimedWaypoint& at : interpolated(plan.waypoints, 0.1, request.largest_time_step)) {
+      CHECK_NOTHROW(lane.query.at(at.time));
+    }
+    CHECK(interpolated(plan.waypoints, 0.1, 0.1).back().time == plan.waypoints.back().time);
+  }
+}
+
 TEST_CASE("a plan in time says when there is none") {
   const Lane lane;
   TimedPlanningRequest request = lane.request();
