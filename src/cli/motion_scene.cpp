@@ -227,7 +227,9 @@ class MotionScene {
   /// Seconds since the first; where obstacles are predicted those of the motion.
   std::vector<double> timesOfWaypoints() const {
     const auto& obstacles = query_.obstacles();
-    const auto predicted = std::find_if(obstacles.begin(), obstacles.end(), &detail::isPredicted);
+    const auto predicted = std::find_if(
+        obstacles.begin(), obstacles.end(),
+        [](const Obstacle& obstacle) { return detail::isPredicted(obstacle.over_time); });
     const double last = static_cast<double>(waypoints_.size() - 1);
     std::vector<double> times;
     for (std::size_t i = 0; i < waypoints_.size(); ++i) {

@@ -14,10 +14,7 @@ namespace {
 RobotQuery standingAt(const RobotQuery& query, std::size_t waypoint) {
   std::vector<Obstacle> obstacles = query.obstacles();
   for (Obstacle& obstacle : obstacles) {
-    const ObstacleState state = detail::stateAt(obstacle, waypoint);
-    obstacle.pose = state.pose;
-    obstacle.displacement = state.displacement;
-    obstacle.over_time.clear();
+    obstacle = detail::standing(obstacle, detail::stateAt(obstacle, waypoint));
   }
   return query.withObstacles(std::move(obstacles));
 }

@@ -19,10 +19,6 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-/// How far the trees of RRT-Connect grow at once, in joint space. An edge is taken whole or not at
-/// all: long ones are refused more often.
-constexpr double kRange = 0.5;
-
 /// By RRT-Connect; nothing if a limit ended it.
 std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
                                            detail::PlanningRun& run, const Eigen::VectorXd& start,
@@ -33,7 +29,7 @@ std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
   space.write(goal, to.get());
   problem->setStartAndGoalStates(from, to);
   og::RRTConnect planner(space.information());
-  planner.setRange(kRange);
+  planner.setRange(detail::kTreeRange);
   planner.setProblemDefinition(problem);
   planner.setup();
   // OMPL may go on for long without a state, where no nearer one is left.
@@ -69,16 +65,12 @@ class MotionPlan {
     if (!path) return run_.stopped().value_or(PlanningStatus::state_limit);
     result.waypoints = space_.waypointsOf(*path);
     result.planned_length = jointLength(result.waypoints);
-    if (run_.request().shorten) shorten(result);
+    if (run_.request().shorten) {
+      result.waypoints = detail::shortened(std::move(result.waypoints), run_);
+      result.shortened = !run_.isStopped();
+    }
     result.length = jointLength(result.waypoints);
     return PlanningStatus::solved;
-  }
-
-  void shorten(PlanningResult& result) {
-    run_.beginShortening();
-    result.waypoints = detail::cutShort(std::move(result.waypoints), run_);
-    result.waypoints = detail::pulledTaut(std::move(result.waypoints), run_);
-    result.shortened = !run_.isStopped();
   }
 
   detail::PlanningRun run_;

@@ -10,6 +10,10 @@
 
 namespace fcl_prob::detail {
 
+/// How far the trees of RRT-Connect grow at once, in joint space (and the unit of time). An edge is
+/// taken whole or not at all: long ones are refused more often.
+inline constexpr double kTreeRange = 0.5;
+
 /// Whether an edge may be at all, whatever its states are.
 using EdgeRule = std::function<bool(const Eigen::VectorXd& from, const Eigen::VectorXd& to)>;
 

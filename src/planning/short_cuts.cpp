@@ -94,4 +94,9 @@ std::vector<Eigen::VectorXd> cutShort(std::vector<Eigen::VectorXd> waypoints, Pl
   return ShortCuts(std::move(waypoints), run).cut();
 }
 
+std::vector<Eigen::VectorXd> shortened(std::vector<Eigen::VectorXd> waypoints, PlanningRun& run) {
+  run.beginShortening();
+  return pulledTaut(cutShort(std::move(waypoints), run), run);
+}
+
 }  // namespace fcl_prob::detail

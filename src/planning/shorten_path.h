@@ -19,4 +19,7 @@ std::vector<Eigen::VectorXd> cutShort(std::vector<Eigen::VectorXd> waypoints, Pl
 /// in its way.
 std::vector<Eigen::VectorXd> pulledTaut(std::vector<Eigen::VectorXd> waypoints, PlanningRun& run);
 
+/// Both, the run being told that a path is there.
+std::vector<Eigen::VectorXd> shortened(std::vector<Eigen::VectorXd> waypoints, PlanningRun& run);
+
 }  // namespace fcl_prob::detail

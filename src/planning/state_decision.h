@@ -13,8 +13,11 @@ namespace fcl_prob::detail {
 /// One query, which must outlive it, and errors of its robot.
 class StateDecision {
  public:
+  /// \throws as RobotQuery::state() for the errors
   StateDecision(const RobotQuery& query, const RobotErrors& errors)
-      : query_(query), errors_(errors), screen_(query.among()) {}
+      : query_(query), errors_(errors), screen_(query.among()) {
+    if (!errors.none()) covariance_ = validCovariance(query.among(), errors);
+  }
 
   /// \param request  with a threshold
   bool isBelow(const Eigen::VectorXd& values, const ProbabilityRequest& request) const {
@@ -34,12 +37,12 @@ class StateDecision {
 
  private:
   double upper(const Eigen::VectorXd& values, double enough) const {
-    const Eigen::MatrixXd covariance = validCovariance(query_.among(), values, errors_);
-    return upperWithErrors(query_.among(), values, covariance, errors_.base, enough);
+    return upperWithErrors(query_.among(), values, covariance_, errors_.base, enough);
   }
 
   const RobotQuery& query_;
   const RobotErrors& errors_;
+  Eigen::MatrixXd covariance_;  ///< of the joints, with errors
   StateScreen screen_;
 };
 

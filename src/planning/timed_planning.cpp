@@ -55,7 +55,8 @@ TimedPlanningRequest validated(TimedPlanningRequest request) {
 double endOf(const RobotQuery& query) {
   double end = detail::kInfinity;
   for (const Obstacle& obstacle : query.obstacles()) {
-    if (detail::isPredicted(obstacle)) end = std::min(end, *obstacle.over_time.back().time);
+    if (detail::isPredicted(obstacle.over_time))
+      end = std::min(end, *obstacle.over_time.back().time);
   }
   return end;
 }
@@ -65,7 +66,7 @@ double latestOf(const RobotQuery& query, const TimedPlanningRequest& request) {
   std::optional<double> latest = request.latest;
   for (const Obstacle& obstacle : query.obstacles()) {
     if (obstacle.over_time.empty()) continue;
-    if (!detail::isPredicted(obstacle)) {
+    if (!detail::isPredicted(obstacle.over_time)) {
       throw InvalidRequest("obstacle " + obstacle.name +
                            " has states without times: a plan in time needs those of a prediction");
     }
@@ -118,7 +119,7 @@ class TimedPlanner {
     if (goals.empty()) return run_.stopped().value_or(PlanningStatus::goal_refused);
     connect(goals);
     if (path_.empty()) return run_.stopped().value_or(PlanningStatus::state_limit);
-    if (request_.planning.shorten) shorten();
+    if (request_.planning.shorten) path_ = detail::shortened(std::move(path_), run_);
     plan.shortened = request_.planning.shorten && !run_.isStopped();
     if (request_.hold > 0.0) path_.push_back(heldFrom(path_.back()));
     tell(plan);
@@ -181,18 +182,13 @@ class TimedPlanner {
     }
   }
 
-  void shorten() {
-    run_.beginShortening();
-    path_ = detail::pulledTaut(detail::cutShort(std::move(path_), run_), run_);
-  }
-
   void tell(TimedPlan& plan) const {
+    std::vector<Eigen::VectorXd> values_of;
     for (const Eigen::VectorXd& state : path_) {
-      plan.waypoints.push_back({states_.timeOf(state), detail::TimedStates::valuesOf(state)});
-      if (plan.waypoints.size() > 1) {
-        plan.length += (plan.waypoints.back().values - plan.waypoints.rbegin()[1].values).norm();
-      }
+      values_of.push_back(detail::TimedStates::valuesOf(state));
+      plan.waypoints.push_back({states_.timeOf(state), values_of.back()});
     }
+    plan.length = jointLength(values_of);
     plan.arrival = plan.waypoints.back().time - request_.hold;
     detail::LargestOfStates largest;
     for (const Eigen::VectorXd& state : interpolated(path_, request_.planning.largest_step)) {

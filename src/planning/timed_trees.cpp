@@ -11,10 +11,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// How far trees grow at once, in joint space and the unit of time. An edge is taken whole or not
-/// at all: long ones are refused more often.
-constexpr double kRange = 0.5;
-
 /// Samples, one after the other, that no state is asked for: joints are too slow for all of them.
 constexpr int kMostSamplesInVain = 10'000;
 
@@ -90,8 +86,8 @@ int TimedTrees::nearest(const Tree& tree, const Eigen::VectorXd& to) const {
 TimedTrees::Growth TimedTrees::extend(Tree& tree, int from, const Eigen::VectorXd& to) {
   const Eigen::VectorXd state = tree.nodes[static_cast<std::size_t>(from)].state;
   const double distance = (to - state).norm();
-  const bool is_near = distance <= kRange;
-  const Eigen::VectorXd next = is_near ? to : (state + kRange / distance * (to - state)).eval();
+  const bool is_near = distance <= kTreeRange;
+  const Eigen::VectorXd next = is_near ? to : (state + kTreeRange / distance * (to - state)).eval();
   if (!(tree.forward ? run_.isMotionAllowed(state, next)
                      : run_.isAllowed(next) && run_.isMotionAllowed(next, state))) {
     return Growth::none;

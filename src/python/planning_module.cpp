@@ -76,14 +76,23 @@ class PlanKeywords {
   py::dict left_;
 };
 
-SelfCollision selfOf(const RobotQuery& query, const std::shared_ptr<SelfCollision>& given) {
-  return given ? *given : SelfCollision(query.robot());
-}
+/// Where plans begin and end, as Python gives it.
+struct Ends {
+  const py::object& start;
+  const py::object& goal;
+  const std::shared_ptr<SelfCollision>& self_collision;
+};
 
 /// Runs a plan without the GIL; on_progress has the states asked for so far, seconds, and whether a
 /// path is being shortened.
 template <class Plan, class Request>
-Plan planned(Request request, Question question, const std::function<Plan(const Request&)>& plan) {
+Plan planned(const RobotQuery& query, const Ends& ends, Request request, Question question,
+             Plan (*plan)(const RobotQuery&, const SelfCollision&, const Eigen::VectorXd&,
+                          const Eigen::VectorXd&, const Request&)) {
+  const Eigen::VectorXd from = jointValues(query.robot(), ends.start, "start");
+  const Eigen::VectorXd to = jointValues(query.robot(), ends.goal, "goal");
+  const SelfCollision self =
+      ends.self_collision ? *ends.self_collision : SelfCollision(query.robot());
   Interruption interruption(std::move(question.on_progress));
   request.state = std::move(question.request);
   request.planning.on_progress = [&](const PlanningProgress& now) {
@@ -93,7 +102,7 @@ Plan planned(Request request, Question question, const std::function<Plan(const 
   std::optional<Plan> result;
   {
     const py::gil_scoped_release released;
-    result = plan(request);
+    result = plan(query, self, from, to, request);
   }
   interruption.raise([&] { return py::cast(*result); });
   return std::move(*result);
@@ -116,12 +125,8 @@ CertifiedPlan plan(const RobotQuery& query, const py::object& start, const py::o
   given.take("descend", request.descend);
   request.errors = errorsOf(query, given);
   request.planning = given.planning();
-  const Eigen::VectorXd from = jointValues(query.robot(), start, "start");
-  const Eigen::VectorXd to = jointValues(query.robot(), goal, "goal");
-  const SelfCollision self = selfOf(query, self_collision);
-  return planned<CertifiedPlan, CertifiedPlanningRequest>(
-      std::move(request), given.states(threshold),
-      [&](const CertifiedPlanningRequest& of) { return planCertified(query, self, from, to, of); });
+  return planned(query, {start, goal, self_collision}, std::move(request), given.states(threshold),
+                 &planCertified);
 }
 
 TimedPlan planTimed(const RobotQuery& query, const py::object& start, const py::object& goal,
@@ -137,12 +142,8 @@ TimedPlan planTimed(const RobotQuery& query, const py::object& start, const py::
   given.take("velocity_scale", request.velocity_scale);
   request.errors = errorsOf(query, given);
   request.planning = given.planning();
-  const Eigen::VectorXd from = jointValues(query.robot(), start, "start");
-  const Eigen::VectorXd to = jointValues(query.robot(), goal, "goal");
-  const SelfCollision self = selfOf(query, self_collision);
-  return planned<TimedPlan, TimedPlanningRequest>(
-      std::move(request), given.states(threshold),
-      [&](const TimedPlanningRequest& of) { return planInTime(query, self, from, to, of); });
+  return planned(query, {start, goal, self_collision}, std::move(request), given.states(threshold),
+                 &planInTime);
 }
 
 void bindPlans(py::module_& module) {

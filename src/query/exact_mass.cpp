@@ -40,7 +40,13 @@ class ExactMass {
         flat_(pair.a.rootBody().isPolytope() && pair.b.rootBody().isPolytope()) {}
 
   ProbabilityResult answer() {
-    if (request_.gradient) flat_ ? findFlatGradient() : findGradient();
+    if (request_.gradient) {
+      if (flat_) {
+        findFlatGradient();
+      } else {
+        findGradient();
+      }
+    }
     if (!isSettled()) {
       narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
     }
@@ -79,8 +85,7 @@ class ExactMass {
 
   /// Whether what is known spares the bodies as they are enclosed elsewhere.
   bool isSettled() const {
-    if (flat_) return false;
-    return gradient_ && status() != ProbabilityStatus::resolution_limit;
+    return !flat_ && gradient_ && status() != ProbabilityStatus::resolution_limit;
   }
 
   void findFlatGradient() {

@@ -3,7 +3,6 @@
 #include "robot/decide_with_errors.h"
 
 #include "base/until_no.h"
-#include "fcl_prob/exceptions.h"
 #include "robot/interval_with_errors.h"
 #include "robot/many_states.h"
 #include "robot/state_with_errors.h"
@@ -23,14 +22,7 @@ std::vector<ProbableDecision> decideWithErrors(const RobotQuery& query,
                                                const RobotErrors& errors,
                                                const ProbabilityRequest& request,
                                                std::optional<double> chance_of_error) {
-  if (!request.threshold) throw InvalidRequest("states are decided against a threshold");
-  validateRequest(request);
-  for (Eigen::Index i = 0; i < states.cols(); ++i) {
-    query.robot().requireWithinLimits(states.col(i));
-  }
-  if (chance_of_error) requireChance(*chance_of_error);
-  if (states.cols() == 0) return {};
-  const Eigen::MatrixXd covariance = validCovariance(query.among(), states.col(0), errors);
+  const Eigen::MatrixXd covariance = validCovariance(query.among(), errors);
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
     const double threshold = *of_one.threshold;
     if (upperWithErrors(query.among(), values, covariance, errors.base, threshold) < threshold) {

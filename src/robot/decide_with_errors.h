@@ -10,7 +10,7 @@
 
 namespace fcl_prob::detail {
 
-/// As RobotQuery::decideStates(). \param errors  some
+/// As RobotQuery::decideStates(), which has validated all but the errors. \param errors  some
 std::vector<ProbableDecision> decideWithErrors(const RobotQuery& query,
                                                const Eigen::MatrixXd& states,
                                                const RobotErrors& errors,

@@ -38,32 +38,30 @@ constexpr double kWidest = 2.0;
 /// Of what is multiplied by the chance that errors are as expected.
 constexpr double kRoundedChance = 1e-8;
 
+/// Around the bodies, each in its own frame, wherever errors put them.
+std::vector<Ball> ballsWith(const LinearErrors& errors, std::vector<Ball> balls) {
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    balls[i].radius += errors.farthest(i, balls[i].radius);
+  }
+  return balls;
+}
+
 class IntervalWithErrors {
  public:
   IntervalWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values)
       : among_(among), poses_(among.robot().poses(values)) {}
 
-  /// By no more than this are points of the bodies where they are not expected, metres, by body.
-  std::vector<double> reaches(const LinearErrors& errors) const {
-    std::vector<double> reaches;
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      reaches.push_back(errors.farthest(i, among_.balls()[i].radius));
-    }
-    return reaches;
-  }
-
-  /// Of P that any body touches an obstacle, while no point is farther off than that.
+  /// Of P that any body touches an obstacle, while errors are within what is told of them.
   /// \param largest  the widest band of all that was asked for
-  Bounds ofObstacle(std::size_t index, const std::vector<double>& reaches,
+  Bounds ofObstacle(std::size_t index, const LinearErrors& errors,
                     const ProbabilityRequest& request, double& largest,
                     ProbabilityStatistics& spent) const {
     const Obstacle& obstacle = among_.obstacles()[index];
     const PreparedObstacle& prepared = among_.preparedObstacle(index);
     const ObstacleState state = stateAt(obstacle, 0);
-    std::vector<Ball> balls = among_.balls();
-    for (std::size_t i = 0; i < balls.size(); ++i) balls[i].radius += reaches[i];
     std::vector<PlacedBody> bodies = among_.placed(index, poses_);
-    const double far = leaveOutFar(balls, prepared.around(), state, mostFarOf(request), bodies);
+    const double far = leaveOutFar(ballsWith(errors, among_.balls()), prepared.around(), state,
+                                   mostFarOf(request), bodies);
     if (bodies.empty()) return {0.0, far};
     PreparedGeometries geometries;
     std::vector<fcl::Transform3d> poses;
@@ -71,7 +69,7 @@ class IntervalWithErrors {
     for (const PlacedBody& body : bodies) {
       geometries.push_back(among_.geometries()[body.body]);
       poses.push_back(body.pose);
-      width = std::max(width, reaches[body.body]);
+      width = std::max(width, errors.farthest(body.body, among_.balls()[body.body].radius));
     }
     largest = std::max(largest, width);
     const auto& displacement = std::get<GaussianDisplacement>(state.displacement);
@@ -98,10 +96,7 @@ double upperWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& 
   const double chance = kShareBeyond * (enough > kTiny ? std::min(enough, kSmall) : kSmall);
   const LinearErrors errors(among.robot(), among.balls(), values, covariance, base, chance);
   const std::vector<fcl::Transform3d> poses = among.robot().poses(values);
-  std::vector<Ball> balls = among.balls();
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    balls[i].radius += errors.farthest(i, balls[i].radius);
-  }
+  const std::vector<Ball> balls = ballsWith(errors, among.balls());
   double upper = errors.chance();
   for (std::size_t j = 0; j < among.obstacles().size() && upper < enough; ++j) {
     const PreparedObstacle& prepared = among.preparedObstacle(j);
@@ -141,7 +136,6 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
   for (const double chance : kBeyondBands) {
     if (result.status != ProbabilityStatus::resolution_limit) break;
     const LinearErrors errors(among.robot(), among.balls(), values, covariance, base, chance);
-    const std::vector<double> reaches = parts.reaches(errors);
     std::vector<Bounds> events;
     double width = 0.0;
     for (std::size_t i = 0; i < among.obstacles().size(); ++i, --left) {
@@ -150,7 +144,7 @@ ProbabilityResult intervalWithErrors(const RobotAmongObstacles& among,
       if (request.on_progress) part.on_progress = tell;
       budget.share(left, part);
       ProbabilityStatistics spent;
-      events.push_back(parts.ofObstacle(i, reaches, part, width, spent));
+      events.push_back(parts.ofObstacle(i, errors, part, width, spent));
       budget.spend(spent);
       addStatistics(spent, result.statistics);
     }

@@ -56,8 +56,15 @@ ObstacleState between(const ObstacleState& first, const ObstacleState& next, dou
 
 }  // namespace
 
-bool isPredicted(const Obstacle& obstacle) {
-  return !obstacle.over_time.empty() && obstacle.over_time[0].time.has_value();
+bool isPredicted(const std::vector<ObstacleState>& over_time) {
+  return !over_time.empty() && over_time[0].time.has_value();
+}
+
+Obstacle standing(Obstacle obstacle, const ObstacleState& state) {
+  obstacle.pose = state.pose;
+  obstacle.displacement = state.displacement;
+  obstacle.over_time.clear();
+  return obstacle;
 }
 
 void requireTimes(const Obstacle& obstacle) {
@@ -65,7 +72,7 @@ void requireTimes(const Obstacle& obstacle) {
     throw InvalidRequest("obstacle " + obstacle.name + ": over_time: state " + std::to_string(i) +
                          " " + fault);
   };
-  const bool predicted = isPredicted(obstacle);
+  const bool predicted = isPredicted(obstacle.over_time);
   for (std::size_t i = 0; i < obstacle.over_time.size(); ++i) {
     const std::optional<double>& time = obstacle.over_time[i].time;
     if (time.has_value() != predicted) fail(i, predicted ? "has no time" : "has a time");
@@ -100,7 +107,7 @@ ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint) {
 
 void requireStates(const Obstacle& obstacle, std::size_t waypoints) {
   if (obstacle.over_time.empty() || obstacle.over_time.size() == waypoints) return;
-  if (isPredicted(obstacle)) {
+  if (isPredicted(obstacle.over_time)) {
     throw InvalidRequest("obstacle " + obstacle.name +
                          " is predicted over time: ask RobotQuery::at() for a time first");
   }

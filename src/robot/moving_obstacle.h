@@ -14,8 +14,11 @@ namespace fcl_prob::detail {
 /// The obstacle as it is at a waypoint.
 ObstacleState stateAt(const Obstacle& obstacle, std::size_t waypoint);
 
-/// Whether its states have times.
-bool isPredicted(const Obstacle& obstacle);
+/// Whether the states of an obstacle have times.
+bool isPredicted(const std::vector<ObstacleState>& over_time);
+
+/// The obstacle where it is in one of its states, as one that stays.
+Obstacle standing(Obstacle obstacle, const ObstacleState& state);
 
 /// \throws InvalidRequest unless all of its states have times, each later than the one before, or
 ///         none has

@@ -369,11 +369,8 @@ RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
 RobotQuery RobotQuery::at(double time) const {
   std::vector<Obstacle> obstacles = implementation_->among.obstacles();
   for (Obstacle& obstacle : obstacles) {
-    if (!detail::isPredicted(obstacle)) continue;
-    const ObstacleState state = detail::predictedAt(obstacle, time);
-    obstacle.pose = state.pose;
-    obstacle.displacement = state.displacement;
-    obstacle.over_time.clear();
+    if (!detail::isPredicted(obstacle.over_time)) continue;
+    obstacle = detail::standing(obstacle, detail::predictedAt(obstacle, time));
   }
   return withObstacles(std::move(obstacles));
 }
@@ -445,11 +442,20 @@ ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& wa
 std::vector<ProbableDecision> RobotQuery::decideStates(
     const Eigen::MatrixXd& states, const ProbabilityRequest& request,
     std::optional<double> chance_of_error) const {
+  return decideStates(states, RobotErrors(), request, chance_of_error);
+}
+
+std::vector<ProbableDecision> RobotQuery::decideStates(
+    const Eigen::MatrixXd& states, const RobotErrors& errors, const ProbabilityRequest& request,
+    std::optional<double> chance_of_error) const {
   if (!request.threshold) throw InvalidRequest("states are decided against a threshold");
   implementation_->validate(request);
   for (Eigen::Index i = 0; i < states.cols(); ++i) robot().requireWithinLimits(states.col(i));
   for (const Obstacle& obstacle : obstacles()) detail::requireStates(obstacle, 1);
   if (chance_of_error) detail::requireChance(*chance_of_error);
+  if (!errors.none()) {
+    return detail::decideWithErrors(*this, states, errors, request, chance_of_error);
+  }
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
     if (!chance_of_error) {
       return certainly(implementation_->ofUnion({values}, -1, of_one)).decision;
@@ -459,13 +465,6 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
         .decision;
   };
   return detail::manyStates(states, detail::ofOneCall(request), decide);
-}
-
-std::vector<ProbableDecision> RobotQuery::decideStates(
-    const Eigen::MatrixXd& states, const RobotErrors& errors, const ProbabilityRequest& request,
-    std::optional<double> chance_of_error) const {
-  if (errors.none()) return decideStates(states, request, chance_of_error);
-  return detail::decideWithErrors(*this, states, errors, request, chance_of_error);
 }
 
 JointGradient RobotQuery::gradient(const std::vector<Eigen::VectorXd>& waypoints,

@@ -122,10 +122,6 @@ BetweenWaypoints readBetween(StrictObject& root) {
   return BetweenWaypoints::swept;
 }
 
-bool isPredicted(const RobotScene::PlacedObstacle& obstacle) {
-  return !obstacle.over_time.empty() && obstacle.over_time[0].time.has_value();
-}
-
 /// Times of the waypoints, and of those between them.
 std::vector<double> timesOf(const RobotScene& scene, const std::string& obstacle,
                             const std::vector<detail::WaypointStep>& steps) {
@@ -203,7 +199,10 @@ RobotScene loadRobotScene(const std::string& path) {
   }
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     const std::size_t states = obstacle.over_time.size();
-    if (states == 0 || states == scene.waypoints.size() || isPredicted(obstacle)) continue;
+    if (states == 0 || states == scene.waypoints.size() ||
+        detail::isPredicted(obstacle.over_time)) {
+      continue;
+    }
     root.fail("obstacles", obstacle.name + " has " + std::to_string(states) +
                                " states over time, " + "for " +
                                std::to_string(scene.waypoints.size()) + " waypoints");
@@ -240,14 +239,14 @@ SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot) {
 
 bool isPredicted(const RobotScene& scene) {
   return std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
-                     [](const auto& obstacle) { return isPredicted(obstacle); });
+                     [](const auto& obstacle) { return detail::isPredicted(obstacle.over_time); });
 }
 
 RobotQuery loadRobotQuery(const RobotScene& scene) {
   const Robot robot = loadRobot(scene);
   std::vector<Obstacle> obstacles;
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
-    if (isPredicted(obstacle)) {
+    if (detail::isPredicted(obstacle.over_time)) {
       obstacles.push_back(loadPredicted(scene, robot, obstacle));
       continue;
     }

@@ -84,13 +84,14 @@ Eigen::MatrixXd covarianceOf(const RobotErrors& errors, Eigen::Index joints) {
 
 }  // namespace
 
-Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
-                                const RobotErrors& errors) {
+Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const RobotErrors& errors) {
   requireStaying(among.obstacles(), "errors of a robot are");
   for (const Obstacle& obstacle : among.obstacles()) gaussianOf(obstacle);
-  const Eigen::MatrixXd covariance = covarianceOf(errors, values.size());
+  const auto joints = static_cast<Eigen::Index>(among.robot().joints().size());
+  const Eigen::MatrixXd covariance = covarianceOf(errors, joints);
   const auto nowhere = [](const Eigen::VectorXd&) { return std::vector<fcl::Transform3d>(); };
-  const RandomJoints validated(values, covariance, nowhere, {}, GaussianDisplacement());
+  const RandomJoints validated(Eigen::VectorXd::Zero(joints), covariance, nowhere, {},
+                               GaussianDisplacement());
   return covariance;
 }
 

@@ -7,12 +7,11 @@
 
 namespace fcl_prob::detail {
 
-/// \throws as RobotQuery::state() with errors
 /// The covariance of all joints. \throws as RobotQuery::state() with errors, but for contact that
 /// is allowed with some obstacles only
-Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
-                                const RobotErrors& errors);
+Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const RobotErrors& errors);
 
+/// \throws as RobotQuery::state() with errors
 ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
                                   const RobotErrors& errors, const ProbabilityRequest& request);
 
