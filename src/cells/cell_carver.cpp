@@ -2,15 +2,16 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cells/cell_carver.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/constants.h"
-#include "fcl_prob/normal_mass.h"
+#include "cells/cell_split.h"
 
 namespace fcl_prob::detail {
 namespace {
+
+// The constants only steer; no bound depends on them.
 
 // Boxes wider than this are halved before obstacles are looked at one by one: their lists are what
 // takes time. A decision looks closely at few boxes, and was slower with more of them (bench
@@ -18,46 +19,33 @@ namespace {
 constexpr double kWidestBox = 1.0;
 constexpr double kWidestBoxOfDecision = 1.5;
 
-// Accuracy of the masses of cells that stay open, and of those settled: that as a share of the
-// tolerance.
-constexpr double kOpenMassAccuracy = 0.03;
-constexpr double kSettledShareOfCarving = 0.01;
-constexpr double kDecisionAccuracy = 1e-4;
-constexpr double kBestAccuracy = 1e-6;
-constexpr double kWorstAccuracy = 1e-3;
+// The accuracy of a part that stays in an open cell, as a share of the cell's gap, and the worst.
+constexpr double kInnerShare = 0.1;
+constexpr double kInnerAccuracy = 0.02;
 
-// How much may be wrong in one of the tetrahedra of a cell, as a share of all that is settled.
-constexpr double kSettledFloor = 1e-4;
+// Cutting stops when no more than this share of a cell's gap is left around its best obstacle.
+constexpr double kLazyShare = 0.02;
 
-// A layer of a smaller share than this of the accuracy is not looked at closely.
-constexpr double kLittleShare = 0.1;
-constexpr double kLayerAccuracy = 0.3;
+// Obstacles that are tried as the best one of a cell.
+constexpr int kMostCandidates = 6;
 
-// Not less than the largest density in a body over the least.
-double unevennessOf(const CellPolytope& body) {
-  const double far = body.nearest() + body.diameter();
-  return std::exp(0.5 * (far * far - body.nearest() * body.nearest()));
-}
+// What is in hulls and in none of their cores is looked at as long as there are no more cells:
+// where the pieces of what is between are many, boxes of triangles come to an end sooner.
+constexpr std::size_t kMostCellsOfPieces = 100'000;
 
-// Bound on the mass of what is within the rim of a cell, of which a ball is known. What is deeper
-// holds the cell shrunk about the ball's middle by the share rim / radius.
-double rimMass(const CarvedCell& cell, double radius) {
-  if (cell.rim == 0.0) return 0.0;
-  if (!(cell.rim < radius)) return cell.mass.upper;
-  return std::min(1.0, 3 * cell.rim / radius * unevennessOf(cell.body)) * cell.mass.upper;
-}
+// Less of a cell than this along a plane's normal is not worth cutting off.
+constexpr double kLeastTrimmed = 0.3;
 
-double settledAccuracy(const ProbabilityRequest& request) {
-  if (request.threshold) return kDecisionAccuracy;
-  return std::clamp(kSettledShareOfCarving * request.relative_tolerance, kBestAccuracy,
-                    kWorstAccuracy);
-}
+// A plane over which a cell sticks out by no more is not cut.
+constexpr double kTouching = 2 * CellPolytope::kSnap;
 
-bool isBeyond(const CarvedLayer* layers, const Eigen::Vector3d& point) {
-  for (; layers; layers = layers->before.get()) {
-    if (!(layers->n.dot(point) > layers->outer + CellPolytope::kCutLayer)) return false;
-  }
-  return true;
+// For what is cut from a cell, or for all of it.
+CarvedCell partOf(const CarvedCell& cell, const std::shared_ptr<ObstacleList>& list) {
+  CarvedCell part;
+  part.list = list;
+  part.layers = cell.layers;
+  part.rim = cell.rim;
+  return part;
 }
 
 }  // namespace
@@ -66,19 +54,17 @@ CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
                        const ProbabilityRequest& request, std::atomic<std::size_t>& list_memory,
                        ProbabilityStatistics& statistics)
     : obstacles_(obstacles),
-      solids_(solids),
       request_(request),
       list_memory_(list_memory),
       statistics_(statistics),
-      accuracy_(settledAccuracy(request)),
-      face_lo_(static_cast<std::size_t>(obstacles.faceCount())),
-      face_hi_(static_cast<std::size_t>(obstacles.faceCount())),
-      face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
+      lister_(obstacles, statistics),
+      chooser_(obstacles),
+      settler_(solids, request) {}
 
 void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into) {
-  so_far_ = so_far;
+  cells_so_far_ = so_far.cells;
   carving_ = &into;
-  failed_ = false;
+  settler_.begin(so_far.certain, into);
   ++statistics_.cells;
   if (cell.box && isTooLarge(*cell.box)) {
     divideBox(std::move(cell));
@@ -89,6 +75,28 @@ void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& i
 
 bool CellCarver::isTooLarge(const Cell& box) const {
   return (box.hi - box.lo).maxCoeff() > (request_.threshold ? kWidestBoxOfDecision : kWidestBox);
+}
+
+void CellCarver::divideBox(CarvedCell&& cell) {
+  const CellSplit at = chooseSplit(*cell.box, Eigen::Vector3d::Ones());
+  for (const bool upper : {false, true}) {
+    CarvedCell half;
+    half.box = cell.box;
+    (upper ? half.box->lo : half.box->hi)[at.axis] = at.at;
+    half.mass = cellMass(*half.box);
+    const std::vector<FatNode>& nodes = lister_.nodesIn(*half.box, *cell.nodes);
+    if (!nodes.empty() && !lister_.isCovered(*half.box)) {
+      half.nodes = std::make_shared<const std::vector<FatNode>>(nodes);
+      push(std::move(half));
+      continue;
+    }
+    half.body = CellPolytope(*half.box);
+    if (nodes.empty()) {
+      settler_.settleFree(half);
+    } else {
+      settler_.settleCovered("one fat pair", half);
+    }
+  }
 }
 
 // Its memory is counted as long as cells refer to it.
@@ -106,104 +114,252 @@ void CellCarver::resolve(CarvedCell&& cell) {
   if (cell.box) cell.body = CellPolytope(*cell.box);
   found_.entries.clear();
   found_.planes.clear();
-  const Relation relation = examine(cell, found_);
+  const Relation relation = lister_.list(cell, found_);
   statistics_.peak_front = std::max(statistics_.peak_front, found_.entries.size());
-  if (failed_) return;  // so has the engine
-  if (relation == Relation::covered) {
-    claim("one fat pair", true, cell.body);
-    return settle(cell.box ? cell.mass : settledMass(cell.body));
-  }
-  if (relation == Relation::free) return settleFree(cell);
+  if (lister_.failed()) return;  // so has the engine
+  if (relation == Relation::covered) return settler_.settleCovered("one fat pair", cell);
+  if (relation == Relation::free) return settler_.settleFree(cell);
   if (!cell.box) trim(cell, found_);
   if (cell.body.empty()) return;
   carve(cell, copied(found_));
 }
 
-void CellCarver::settle(const Bounds& mass) {
-  carving_->settled.lower += mass.lower;
-  carving_->settled.upper += mass.upper;
-}
-
-// Of a few points, as cells of next to no size: near the vertices the claim is boldest. A body that
-// is hardly thicker than those cells is left out, by what its faces tell to 1e-8.
-void CellCarver::claim(const char* method, bool collides, const CellPolytope& body,
-                       const CarvedLayer* layers, double rim) const {
-  if (!observer_) return;
-  constexpr double kNearVertex = 0.99;
-  constexpr double kHalf = 1e-11;
-  const Eigen::Vector3d middle = body.middle();
-  if (!((1.0 - kNearVertex) * body.depth(middle) > 1e3 * kHalf + rim)) return;
-  for (const Eigen::Vector3d& v : body.vertices()) {
-    const Eigen::Vector3d point = middle + kNearVertex * (v - middle);
-    if (!isBeyond(layers, point)) continue;
-    observer_->claim({method, collides, {point.array() - kHalf, point.array() + kHalf, 3}, {}});
+// The part of a body within all planes of an obstacle. Those first that cut off the most: others
+// then cut nothing.
+bool CellCarver::clip(const CellPolytope& body, const List& list, std::size_t entry,
+                      CellPolytope& inside) {
+  const FatObstacles::Planes planes = obstacles_.planesOf(list.entries[entry].obstacle);
+  depths_.clear();
+  for (std::size_t p = list.entries[entry].first; p < list.entries[entry].last; ++p) {
+    const ObstaclePlane plane = planes[list.planes[p]];
+    const CellPolytope::Extent extent = body.along(plane.n);
+    const double depth = plane.inner() - extent.lo;
+    if (depth < -CellPolytope::kSnap) return false;
+    depths_.emplace_back(depth, list.planes[p]);
   }
-}
-
-// No surfaces meet anywhere in the cell but in its layers and near its surface. What is beyond all
-// of them is convex: one point of it tells whether the solids overlap.
-void CellCarver::settleFree(const CarvedCell& cell) {
-  if (!solids_ || !solids_->possible(cell.body.box())) {
-    return claim("no fat pair", false, cell.body, nullptr, cell.rim);
+  std::sort(depths_.begin(), depths_.end());
+  inside = body;
+  for (const auto& [unused, index] : depths_) {
+    const ObstaclePlane plane = planes[index];
+    cutter_.cut(inside, plane.n, plane.inner(), &inside, nullptr);
+    if (inside.empty()) return false;
   }
-  const auto [middle, radius] =
-      cell.rim > 0.0 ? cell.body.ballWithin() : CellPolytope::Ball{cell.body.middle(), kInfinity};
-  const double rim_mass = rimMass(cell, radius);
-  const bool tells = cell.rim < radius && isBeyond(cell.layers.get(), middle);
-  switch (tells ? solids_->at(middle) : Containment::unknown) {
-    case Containment::inside:
-      return settleContained(cell, rim_mass);
-    case Containment::outside:
-      carving_->settled.upper += rim_mass;
-      return claim("no containment", false, cell.body, nullptr, cell.rim);
-    case Containment::unknown:
-      carving_->settled.upper += cell.mass.upper;
+  return true;
+}
+
+// What lies behind one plane of an obstacle is often not reached by the others but next to it.
+void CellCarver::trim(CarvedCell& cell, const List& list) {
+  const Eigen::Vector3d& n = cell.behind;
+  if (n.isZero()) return;
+  supports_.assign(static_cast<std::size_t>(obstacles_.memberCount()), std::nan(""));
+  double top = -kInfinity;
+  for (const List::Entry& entry : list.entries) {
+    const auto& [member, piece] = entry.obstacle;
+    const FatObstacles& body = obstacles_.of(member);
+    double& support = supports_[member];
+    if (std::isnan(support)) support = body.support(n) + body.padding(n);
+    top = std::max(top, support + body.extent(piece, n));
   }
+  const CellPolytope::Extent extent = cell.body.along(n);
+  if (!(extent.hi - top > kLeastTrimmed * (extent.hi - extent.lo))) return;
+  settler_.allowSlivers(cell.body, 1);
+  CarvedCell beyond = partOf(cell, nullptr);
+  cutter_.cut(cell.body, n, top + 2 * CellPolytope::kCutLayer, &cell.body, &beyond.body);
+  if (beyond.body.empty()) return;
+  beyond.mass = cell.mass;
+  if (settler_.hasSolids()) beyond.mass = CellSettler::openMass(beyond.body, cell.mass.upper);
+  settler_.settleFree(beyond);
+  if (!cell.body.empty()) cell.mass = CellSettler::openMass(cell.body, cell.mass.upper);
 }
 
-// Nothing is said of its layers and its rim.
-void CellCarver::settleContained(const CarvedCell& cell, double rim_mass) {
-  claim("containment", true, cell.body, cell.layers.get(), cell.rim);
-  Bounds mass = cell.box ? cell.mass : settledMass(cell.body);
-  mass.lower -= rim_mass;
-  for (const CarvedLayer* layer = cell.layers.get(); layer; layer = layer->before.get()) {
-    mass.lower -= layer->mass;
+void CellCarver::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
+  CellPolytope inside;
+  for (int tried = 0; tried < kMostCandidates; ++tried) {
+    // Pieces within hulls end in few places of the cell, hulls in many: nothing is cut along hulls.
+    if (mayOpenHulls(*list)) {
+      CarvedCell open = partOf(cell, list);
+      open.mass = {0.0, cell.mass.upper};
+      open.body = std::move(cell.body);
+      open.opens_hulls = true;
+      return push(std::move(open));
+    }
+    const std::size_t best = chooser_.best(cell.body, *list);
+    if (clip(cell.body, *list, best, inside)) {
+      carveBy(cell, list, best, inside);
+      return;
+    }
+    dropEntry(cell, *list, best);
+    if (list->entries.empty()) return settler_.settleFree(cell);
   }
-  settle({std::max(0.0, mass.lower), mass.upper});
+  split(cell, list);
 }
 
-// What lies behind the inner plane and in front of the outer one may belong to the obstacle. Of the
-// volume of a convex body that reaches a height T above a plane no larger share lies below a height
-// m than of that of a cone, 3 m / T. Where that is not little, the layer's own mass is taken.
-double CellCarver::allowLayer(const CarvedCell& outside, const ObstaclePlane& plane) {
-  const CellPolytope& body = outside.body;
-  if (observer_) observer_->excuse(body.box(), plane.n, plane.inner(), plane.outer);
-  const double height = body.along(plane.n).hi - plane.inner();
-  const double share = height > 0.0 ? 3 * plane.margin / height * unevennessOf(body) : 1.0;
-  double mass = share * outside.mass.upper;
-  if (share > kLittleShare * accuracy_) {
-    cutter_.cut(body, plane.n, plane.outer, &layer_, nullptr);
-    mass = layer_.mass({kLayerAccuracy, 0.0}).upper;
+// Whether anything of a body is within all outer planes of an obstacle. None of them need be beyond
+// the body, as one has to be for the lister to see that.
+bool CellCarver::mayMeet(const CellPolytope& body, const List& list, std::size_t entry) {
+  const auto& [obstacle, first, last] = list.entries[entry];
+  const FatObstacles::Planes planes = obstacles_.planesOf(obstacle);
+  settler_.allowSlivers(body, last - first);
+  CellPolytope rest = body;
+  for (std::size_t p = first; p < last; ++p) {
+    const ObstaclePlane plane = planes[list.planes[p]];
+    cutter_.cut(rest, plane.n, plane.outer + 2 * CellPolytope::kCutLayer, &rest, nullptr);
+    if (rest.empty()) return false;
   }
-  carving_->settled.upper += mass;
-  return mass;
+  return true;
 }
 
-Bounds CellCarver::settledMass(const CellPolytope& body) const {
-  return body.mass(
-      {accuracy_, kSettledFloor * accuracy_ * (so_far_.certain + carving_->settled.lower)});
+// An obstacle that does not meet a cell, or in no more than the layer between its inner and outer
+// planes.
+void CellCarver::dropEntry(CarvedCell& cell, List& list, std::size_t entry) {
+  if (!mayMeet(cell.body, list, entry)) {
+    list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
+    return;
+  }
+  CellPolytope rest = cell.body;
+  CarvedCell outside;
+  const FatObstacles::Planes planes = obstacles_.planesOf(list.entries[entry].obstacle);
+  for (std::size_t p = list.entries[entry].first; p < list.entries[entry].last; ++p) {
+    const ObstaclePlane plane = planes[list.planes[p]];
+    cutter_.cut(rest, plane.n, plane.inner(), &rest, &outside.body);
+    if (!outside.body.empty()) {
+      outside.mass = CellSettler::openMass(outside.body, cell.mass.upper);
+      settler_.allowLayer(outside, plane);
+    }
+    settler_.allowSlivers(cell.body, 1);
+    if (rest.empty()) break;
+  }
+  settler_.leaveUnknown(CellSettler::openMass(rest, cell.mass.upper).upper);  // of nothing
+  if (settler_.hasSolids()) cell.rim = std::max(cell.rim, rimOf(cell, list, entry));
+  list.entries.erase(list.entries.begin() + static_cast<std::ptrdiff_t>(entry));
 }
 
-// Of a cell cut from another one, of mass `parent`.
-Bounds CellCarver::openMass(const CellPolytope& body, double parent) const {
-  return body.mass({kOpenMassAccuracy, kOpenFloor * kOpenMassAccuracy * parent});
+// How far an obstacle V that is dropped reaches into a cell. Within its inner planes there is
+// nothing of the cell, so that some plane is between the two; and V is within what is between its
+// inner planes once that is stretched, about a point of it, by as much as the outer planes are
+// farther away.
+double CellCarver::rimOf(const CarvedCell& cell, const List& list, std::size_t entry) const {
+  const auto& [obstacle, first, last] = list.entries[entry];
+  const FatObstacles::Planes planes = obstacles_.planesOf(obstacle);
+  const Eigen::Vector3d within = obstacles_.of(obstacle.member).middle(obstacle.piece);
+  double stretched = 0.0;
+  for (std::size_t p = first; p < last; ++p) {
+    const ObstaclePlane plane = planes[list.planes[p]];
+    const double depth = plane.inner() - CellPolytope::kCutLayer - plane.n.dot(within);
+    if (!(depth > 0.0)) return kInfinity;
+    stretched = std::max(stretched, (plane.margin + 3 * CellPolytope::kCutLayer) / depth);
+  }
+  return stretched * (cell.body.middle() - within).norm() + CellPolytope::kCutLayer;
 }
 
-void CellCarver::allowSlivers(const CellPolytope& body, std::size_t cuts) {
-  const double size = body.diameter();
-  const double nearest = body.nearest();
-  carving_->slivers += static_cast<double>(cuts) * CellPolytope::kCutLayer * 4 * size * size *
-                       0.07 * std::exp(-0.5 * nearest * nearest);
+void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
+                         const CellPolytope& inside) {
+  // The better the more of the cell is known already.
+  const double accuracy =
+      std::clamp(kInnerShare * cell.gap() / cell.mass.upper, settler_.accuracy(), kInnerAccuracy);
+  const Bounds inner =
+      inside.mass({accuracy, CellSettler::kOpenFloor * accuracy * cell.mass.upper});
+  const List::Entry entry = list->entries[best];
+  const bool is_hull = obstacles_.encloses(entry.obstacle.member);
+  Rest rest{cell.body, {}, cell.mass.upper, entry.obstacle};
+  const FatObstacles::Planes planes = obstacles_.planesOf(entry.obstacle);
+  for (std::size_t p = entry.first; p < entry.last; ++p) {
+    rest.planes.push_back(planes[list->planes[p]]);
+  }
+  settler_.allowSlivers(cell.body, entry.last - entry.first);  // the same cuts in another order
+  const double enough = inner.lower + kLazyShare * (cell.mass.upper - inner.lower);
+  while (const auto plane = nextPlane(rest)) {
+    if (!is_hull && rest.mass <= enough && list->entries.size() > 1) {
+      CarvedCell kept = partOf(cell, list);
+      kept.mass = {0.0, std::max(rest.mass, inner.upper)};
+      kept.inner = inner.lower;
+      kept.inner_error = inner.width();
+      kept.body = std::move(rest.body);
+      return push(std::move(kept));
+    }
+    cutOff(cell, list, *plane, rest);
+  }
+  if (is_hull) {
+    settler_.leaveUnknown(inner.upper);
+    return;
+  }
+  settler_.settleInside(inside);
+}
+
+// Whether there are but hulls, and what is in them can be looked at instead.
+bool CellCarver::mayOpenHulls(const List& list) const {
+  if (cells_so_far_ >= kMostCellsOfPieces) return false;
+  return std::all_of(list.entries.begin(), list.entries.end(), [this](const List::Entry& entry) {
+    const int member = entry.obstacle.member;
+    return obstacles_.encloses(member) && !obstacles_.piecesWithin(member).empty();
+  });
+}
+
+// The plane that cuts off most, which is taken from the list; those that cut nothing are dropped.
+std::optional<ObstaclePlane> CellCarver::nextPlane(Rest& rest) {
+  std::vector<ObstaclePlane>& planes = rest.planes;
+  std::size_t next = 0;
+  double most = 0.0;
+  for (std::size_t p = 0; p < planes.size();) {
+    const CellPolytope::Extent extent = rest.body.along(planes[p].n);
+    const double excess = extent.hi - planes[p].inner();
+    if (excess <= kTouching) {
+      planes[p] = planes.back();
+      planes.pop_back();
+      continue;
+    }
+    const double share = excess / (extent.hi - extent.lo);
+    if (share > most) {
+      most = share;
+      next = p;
+    }
+    ++p;
+  }
+  if (!(most > 0.0)) return std::nullopt;
+  const ObstaclePlane plane = planes[next];
+  planes[next] = planes.back();
+  planes.pop_back();
+  return plane;
+}
+
+// What lies behind a plane of the obstacle becomes a cell of its own.
+void CellCarver::cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list,
+                        const ObstaclePlane& plane, Rest& rest) {
+  CarvedCell outside = partOf(cell, list);
+  cutter_.cut(rest.body, plane.n, plane.inner(), &rest.body, &outside.body);
+  settler_.allowSlivers(cell.body, 1);
+  if (outside.body.empty()) return;
+  outside.mass = CellSettler::openMass(outside.body, cell.mass.upper);
+  rest.mass -= outside.mass.lower;
+  const double layer = settler_.allowLayer(outside, plane);
+  outside.layers =
+      std::make_shared<const CarvedLayer>(CarvedLayer{plane.n, plane.outer, layer, cell.layers});
+  if (list->entries.size() == 1) return settler_.settleFree(outside);
+  outside.behind = plane.n;
+  outside.outside_of = rest.obstacle;
+  push(std::move(outside));
+}
+
+// Across its longest side.
+void CellCarver::split(const CarvedCell& cell, const std::shared_ptr<List>& list) {
+  int axis = 0;
+  double longest = -1.0;
+  for (int k = 0; k < 3; ++k) {
+    const CellPolytope::Extent extent = cell.body.along(Eigen::Vector3d::Unit(k));
+    if (extent.hi - extent.lo > longest) {
+      longest = extent.hi - extent.lo;
+      axis = k;
+    }
+  }
+  CarvedCell halves[] = {partOf(cell, list), partOf(cell, list)};
+  cutter_.cut(cell.body, Eigen::Vector3d::Unit(axis), cell.body.middle()[axis], &halves[0].body,
+              &halves[1].body);
+  settler_.allowSlivers(cell.body, 1);
+  for (CarvedCell& half : halves) {
+    if (half.body.empty()) continue;
+    half.mass = CellSettler::openMass(half.body, cell.mass.upper);
+    push(std::move(half));
+  }
 }
 
 }  // namespace fcl_prob::detail

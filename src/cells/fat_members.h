@@ -53,6 +53,10 @@ class FatMembers {
   FatObstacles& of(int member) { return *members_[member]; }
   const FatObstacles& of(int member) const { return *members_[member]; }
 
+  FatObstacles::Planes planesOf(FatObstacle obstacle) const {
+    return of(obstacle.member).planesOf(obstacle.piece);
+  }
+
   /// Of a member below count().
   const NodeReach& reachOf(int member) const { return reaches_[member]; }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// Which obstacles may meet a cell, and over which of their planes it sticks out.
+#include "cells/obstacle_lister.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-
-#include "cells/cell_carver.h"
-#include "cells/cell_split.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -19,32 +17,22 @@ constexpr double kBesideRatio = 6.0;
 
 }  // namespace
 
-void CellCarver::divideBox(CarvedCell&& cell) {
-  const CellSplit at = chooseSplit(*cell.box, Eigen::Vector3d::Ones());
-  for (const bool upper : {false, true}) {
-    CarvedCell half;
-    half.box = cell.box;
-    (upper ? half.box->lo : half.box->hi)[at.axis] = at.at;
-    half.mass = cellMass(*half.box);
-    gatherNodes(*half.box, *cell.nodes, false);
-    if (gathered_.empty()) {
-      half.body = CellPolytope(*half.box);
-      settleFree(half);
-      continue;
-    }
-    if (isCovered(*half.box)) {
-      claim("one fat pair", true, CellPolytope(*half.box));
-      settle(half.mass);
-      continue;
-    }
-    half.nodes = std::make_shared<const std::vector<FatNode>>(gathered_);
-    push(std::move(half));
-  }
+ObstacleLister::ObstacleLister(FatMembers& obstacles, ProbabilityStatistics& statistics)
+    : obstacles_(obstacles),
+      statistics_(statistics),
+      face_lo_(static_cast<std::size_t>(obstacles.faceCount())),
+      face_hi_(static_cast<std::size_t>(obstacles.faceCount())),
+      face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
+
+const std::vector<FatNode>& ObstacleLister::nodesIn(const Cell& box,
+                                                    const std::vector<FatNode>& from) {
+  gatherNodes(box, from, false);
+  return gathered_;
 }
 
 // Whether the one obstacle that reaches farthest beyond the box, as far as planes of nodes tell,
-// covers it: then it need not be divided. After gatherNodes().
-bool CellCarver::isCovered(const Cell& box) {
+// covers it: then it need not be divided.
+bool ObstacleLister::isCovered(const Cell& box) {
   const WhitenedPolygons& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
@@ -78,7 +66,7 @@ bool CellCarver::isCovered(const Cell& box) {
   }
 }
 
-bool CellCarver::covers(const CellBox& box, FatObstacle obstacle) {
+bool ObstacleLister::covers(const CellBox& box, FatObstacle obstacle) {
   ++statistics_.pairs_tested;
   rangeFaces(box, obstacle.member);
   FatObstacles& body = obstacles_.of(obstacle.member);
@@ -99,7 +87,8 @@ bool CellCarver::covers(const CellBox& box, FatObstacle obstacle) {
 }
 
 // Those of the nodes, and of what is below them, that the box may meet.
-void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, bool to_leaves) {
+void ObstacleLister::gatherNodes(const Cell& box, const std::vector<FatNode>& from,
+                                 bool to_leaves) {
   const WhitenedPolygons& pieces = obstacles_.pieces();
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
   const Eigen::Vector3d half = 0.5 * (box.hi - box.lo);
@@ -131,7 +120,7 @@ void CellCarver::gatherNodes(const Cell& box, const std::vector<FatNode>& from, 
 }
 
 // A box around what is large, flat and oblique tells little of it.
-bool CellCarver::isBeside(const Cell& box, FatObstacle obstacle) {
+bool ObstacleLister::isBeside(const Cell& box, FatObstacle obstacle) {
   FatObstacles& body = obstacles_.of(obstacle.member);
   const std::vector<ObstaclePlane>& planes = body.otherPlanes(obstacle.piece);
   const Eigen::Vector3d middle = 0.5 * (box.lo + box.hi);
@@ -143,17 +132,18 @@ bool CellCarver::isBeside(const Cell& box, FatObstacle obstacle) {
                      });
 }
 
-bool CellCarver::takesPiece(int member, int piece) const {
+bool ObstacleLister::takesPiece(int member, int piece) const {
   return obstacles_.pieces().isTriangle(piece) || obstacles_.of(member).mayTakePolygon(piece);
 }
 
-CellCarver::Relation CellCarver::examine(const CarvedCell& cell, List& into) {
+ObstacleLister::Relation ObstacleLister::list(const CarvedCell& cell, List& into) {
+  failed_ = false;
   if (cell.opens_hulls) return listPieces(cell, into);
   return cell.box ? listBox(cell, into) : refine(cell, into);
 }
 
 // Those obstacles first that reach over most of the box: one of them may cover it.
-CellCarver::Relation CellCarver::listBox(const CarvedCell& cell, List& into) {
+ObstacleLister::Relation ObstacleLister::listBox(const CarvedCell& cell, List& into) {
   gatherNodes(*cell.box, *cell.nodes, true);
   const CellBox box = cell.box->box();
   ranged_.assign(obstacles_.count(), false);
@@ -171,7 +161,7 @@ CellCarver::Relation CellCarver::listBox(const CarvedCell& cell, List& into) {
 }
 
 // What the box reaches along the normals of a member.
-void CellCarver::rangeFaces(const CellBox& box, int member) {
+void ObstacleLister::rangeFaces(const CellBox& box, int member) {
   if (ranged_[member]) return;
   ranged_[member] = true;
   const FatObstacles& body = obstacles_.of(member);
@@ -189,7 +179,8 @@ void CellCarver::rangeFaces(const CellBox& box, int member) {
   }
 }
 
-CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obstacle, List& into) {
+ObstacleLister::Relation ObstacleLister::addFromBox(const CellBox& box, FatObstacle obstacle,
+                                                    List& into) {
   ++statistics_.pairs_tested;
   rangeFaces(box, obstacle.member);
   FatObstacles& body = obstacles_.of(obstacle.member);
@@ -238,7 +229,7 @@ CellCarver::Relation CellCarver::addFromBox(const CellBox& box, FatObstacle obst
 // Of a polygon of which nothing is known those of its triangles; of a triangle there is nothing
 // else.
 template <typename Add>
-CellCarver::Relation CellCarver::addPieces(FatObstacle obstacle, const Add& add) {
+ObstacleLister::Relation ObstacleLister::addPieces(FatObstacle obstacle, const Add& add) {
   if (obstacles_.pieces().isTriangle(obstacle.piece)) {
     failed_ = true;
     return Relation::cut;
@@ -253,8 +244,8 @@ CellCarver::Relation CellCarver::addPieces(FatObstacle obstacle, const Add& add)
 }
 
 // With the planes of the list from `first` on: those over which the cell sticks out.
-CellCarver::Relation CellCarver::addEntry(FatObstacle obstacle, std::size_t first,
-                                          List& into) const {
+ObstacleLister::Relation ObstacleLister::addEntry(FatObstacle obstacle, std::size_t first,
+                                                  List& into) const {
   const bool within = into.planes.size() == first;
   if (within && !obstacles_.encloses(obstacle.member)) return Relation::covered;
   into.entries.push_back({obstacle, first, into.planes.size()});
@@ -263,7 +254,7 @@ CellCarver::Relation CellCarver::addEntry(FatObstacle obstacle, std::size_t firs
 
 // Obstacles of the same member that reach no farther than the one that the cell is outside of do
 // not meet the cell but in the layer that was allowed for when it was cut off.
-CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
+ObstacleLister::Relation ObstacleLister::refine(const CarvedCell& cell, List& into) {
   const List& from = *cell.list;
   const auto [member, piece] = cell.outside_of;
   const FatObstacles* const body = member < 0 ? nullptr : &obstacles_.of(member);
@@ -274,7 +265,7 @@ CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
     const bool may_be_behind = body && entry.obstacle.member == member;
     if (may_be_behind && body->extent(entry.obstacle.piece, cell.behind) <= reach) continue;
     const std::size_t first = into.planes.size();
-    const FatObstacles::Planes planes = planesOf(entry.obstacle);
+    const FatObstacles::Planes planes = obstacles_.planesOf(entry.obstacle);
     bool meets = true;
     for (std::size_t i = entry.first; i < entry.last && meets; ++i) {
       const int index = from.planes[i];
@@ -290,7 +281,7 @@ CellCarver::Relation CellCarver::refine(const CarvedCell& cell, List& into) {
 }
 
 // All obstacles of the list are hulls: no core meets the cell.
-CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) {
+ObstacleLister::Relation ObstacleLister::listPieces(const CarvedCell& cell, List& into) {
   ++bodies_;
   const Cell box = cell.body.box();
   const auto add = [&](FatObstacle each) { return addFromBody(cell.body, box, each, into); };
@@ -306,8 +297,8 @@ CellCarver::Relation CellCarver::listPieces(const CarvedCell& cell, List& into) 
 
 // A plane of an obstacle over which the body that is looked at sticks out. False if all of it does:
 // the two are apart.
-bool CellCarver::addPlane(const CellPolytope& body, FatObstacle obstacle, int index,
-                          const ObstaclePlane& plane, List& into) {
+bool ObstacleLister::addPlane(const CellPolytope& body, FatObstacle obstacle, int index,
+                              const ObstaclePlane& plane, List& into) {
   CellPolytope::Extent extent;
   if (index < obstacles_.of(obstacle.member).faceCount()) {
     FaceExtent& known = face_extents_[obstacles_.firstFace(obstacle.member) + index];
@@ -321,14 +312,14 @@ bool CellCarver::addPlane(const CellPolytope& body, FatObstacle obstacle, int in
   return true;
 }
 
-bool CellCarver::isClear(FatObstacle obstacle, const Cell& box) const {
+bool ObstacleLister::isClear(FatObstacle obstacle, const Cell& box) const {
   const NodeBox around = obstacles_.of(obstacle.member).obstacleBoxOf(obstacle.piece);
   return isClearOf(around, box.lo.data(), box.hi.data());
 }
 
 // With a box around the body.
-CellCarver::Relation CellCarver::addFromBody(const CellPolytope& body, const Cell& box,
-                                             FatObstacle obstacle, List& into) {
+ObstacleLister::Relation ObstacleLister::addFromBody(const CellPolytope& body, const Cell& box,
+                                                     FatObstacle obstacle, List& into) {
   FatObstacles& member = obstacles_.of(obstacle.member);
   if (isClear(obstacle, box)) return Relation::free;
   ++statistics_.pairs_tested;
