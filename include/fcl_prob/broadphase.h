@@ -18,9 +18,9 @@
 namespace fcl_prob {
 
 struct BroadphaseRequest {
-  /// Of every pair, and so are its limits on cells, memory and samples. Its time limit is that of
-  /// the whole call, shared evenly by the pairs that are left; cancelling by its on_progress ends
-  /// the call.
+  /// Of every pair. Its limits on time, cells and samples are those of the whole call: pairs share
+  /// them, and one that used up its share is asked again for what others left. Cancelling by its
+  /// on_progress ends the call.
   ProbabilityRequest query;
 
   /// How an object is displaced, world frame, metres. Displacements of different objects are
@@ -55,7 +55,7 @@ struct BroadphaseResult {
   /// stop_above was exceeded: pairs that are neither answered nor culled were not looked at.
   bool stopped = false;
 
-  /// `time_limit` or `cancelled` if that ended the call: the same holds.
+  /// The limit that ended the call before all pairs were answered, or `cancelled`: the same holds.
   std::optional<ProbabilityStatus> interrupted;
 
   /// P(any pair collides), whatever the dependence between the pairs: see anyOf(). Certified; a

@@ -83,6 +83,9 @@ void validateBands(const ProbabilityRequest& request) {
 
 void validateRequest(const ProbabilityRequest& request) {
   toString(request.method);
+  if (request.contact == ContactMeaning::contained) {
+    throw InvalidRequest("contact = contained: asked of pairs of objects only");
+  }
   if (request.contact != ContactMeaning::fcl && request.contact != ContactMeaning::solid) {
     refuse("contact", static_cast<double>(request.contact), "one of ContactMeaning");
   }

@@ -217,8 +217,9 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--method", arguments.method, "One of " + methods + ", " + kPartsBounds);
   command
       .add_option("--contact", arguments.contact,
-                  "fcl: meshes are surfaces; solid: closed meshes are solids")
-      ->check(CLI::IsMember({"fcl", "solid"}));
+                  "fcl: meshes are surfaces; solid: closed meshes are solids; contained: P that A "
+                  "is wholly within B")
+      ->check(CLI::IsMember({"fcl", "solid", "contained"}));
   command.add_option("--threshold", arguments.threshold,
                      "Stop as soon as it is certain on which side of this the probability is");
   command.add_option("--relative-tolerance", arguments.relative_tolerance,

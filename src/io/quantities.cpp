@@ -138,6 +138,7 @@ std::optional<PoseConvention> poseConventionFromString(const std::string& name) 
 std::optional<ContactMeaning> contactFromString(const std::string& name) {
   if (name == "fcl") return ContactMeaning::fcl;
   if (name == "solid") return ContactMeaning::solid;
+  if (name == "contained") return ContactMeaning::contained;
   return std::nullopt;
 }
 

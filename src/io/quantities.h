@@ -52,7 +52,7 @@ std::optional<PoseConvention> poseConventionFromString(const std::string& name);
 /// one is negative or not finite.
 Band bandFrom(const Numbers& numbers);
 
-/// "fcl" and "solid".
+/// "fcl", "solid" and "contained".
 std::optional<ContactMeaning> contactFromString(const std::string& name);
 
 }  // namespace fcl_prob::detail

@@ -137,7 +137,7 @@ ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request) 
   }
   if (object.has("contact")) {
     const auto contact = contactFromString(object.text("contact"));
-    if (!contact) object.fail("contact", "neither fcl nor solid");
+    if (!contact) object.fail("contact", "none of fcl, solid, contained");
     request.contact = *contact;
   }
   const auto readNumber = [&](const char* key, auto& value) {

@@ -318,10 +318,10 @@ std::shared_ptr<Groups> preparedGroups(const py::object& a, const py::object& b)
 }
 
 // What every question takes besides.
-#define FCL_PROB_REQUEST_KEYWORDS                                                               \
-  "request: method ('auto', 'interval', 'estimate', 'exact', ...), contact ('fcl', 'solid'),\n" \
-  "relative_tolerance, absolute_tolerance, threshold, time_limit (seconds), max_cells,\n"       \
-  "max_memory (bytes), confidence, samples, seed, threads, gradient, on_progress.\n\n"
+#define FCL_PROB_REQUEST_KEYWORDS                                                              \
+  "request: method ('auto', 'interval', 'estimate', 'exact', ...), contact ('fcl', 'solid',\n" \
+  "'contained'), relative_tolerance, absolute_tolerance, threshold, time_limit (seconds),\n"   \
+  "max_cells, max_memory (bytes), confidence, samples, seed, threads, gradient, on_progress.\n\n"
 
 constexpr const char* kAskDocumentation =
     "The probability that A, displaced at random, collides with B.\n\n"

@@ -171,10 +171,10 @@ std::optional<py::function> progressFrom(py::handle value) {
 
 ContactMeaning contactFrom(py::handle value) {
   const std::string name = nameFrom("contact", value);
-  if (name != "fcl" && name != "solid") {
-    throw InvalidRequest("contact is " + textOf(value) + ", must be 'fcl' or 'solid'");
-  }
-  return name == "fcl" ? ContactMeaning::fcl : ContactMeaning::solid;
+  if (name == "fcl") return ContactMeaning::fcl;
+  if (name == "solid") return ContactMeaning::solid;
+  if (name == "contained") return ContactMeaning::contained;
+  throw InvalidRequest("contact is " + textOf(value) + ", must be 'fcl', 'solid' or 'contained'");
 }
 
 Question questionFrom(const py::kwargs& keywords) {

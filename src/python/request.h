@@ -31,7 +31,7 @@ std::string toString(PoseConvention convention);
 /// A callable, or None for nothing. \throws py::type_error
 std::optional<py::function> progressFrom(py::handle value);
 
-/// 'fcl' or 'solid'. \throws InvalidRequest
+/// 'fcl', 'solid' or 'contained'. \throws InvalidRequest
 ContactMeaning contactFrom(py::handle value);
 
 }  // namespace fcl_prob::python

@@ -2,17 +2,20 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "fcl_prob/broadphase.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <utility>
 
-#include "base/budget.h"
+#include "base/decision.h"
 #include "base/refuse_band.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"
 #include "query/object_pairs.h"
 #include "query/pair_query.h"
+#include "query/parts_loop.h"
 
 namespace fcl_prob {
 namespace {
@@ -20,6 +23,7 @@ namespace {
 using Object = fcl::CollisionObjectd;
 using Manager = fcl::BroadPhaseCollisionManagerd;
 using detail::ObjectPairs;
+using detail::PartsLoop;
 
 /// Adds an answer, and keeps the bounds of P(any) up to date.
 void include(PairProbability&& pair, const BroadphaseRequest& request, BroadphaseResult& result) {
@@ -42,73 +46,54 @@ ObjectPairs::Objects objectsOf(const Manager* manager, const char* name) {
   return objects;
 }
 
-/// The answers for the pairs of one call.
-class Broadphase {
- public:
-  Broadphase(const ObjectPairs::Objects& a, const ObjectPairs::Objects& b,
-             const BroadphaseRequest& request)
-      : request_(request), budget_(request.query), pairs_(a, b, request) {
-    result_.pairs_culled = pairs_.culled();
-    result_.culled_upper = pairs_.culledUpper();
+/// Those that were asked, in the order of the managers.
+std::vector<PairProbability> answeredPairs(const ObjectPairs& pairs, const PartsLoop& loop) {
+  std::vector<PairProbability> answered;
+  for (std::size_t i = 0; i < loop.answers().size(); ++i) {
+    const auto& [a, b] = pairs.near()[i];
+    if (loop.answers()[i]) answered.push_back({a->object, b->object, *loop.answers()[i]});
   }
+  return answered;
+}
 
-  BroadphaseResult answer() {
-    const std::size_t count = pairs_.near().size();
-    for (std::size_t i = 0; i < count && !result_.stopped; ++i) {
-      if (timeIsUp()) result_.interrupted = ProbabilityStatus::time_limit;
-      if (result_.interrupted) break;
-      add(i);
-    }
-    const bool all = result_.pairs.size() == count;
-    result_.any.upper = all ? anyOf({result_.any, {0.0, result_.culled_upper}}).upper : 1.0;
-    return std::move(result_);
-  }
-
- private:
-  bool timeIsUp() const {
-    return request_.query.time_limit && budget_.seconds() >= *request_.query.time_limit;
-  }
-
-  void add(std::size_t i) {
-    const auto& [a, b] = pairs_.near()[i];
+BroadphaseResult answerPairs(const ObjectPairs& pairs, const BroadphaseRequest& request) {
+  const Bounds culled{0.0, pairs.culledUpper()};
+  const PartsLoop::Ask ask = [&](std::size_t i, const ProbabilityRequest& of_pair) {
+    const auto& [a, b] = pairs.near()[i];
     const detail::PairQuery query(a->geometry, b->geometry);
-    const auto displacement =
-        GaussianDisplacement::fromIndependent(a->displacement, b->displacement);
-    include({a->object, b->object,
-             query.answer(a->object->getTransform(), b->object->getTransform(), displacement,
-                          ofPair(i))},
-            request_, result_);
-  }
-
-  /// The request for a pair, which reports and is cancelled as a part of the whole.
-  ProbabilityRequest ofPair(std::size_t i) {
-    const std::size_t count = pairs_.near().size();
-    ProbabilityRequest request = request_.query;
-    budget_.shareTime(count - i, request);
-    if (!request_.query.on_progress) return request;
-    request.on_progress = [this, i, count](const ProbabilityProgress& of_pair) {
-      ProbabilityProgress progress;
-      progress.interval = {result_.any.lower, 1.0};
-      progress.fraction = (static_cast<double>(i) + of_pair.fraction) / static_cast<double>(count);
-      progress.seconds = budget_.seconds();
-      const bool goes_on = request_.query.on_progress(progress);
-      if (!goes_on) result_.interrupted = ProbabilityStatus::cancelled;
-      return goes_on;
-    };
-    return request;
-  }
-
-  const BroadphaseRequest& request_;
-  detail::Budget budget_;
-  ObjectPairs pairs_;
-  BroadphaseResult result_;
-};
+    return query.answer(a->object->getTransform(), b->object->getTransform(),
+                        GaussianDisplacement::fromIndependent(a->displacement, b->displacement),
+                        of_pair);
+  };
+  const PartsLoop::Combine any = [&](const std::vector<Bounds>& events) {
+    return anyOf({anyOf(events), culled});
+  };
+  PartsLoop loop(request.query, ask, any, std::vector<Bounds>(pairs.near().size(), {0.0, 1.0}));
+  const auto isStopped = [&] {
+    return request.stop_above && any(loop.bounds()).lower > *request.stop_above;
+  };
+  loop.endWhen(isStopped);
+  const auto wanted = [&](std::size_t) { return std::optional(request.query); };
+  loop.askEach(wanted);
+  loop.askAgain(wanted);
+  BroadphaseResult result;
+  result.pairs = answeredPairs(pairs, loop);
+  result.pairs_culled = pairs.culled();
+  result.culled_upper = pairs.culledUpper();
+  result.any = any(loop.bounds());
+  result.stopped = isStopped();
+  const bool is_complete =
+      std::all_of(loop.answers().begin(), loop.answers().end(),
+                  [](const auto& answer) { return answer && detail::isAnswered(answer->status); });
+  if (!is_complete) result.interrupted = loop.out();
+  return result;
+}
 
 double answer(const ObjectPairs::Objects& a, const ObjectPairs::Objects& b,
               const BroadphaseRequest& request, BroadphaseResult& result) {
   validateRequest(request.query);
   detail::refuseBand(request.query, "managers, which cull by the shapes as they are");
-  result = Broadphase(a, b, request).answer();
+  result = answerPairs(ObjectPairs(a, b, request), request);
   return result.any.middle();
 }
 

@@ -37,6 +37,9 @@ void validateVelocities(const MemberVelocities& velocities, std::size_t members)
 }
 
 void validateGradient(const MotionGradientRequest& request) {
+  if (request.contact == ContactMeaning::contained) {
+    throw InvalidRequest("contact = contained: not of gradients of motions");
+  }
   if (request.lines < 2) {
     throw InvalidRequest("a gradient takes 2 lines at least, not " + std::to_string(request.lines));
   }

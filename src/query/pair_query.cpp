@@ -29,6 +29,9 @@ bool samples(const QueryPlan& plan) {
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const GaussianDisplacement& displacement,
                                     const ProbabilityRequest& request) const {
+  if (request.contact == ContactMeaning::contained) {
+    return answerContained(pose_a, pose_b, displacement, request);
+  }
   ProbabilityResult result = answerOfGaussian(pose_a, pose_b, displacement, ofOneCall(request));
   noteTolerance(request, result);
   return result;
@@ -37,6 +40,9 @@ ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::T
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const GaussianMixture& displacement,
                                     const ProbabilityRequest& request) const {
+  if (request.contact == ContactMeaning::contained) {
+    return answerContained(pose_a, pose_b, displacement, request);
+  }
   validateRequest(request);
   if (request.method == ProbabilityMethod::monte_carlo) {
     if constexpr (!kHasSampling) {

@@ -38,6 +38,11 @@ class PairQuery {
                                      const GaussianDisplacement& displacement,
                                      const ProbabilityRequest& request) const;
 
+  /// By contact = solid and fcl of the same pair, of the same displacement.
+  ProbabilityResult answerContained(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
+                                    const Displacement& displacement,
+                                    const ProbabilityRequest& request) const;
+
   std::shared_ptr<const PreparedGeometry> a_;
   std::shared_ptr<const PreparedGeometry> b_;
 };

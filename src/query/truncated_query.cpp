@@ -44,6 +44,9 @@ PairSide reachedSide(const PreparedGeometry& unbounded, const fcl::Transform3d& 
 ProbabilityResult PairQuery::answer(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
                                     const TruncatedGaussian& displacement,
                                     const ProbabilityRequest& of_user) const {
+  if (of_user.contact == ContactMeaning::contained) {
+    return answerContained(pose_a, pose_b, displacement, of_user);
+  }
   const ProbabilityRequest request = ofOneCall(of_user);
   const TruncatedQuery truncated(displacement, request);
   validatePose(pose_a, "object A");

@@ -262,3 +262,55 @@ TEST_CASE("cancelling within a pair ends the whole call, and what was not looked
   CHECK(result.pairs.empty());
   CHECK(result.any.upper == 1.0);
 }
+
+TEST_CASE("pairs of managers share cells: one that uses up its share leaves the others theirs") {
+  // One pair with a surface that takes thousands of cells, and five that take next to none.
+  const auto mesh = makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 8, 12, 1));
+  const auto box = std::make_shared<fcl::Boxd>(0.3, 0.4, 0.5);
+  const Object moving(mesh, fcl::Transform3d::Identity());
+  std::vector<std::unique_ptr<Object>> others;
+  for (const double x : {0.45, 0.5, 0.55, 0.6, 0.65, 0.7}) {
+    fcl::Transform3d pose = fcl::Transform3d::Identity();
+    pose.translation() = Eigen::Vector3d(x, 0.1, 0.05);
+    const bool is_hard = others.empty();
+    others.push_back(std::make_unique<Object>(is_hard ? mesh : box, pose));
+  }
+  BroadphaseRequest request;
+  request.displacement = [&](const Object& object) {
+    return &object == &moving ? GaussianDisplacement(0.0025 * Eigen::Matrix3d::Identity())
+                              : GaussianDisplacement();
+  };
+  request.query.relative_tolerance = 1e-3;
+  const auto askIn = [&](bool reversed, std::size_t cells) {
+    fcl::NaiveCollisionManagerd manager;
+    std::vector<Object*> objects;
+    for (const auto& other : others) objects.push_back(other.get());
+    if (reversed) std::reverse(objects.begin(), objects.end());
+    for (Object* object : objects) manager.registerObject(object);
+    request.query.max_cells = cells;
+    BroadphaseResult result;
+    collisionProbability(&moving, &manager, request, result);
+    return result;
+  };
+  const BroadphaseResult whole = askIn(false, 1'000'000);
+  REQUIRE(whole.pairs.size() == 6);
+  CHECK_FALSE(whole.interrupted);
+  const std::size_t of_hard = whole.pairs[0].result.statistics.cells;
+  std::size_t of_all = 0;
+  for (const auto& pair : whole.pairs) of_all += pair.result.statistics.cells;
+  REQUIRE(of_hard > of_all / 2);
+  for (const bool reversed : {false, true}) {
+    // As much as all need is enough, though an even share is not enough for the hard one.
+    CHECK_FALSE(askIn(reversed, 3 * of_all).interrupted);
+    const BroadphaseResult cut = askIn(reversed, of_hard / 2);
+    CHECK(cut.interrupted == ProbabilityStatus::cell_limit);
+    REQUIRE(cut.pairs.size() == 6);
+    for (const auto& pair : cut.pairs) {
+      const bool is_hard = pair.b == others[0].get();
+      CHECK((pair.result.status == ProbabilityStatus::cell_limit) == is_hard);
+      CHECK(*pair.result.upper < 1.0);
+    }
+    CHECK(cut.any.lower <= whole.any.upper);
+    CHECK(cut.any.upper >= whole.any.lower);
+  }
+}

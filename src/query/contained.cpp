@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+#include "query/contained.h"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/constants.h"
+#include "base/decision.h"
+#include "base/refuse_band.h"
+#include "base/statistics.h"
+#include "base/until_no.h"
+#include "convex/support_shape.h"
+#include "fcl_prob/exceptions.h"
+#include "geometry/geometry_kind.h"
+#include "geometry/outer_mesh.h"
+#include "geometry/validation.h"
+#include "query/parts_loop.h"
+
+namespace fcl_prob::detail {
+namespace {
+
+/// Far more than rotating and adding up coordinates rounds, as a share of them.
+constexpr double kWidthRounding = 1e-12;
+
+/// Estimates are asked so often at the most, each time for what the last ones tell is needed.
+constexpr int kMostEstimates = 4;
+
+bool isMesh(const PreparedGeometry& geometry) {
+  return kindOf(geometry.geometry()) == GeometryKind::mesh;
+}
+
+[[noreturn]] void refuse(const char* name, const std::string& what) {
+  throw UnsupportedGeometry(std::string("contact = contained: object ") + name + " is " + what);
+}
+
+/// Of several, some may be within B and others not, or B's be around a cavity that is within A.
+void requireOnePiece(const PreparedGeometry& geometry, const char* name) {
+  if (!isMesh(geometry)) return;
+  const auto pieces = geometry.solid(ContactMeaning::solid)->partPoints().size();
+  if (pieces != 1) refuse(name, "in " + std::to_string(pieces) + " pieces, not in one");
+}
+
+ContainedPair::Prepared surfaceOf(ContainedPair::Prepared b) {
+  if (isMesh(*b)) return b;
+  const fcl::NODE_TYPE type = b->geometry().getNodeType();
+  if (type != fcl::GEOM_BOX && type != fcl::GEOM_CONVEX) {
+    refuse("B", "a " + nodeTypeName(type) + ", not a closed mesh, a Box or a Convex");
+  }
+  const TriangleMesh faces = outerMesh(b->geometry(), {0.0, Eigen::Vector3d::Zero(), 0.0});
+  return std::make_shared<const PreparedGeometry>(buildModel<fcl::OBBRSSd>(faces), "object B");
+}
+
+/// How far an object reaches along an axis of the world, from one side to the other.
+Bounds widthAlong(const PreparedGeometry& geometry, const fcl::Transform3d& pose, int axis) {
+  const Eigen::Vector3d along = pose.linear().row(axis).transpose();
+  double lowest = kInfinity, highest = -kInfinity, size = 0.0;
+  if (isMesh(geometry)) {
+    const MeshView mesh = meshView(geometry.geometry());
+    for (int v = 0; v < mesh.vertex_count; ++v) {
+      const double height = along.dot(mesh.vertices[v]);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+      size = std::max(size, mesh.vertices[v].norm());
+    }
+  } else {
+    const SupportShape shape = supportShape(geometry.geometry());
+    lowest = -shape.supportValue(-along);
+    highest = shape.supportValue(along);
+    size = shape.radius();
+  }
+  const double rounding = kWidthRounding * size;
+  return {highest - lowest - rounding, highest - lowest + rounding};
+}
+
+/// Certainly further than the other one, along some axis.
+bool isWider(const PreparedGeometry& one, const fcl::Transform3d& pose,
+             const PreparedGeometry& other, const fcl::Transform3d& pose_of_other) {
+  for (int k = 0; k < 3; ++k) {
+    const Bounds width = widthAlong(one, pose, k);
+    if (width.lower > widthAlong(other, pose_of_other, k).upper) return true;
+  }
+  return false;
+}
+
+void validate(const ProbabilityRequest& request) {
+  refuseBand(request, "contact = contained");
+  if (request.method == ProbabilityMethod::automatic ||
+      request.method == ProbabilityMethod::interval ||
+      request.method == ProbabilityMethod::estimate) {
+    return;
+  }
+  throw InvalidRequest("contact = contained: method " + toString(request.method) +
+                       " does not tell it: interval and estimate do");
+}
+
+ProbabilityResult never(const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.lower = result.upper = 0.0;
+  if (request.method == ProbabilityMethod::estimate) result.estimate = result.standard_error = 0.0;
+  result.status = ProbabilityStatus::exact;
+  result.decision = decisionOf({0.0, 0.0}, request);
+  result.plan.push_back("A reaches further than B along an axis, and is never within it");
+  return result;
+}
+
+/// What two answers tell of the difference of what they estimate. The same random numbers may be in
+/// both: their errors are added, whatever they have to do with each other.
+void takeEstimates(const ProbabilityResult& overlap, const ProbabilityResult& touch,
+                   ProbabilityResult& result) {
+  if (!overlap.estimate || !touch.estimate) return;
+  const double most = result.upper.value_or(1.0);
+  result.estimate =
+      std::clamp(*overlap.estimate - *touch.estimate, result.lower.value_or(0.0), most);
+  result.standard_error = *overlap.standard_error + *touch.standard_error;
+}
+
+void takeGradients(const ProbabilityResult& overlap, const ProbabilityResult& touch,
+                   ProbabilityResult& result) {
+  if (!overlap.gradient || !touch.gradient) return;
+  result.gradient = *overlap.gradient - *touch.gradient;
+  if (overlap.gradient_lower && touch.gradient_lower) {
+    // One rounding each.
+    const Eigen::Vector3d rounding =
+        kEpsilon * (overlap.gradient->cwiseAbs() + touch.gradient->cwiseAbs());
+    result.gradient_lower = *overlap.gradient_lower - *touch.gradient_upper - rounding;
+    result.gradient_upper = *overlap.gradient_upper - *touch.gradient_lower + rounding;
+  }
+  if (overlap.gradient_standard_error && touch.gradient_standard_error) {
+    result.gradient_standard_error =
+        *overlap.gradient_standard_error + *touch.gradient_standard_error;
+  }
+}
+
+double errorOf(const PartsLoop& loop) {
+  double error = 0.0;
+  for (const auto& answer : loop.answers()) {
+    error += answer && answer->standard_error ? *answer->standard_error : kInfinity;
+  }
+  return error;
+}
+
+/// What the difference of both may be off by, by what they estimate so far.
+double toleranceOf(const ProbabilityRequest& request, const PartsLoop& loop) {
+  const auto& [overlap, touch] = std::tie(loop.answers()[0], loop.answers()[1]);
+  if (!overlap || !touch || !overlap->estimate || !touch->estimate) return 0.0;
+  return request.toleranceAt(std::max(0.0, *overlap->estimate - *touch->estimate));
+}
+
+void narrowEstimates(const ProbabilityRequest& request, ProbabilityRequest of_part,
+                     PartsLoop& loop) {
+  for (int asked = 1; asked < kMostEstimates && !loop.isOut(); ++asked) {
+    const double half = 0.5 * toleranceOf(request, loop);
+    if (!(half > 0.0) || errorOf(loop) <= 2 * half) return;
+    of_part.relative_tolerance = 0.0;
+    of_part.absolute_tolerance = half;
+    loop.askEach([&](std::size_t part) -> std::optional<ProbabilityRequest> {
+      if (*loop.answers()[part]->standard_error <= half) return std::nullopt;
+      return of_part;
+    });
+  }
+}
+
+ProbabilityResult told(const ProbabilityRequest& request, const Bounds& interval, PartsLoop& loop) {
+  ProbabilityResult result;
+  const bool estimates = request.method == ProbabilityMethod::estimate;
+  result.method = estimates ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
+  result.lower = interval.lower;
+  result.upper = interval.upper;
+  result.decision = decisionOf(interval, request);
+  const auto limit = loop.isOut() ? loop.out() : ProbabilityStatus::resolution_limit;
+  const auto& [overlap, touch] = std::tie(loop.answers()[0], loop.answers()[1]);
+  if (overlap && touch) {
+    takeEstimates(*overlap, *touch, result);
+    takeGradients(*overlap, *touch, result);
+  }
+  const bool is_estimated = estimates && errorOf(loop) <= toleranceOf(request, loop);
+  result.status =
+      is_estimated ? ProbabilityStatus::converged : satisfied(interval, request).value_or(*limit);
+  for (const auto& answer : loop.answers()) {
+    if (!answer) continue;
+    addStatistics(answer->statistics, result.statistics);
+    result.plan.insert(result.plan.end(), answer->plan.begin(), answer->plan.end());
+  }
+  result.plan.push_back("contained: P that the solids overlap, less P that their surfaces meet");
+  return result;
+}
+
+}  // namespace
+
+ContainedPair::ContainedPair(Prepared a, const fcl::Transform3d& pose_a, Prepared b,
+                             const fcl::Transform3d& pose_b)
+    : a_(std::move(a)), b_(surfaceOf(std::move(b))) {
+  validatePose(pose_a, "object A");
+  validatePose(pose_b, "object B");
+  if (!isMesh(*a_) && !a_->isConvex()) {
+    refuse("A", "a " + nodeTypeName(a_->geometry().getNodeType()) + ", not a mesh or convex");
+  }
+  requireOnePiece(*a_, "A");
+  requireOnePiece(*b_, "B");
+  is_too_large_ = isWider(*a_, pose_a, *b_, pose_b);
+  holds_no_other_ = isWider(*b_, pose_b, *a_, pose_a);
+}
+
+/// Of overlap less touch, rounded outwards.
+Bounds ContainedPair::difference(const Bounds& overlap, const Bounds& touch) const {
+  const double rounding = kEpsilon * (overlap.upper + touch.upper);
+  return {holds_no_other_ ? std::max(0.0, overlap.lower - touch.upper - rounding) : 0.0,
+          std::clamp(overlap.upper - touch.lower + rounding, 0.0, overlap.upper)};
+}
+
+ProbabilityResult ContainedPair::answer(const ProbabilityRequest& request, const Ask& ask) const {
+  validate(request);
+  if (is_too_large_) return never(request);
+  const PairQuery pair(a_, b_);
+  const PartsLoop::Ask ask_part = [&](std::size_t part, const ProbabilityRequest& of_part) {
+    ProbabilityRequest contact = of_part;
+    contact.contact = part == 0 ? ContactMeaning::solid : ContactMeaning::fcl;
+    return ask(pair, contact);
+  };
+  const PartsLoop::Combine combine = [this](const std::vector<Bounds>& parts) {
+    return difference(parts[0], parts[1]);
+  };
+  PartsLoop loop(request, ask_part, combine, {{0.0, 1.0}, {0.0, 1.0}});
+  ProbabilityRequest of_part = request;
+  of_part.threshold.reset();
+  loop.askEach([&](std::size_t) { return std::optional(of_part); });
+  if (request.method == ProbabilityMethod::estimate) {
+    narrowEstimates(request, of_part, loop);
+  } else {
+    while (!satisfied(combine(loop.bounds()), request) && loop.narrowWidest(of_part)) continue;
+  }
+  return told(request, combine(loop.bounds()), loop);
+}
+
+ProbabilityResult PairQuery::answerContained(const fcl::Transform3d& pose_a,
+                                             const fcl::Transform3d& pose_b,
+                                             const Displacement& displacement,
+                                             const ProbabilityRequest& request) const {
+  ProbabilityRequest of_contact = ofOneCall(request);
+  of_contact.contact = ContactMeaning::fcl;
+  validateRequest(of_contact);
+  const ContainedPair pair(a_, pose_a, b_, pose_b);
+  return pair.answer(of_contact, [&](const PairQuery& query, const ProbabilityRequest& of_part) {
+    const auto answer = [&](const auto& one) { return query.answer(pose_a, pose_b, one, of_part); };
+    return std::visit(answer, displacement);
+  });
+}
+
+}  // namespace fcl_prob::detail
