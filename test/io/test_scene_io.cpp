@@ -214,7 +214,7 @@ TEST_CASE("faults of a scene file are named with file and key", "[io]") {
   CHECK(inD(R"("covariance": [1, 0, 0, 1, 0, 1], "sigma_axes": [1, 0, 0, 0])") ==
         "displacement: 'sigma_axes': unknown key");
   CHECK(inR(R"("method": "magic")") == "request: method: unknown method");
-  CHECK(inR(R"("contact": "both")") == "request: contact: neither fcl nor solid");
+  CHECK(inR(R"("contact": "both")") == "request: contact: none of fcl, solid, contained");
   CHECK(inR(R"("samples": -1)") == "request: samples: not a whole number >= 0");
   CHECK(inR(R"("samples": 1.5)") == "request: samples: not a whole number >= 0");
   CHECK(inR(R"("speed": 1)") == "request: 'speed': unknown key");
