@@ -15,6 +15,16 @@ constexpr double kOpenRatio = 2.0;
 // A piece is looked at more closely than by the box around it if that is so many times larger.
 constexpr double kBesideRatio = 6.0;
 
+// Whether what a cell reaches along a face is above the offset of an obstacle: not a number is.
+bool isAbove(double value, double limit, double by) { return !(value <= limit + by); }
+
+// The first face whose value is above its limit, or `count`.
+int firstAbove(const double* values, const double* limits, double by, int count) {
+  int face = 0;
+  while (face < count && !isAbove(values[face], limits[face], by)) ++face;
+  return face;
+}
+
 }  // namespace
 
 ObstacleLister::ObstacleLister(FatMembers& obstacles, ProbabilityStatistics& statistics)
@@ -74,7 +84,7 @@ bool ObstacleLister::covers(const CellBox& box, FatObstacle obstacle) {
   const std::vector<double>& offsets = body.faceOffsets(obstacle.piece);
   const int faces = body.faceCount();
   const auto isWithin = [&](double margin) {
-    return kernels_.firstAbove(face_hi, offsets.data(), -margin, faces) == faces;
+    return firstAbove(face_hi, offsets.data(), -margin, faces) == faces;
   };
   if (!isWithin(0.0)) return false;
   const std::vector<ObstaclePlane>& others = body.otherPlanes(obstacle.piece);
@@ -192,7 +202,7 @@ ObstacleLister::Relation ObstacleLister::addFromBox(const CellBox& box, FatObsta
   int& apart = apart_[obstacle.member];
   const auto isApart = [&](int f) { return face_lo[f] > offsets[f] + padding; };
   if (isApart(apart)) return Relation::free;
-  const int above = kernels_.firstAbove(face_lo, offsets.data(), padding, faces);
+  const int above = firstAbove(face_lo, offsets.data(), padding, faces);
   if (above < faces) {
     apart = above;
     if (isApart(above)) return Relation::free;
@@ -216,11 +226,9 @@ ObstacleLister::Relation ObstacleLister::addFromBox(const CellBox& box, FatObsta
     if (at + radius > plane.inner()) into.planes.push_back(faces + static_cast<int>(i));
   }
   const FatObstacles::Planes planes = body.planesOf(obstacle.piece);
-  cut_faces_.resize(static_cast<std::size_t>(faces + kFaceLanes));
-  const int count = kernels_.allAbove(face_hi, offsets.data(), -margin, faces, cut_faces_.data());
-  for (int i = 0; i < count; ++i) {
-    if (face_hi[cut_faces_[i]] > planes[cut_faces_[i]].inner()) {
-      into.planes.push_back(cut_faces_[i]);
+  for (int f = 0; f < faces; ++f) {
+    if (isAbove(face_hi[f], offsets[f], -margin) && face_hi[f] > planes[f].inner()) {
+      into.planes.push_back(f);
     }
   }
   return addEntry(obstacle, first, into);

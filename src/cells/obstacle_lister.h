@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cells/carved_cell.h"
-#include "cells/face_kernels.h"
 #include "fcl_prob/probability_result.h"
 
 namespace fcl_prob::detail {
@@ -54,13 +53,11 @@ class ObstacleLister {
 
   FatMembers& obstacles_;
   ProbabilityStatistics& statistics_;
-  const FaceKernels& kernels_ = faceKernels();
   bool failed_ = false;
 
   // Of a box, along the normals of each P.
   std::vector<double> face_lo_;
   std::vector<double> face_hi_;
-  std::vector<int> cut_faces_;
   std::vector<bool> ranged_;       ///< by member: those of its faces are known
   std::vector<FatNode> gathered_;  ///< that a box may meet
   std::vector<FatNode> stack_;

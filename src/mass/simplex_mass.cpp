@@ -9,7 +9,6 @@
 
 #include "base/constants.h"
 #include "base/symmetric_axes.h"
-#include "mass/rule_kernels.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -43,22 +42,26 @@ constexpr double kNode[3] = {0.31088591926330060980, 0.092735250310891226402,
 constexpr double kWeight[3] = {0.11268792571801585080, 0.073493043116361949544,
                                0.042546020777081466438};
 
-// What lies beyond the exponents of the kernels is no denser.
-constexpr double kLeastDensity = 1e-304;  // exp(-kMostRuleExponent), rounded up
+// Exponents farther out than this have densities that a double does not hold to the last digit, and
+// that are no larger than the other.
+constexpr double kMostExponent = 700.0;
+constexpr double kLeastDensity = 1e-304;
 
 // Points given by their barycentric coordinates, in arrays of their own.
 template <int points>
 struct PointRule {
-  static constexpr int kCount = (points + 3) / 4 * 4;  // as the kernels take them
-  double share[4][kCount] = {};
-  double weight[kCount] = {};
+  double share[4][points] = {};
+  double weight[points] = {};
 
   // Of the density over the tetrahedron, but for the factor kDensity.
   double meanDensity(const SimplexMass::Corners& v) const {
-    double corners[12];
-    for (int k = 0; k < 12; ++k) corners[k] = v[static_cast<std::size_t>(k / 3)][k % 3];
-    static const RuleKernel kernel = ruleKernel();
-    return kernel(share[0], weight, corners, kCount);
+    double sum = 0.0;
+    for (int i = 0; i < points; ++i) {
+      const Eigen::Vector3d at =
+          share[0][i] * v[0] + share[1][i] * v[1] + share[2][i] * v[2] + share[3][i] * v[3];
+      sum += weight[i] * std::exp(-0.5 * at.squaredNorm());
+    }
+    return sum;
   }
 };
 
@@ -176,10 +179,10 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   const double length = std::sqrt(8 * q);
   const double size = length * length * (length + middle.norm());
   mass_ += volume * mean;
-  const double rounding = kRuleExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
+  const double rounding = (32 + 4 * middle.squaredNorm()) * kEpsilon;
   error_ += std::max(around, std::numeric_limits<double>::denorm_min()) * tail +
             std::fabs(volume) * rounding * mean + 16 * kEpsilon * size * mean;
-  if (farthest > 0.99 * kMostRuleExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
+  if (farthest > 0.99 * kMostExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
 }
 
 // Halves the longest edge.
