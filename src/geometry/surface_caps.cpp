@@ -3,14 +3,18 @@
 #include "geometry/surface_caps.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <functional>
 #include <numeric>
 
 #include "base/edge_order.h"
-#include "geometry/disjoint_sets.h"
 
 namespace fcl_prob::detail {
 namespace {
+
+/// Starts with every index below the constructor's argument in a set of its own; `union_set` joins
+/// two, `find_set` names the one that an index is in.
+using DisjointSets = boost::disjoint_sets_with_storage<>;
 
 using Edge = std::pair<int, int>;
 

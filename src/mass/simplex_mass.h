@@ -24,15 +24,23 @@ struct MassAccuracy {
 /// are positive.
 class SimplexMass {
  public:
+  /// Relative to the anchor.
   using Corners = std::array<Eigen::Vector3d, 4>;
+
+  /// \param anchor  near the tetrahedra, if they are small beside their distance from the origin:
+  ///                corners that halving makes are rounded in their coordinates
+  explicit SimplexMass(const Eigen::Vector3d& anchor = Eigen::Vector3d::Zero()) : anchor_(anchor) {}
 
   void add(const Corners& corners, const MassAccuracy& accuracy, int halvings = 0);
 
   Bounds bounds() const;
+  double mass() const { return mass_; }
+  double error() const { return error_; }
 
  private:
   void addHalves(const Corners& corners, const MassAccuracy& accuracy, int halvings);
 
+  Eigen::Vector3d anchor_;
   double mass_ = 0.0;
   double error_ = 0.0;
 };
