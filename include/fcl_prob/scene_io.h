@@ -18,10 +18,14 @@
 
 namespace fcl_prob {
 
-/// A mesh that is still in its file.
+/// A mesh that is still in its file, or stands in the scene itself.
 struct MeshFile {
   std::string path;
   MeshOptions options;
+  std::shared_ptr<const TriangleMesh> given = nullptr;  ///< then nothing else counts
+
+  /// In a process of its own: see loadMeshIsolated(). \throws FileError, InvalidGeometry
+  TriangleMesh read() const { return given ? *given : loadMeshIsolated(path, options); }
 };
 
 /// One of FCL's primitives: Box, Sphere, Ellipsoid, Capsule, Cone, Cylinder, Halfspace or Plane.
@@ -72,5 +76,11 @@ void addSharedErrors(Scene& scene);
 /// unknown, missing or given
 ///         twice, a value of the wrong kind or out of its range.
 Scene loadScene(const std::string& path);
+
+/// Writes a scene file that needs no other one, with whatever is in it as numbers that are read
+/// back to the last bit (a covariance to its last digits): for reports of faults. Limits of time
+/// and threads, and what is told of loading, are left out. \throws UnsupportedGeometry for
+/// occupancy maps and reconstructed clouds; as MeshFile::read()
+void writeScene(const Scene& scene, const std::string& description, std::ostream& out);
 
 }  // namespace fcl_prob

@@ -11,6 +11,7 @@
 #include "cli/result_report.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
+#include "fcl_prob/version.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -20,6 +21,7 @@ struct CheckArguments {
   bool json = false;
   std::string output;
   std::string certificate;  ///< its file, empty for none
+  std::string reproduce;    ///< likewise
 };
 
 TimedResult answerOf(const PreparedScene& prepared, const ProbabilityRequest& request,
@@ -51,8 +53,19 @@ CheckReport check(Scene scene, const CheckArguments& arguments) {
   return report;
 }
 
+// What was answered by which version stands in the file itself.
+void writeReproduction(const Scene& scene, const CheckReport& report, const std::string& file) {
+  std::ostringstream text;
+  writeScene(scene,
+             std::string("fcl_prob ") + FCL_PROB_VERSION + " answered: " + jsonOf(report).dump(),
+             text);
+  writeFile(file, text.str());
+}
+
 int runCheck(const CheckArguments& arguments) {
-  const CheckReport report = check(sceneFrom(arguments.scene), arguments);
+  const Scene scene = sceneFrom(arguments.scene);
+  const CheckReport report = check(scene, arguments);
+  if (!arguments.reproduce.empty()) writeReproduction(scene, report, arguments.reproduce);
   deliver(arguments.json ? jsonOf(report).dump() + "\n" : textOf(report), arguments.output);
   return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
 }
@@ -73,6 +86,9 @@ void addCheckCommand(CLI::App& app, int& exit_code) {
   command.add_option("--certificate", arguments->certificate,
                      "Write what fcl_prob_verify needs to check the interval to this file; of "
                      "meshes and boxes");
+  command.add_option("--reproduce", arguments->reproduce,
+                     "Write a scene file to this file that needs no other one: meshes as numbers, "
+                     "the request, version and answer, for a report of a fault");
   command.callback([arguments, &exit_code] { exit_code = runCheck(*arguments); });
 }
 

@@ -50,12 +50,12 @@ LoadedObject loadObject(const SceneObject& object) {
   LoadedObject result;
   result.pose = object.pose;
   if (const auto* mesh = std::get_if<MeshFile>(&object.shape)) {
-    result.shape = loadMeshIsolated(mesh->path, mesh->options);
+    result.shape = mesh->read();
   } else {
     result.shape = std::get<PrimitiveShape>(object.shape);
   }
   if (object.possible) {
-    result.possible = loadMeshIsolated(object.possible->path, object.possible->options);
+    result.possible = object.possible->read();
     result.possible_is_solid = object.possible_is_solid;
   }
   return result;

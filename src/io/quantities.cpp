@@ -3,6 +3,7 @@
 #include "io/quantities.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/number_text.h"
@@ -12,6 +13,36 @@
 
 namespace fcl_prob::detail {
 namespace {
+
+template <class Value, std::size_t count>
+using Names = std::array<std::pair<Value, const char*>, count>;
+
+constexpr Names<PoseConvention, 4> kConventions{
+    {{PoseConvention::world_rotation_vector, "world"},
+     {PoseConvention::body_rotation_vector, "body"},
+     {PoseConvention::world_exponential, "world-exponential"},
+     {PoseConvention::body_exponential, "body-exponential"}}};
+
+constexpr Names<ContactMeaning, 3> kContacts{{{ContactMeaning::fcl, "fcl"},
+                                              {ContactMeaning::solid, "solid"},
+                                              {ContactMeaning::contained, "contained"}}};
+
+template <class Table>
+std::optional<typename Table::value_type::first_type> valueOf(const Table& table,
+                                                              const std::string& name) {
+  for (const auto& [value, known] : table) {
+    if (name == known) return value;
+  }
+  return std::nullopt;
+}
+
+template <class Table, class Value>
+std::string nameOf(const Table& table, Value wanted) {
+  for (const auto& [value, name] : table) {
+    if (value == wanted) return name;
+  }
+  return "";
+}
 
 bool allFinite(const Numbers& numbers) {
   for (const double number : numbers) {
@@ -49,12 +80,17 @@ Eigen::Quaterniond quaternionFrom(const Numbers& numbers) {
 
 fcl::Transform3d poseFrom(const Numbers& numbers) {
   const std::size_t count = numbers.size();
-  if ((count != 3 && count != 6 && count != 7) || !allFinite(numbers)) {
+  if ((count != 3 && count != 6 && count != 7 && count != 12) || !allFinite(numbers)) {
     throw InvalidPose(
-        "a pose needs 3, 6 or 7 finite numbers x,y,z[,roll,pitch,yaw or ,qw,qx,qy,qz], not " +
+        "a pose needs 3, 6, 7 or 12 finite numbers x,y,z[,roll,pitch,yaw or ,qw,qx,qy,qz], or the "
+        "rows of a 3 x 4 matrix, not " +
         std::to_string(count));
   }
   fcl::Transform3d pose = fcl::Transform3d::Identity();
+  if (count == 12) {
+    pose.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
+    return pose;
+  }
   pose.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
   if (count == 6) pose.linear() = rotationOfAngles({numbers[3], numbers[4], numbers[5]}, "a pose");
   if (count == 7) {
@@ -128,18 +164,13 @@ PoseError poseErrorFrom(const PoseError::Vector6& sigma, PoseConvention conventi
 }
 
 std::optional<PoseConvention> poseConventionFromString(const std::string& name) {
-  if (name == "world") return PoseConvention::world_rotation_vector;
-  if (name == "body") return PoseConvention::body_rotation_vector;
-  if (name == "world-exponential") return PoseConvention::world_exponential;
-  if (name == "body-exponential") return PoseConvention::body_exponential;
-  return std::nullopt;
+  return valueOf(kConventions, name);
 }
+std::string toString(PoseConvention convention) { return nameOf(kConventions, convention); }
 
 std::optional<ContactMeaning> contactFromString(const std::string& name) {
-  if (name == "fcl") return ContactMeaning::fcl;
-  if (name == "solid") return ContactMeaning::solid;
-  if (name == "contained") return ContactMeaning::contained;
-  return std::nullopt;
+  return valueOf(kContacts, name);
 }
+std::string toString(ContactMeaning contact) { return nameOf(kContacts, contact); }
 
 }  // namespace fcl_prob::detail

@@ -20,8 +20,9 @@ using Numbers = std::vector<double>;
 Numbers numberList(const std::string& text);
 
 /// x, y, z in metres, alone or with qw, qx, qy, qz, which is normalised, or roll, pitch, yaw in
-/// radians, turns about fixed axes. \throws InvalidPose if there are not 3, 6 or 7 finite numbers,
-/// the quaternion is zero, or an angle is more than a turn.
+/// radians, turns about fixed axes; or twelve, the rows of [R | t], taken as they are. \throws
+/// InvalidPose if there are not 3, 6, 7 or 12 finite numbers, the quaternion is zero, or an angle
+/// is more than a turn.
 fcl::Transform3d poseFrom(const Numbers& numbers);
 
 /// qw, qx, qy, qz, normalised. \throws InvalidPose
@@ -47,6 +48,7 @@ PoseError poseErrorFrom(const PoseError::Vector6& sigma, PoseConvention conventi
 
 /// "world", "body", "world-exponential" and "body-exponential".
 std::optional<PoseConvention> poseConventionFromString(const std::string& name);
+std::string toString(PoseConvention convention);
 
 /// A distance, or one outwards and one inwards. \throws InvalidRequest if there are not so many, or
 /// one is negative or not finite.
@@ -54,5 +56,6 @@ Band bandFrom(const Numbers& numbers);
 
 /// "fcl", "solid" and "contained".
 std::optional<ContactMeaning> contactFromString(const std::string& name);
+std::string toString(ContactMeaning contact);
 
 }  // namespace fcl_prob::detail

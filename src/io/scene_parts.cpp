@@ -24,8 +24,32 @@ double scaleOf(StrictObject& object) {
   return scale;
 }
 
+std::shared_ptr<const TriangleMesh> readGivenMesh(StrictObject object) {
+  const std::vector<double> coordinates = object.numbers("vertices");
+  const std::vector<std::uint64_t> corners = object.counts("triangles");
+  object.finish();
+  auto mesh = std::make_shared<TriangleMesh>();
+  if (coordinates.size() % 3 != 0) object.fail("vertices", "not three numbers each");
+  if (corners.size() % 3 != 0) object.fail("triangles", "not three indices each");
+  for (std::size_t i = 0; i < coordinates.size(); i += 3) {
+    mesh->vertices.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  }
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    mesh->triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
+  }
+  located(object, "triangles", [&] {
+    validateMesh(*mesh);
+    return true;
+  });
+  return mesh;
+}
+
 MeshFile readMeshFile(StrictObject& object, const std::filesystem::path& folder) {
   MeshFile mesh;
+  if (object.holdsObject("mesh")) {
+    mesh.given = readGivenMesh(object.object("mesh"));
+    return mesh;
+  }
   const std::string name = object.text("mesh");
   if (name.empty()) object.fail("mesh", "must not be empty");
   mesh.path = (folder / name).lexically_normal().string();

@@ -101,6 +101,17 @@ std::vector<double> StrictObject::numbers(const std::string& key) {
   return result;
 }
 
+std::vector<std::uint64_t> StrictObject::counts(const std::string& key) {
+  const Json& value = take(key);
+  if (!value.is_array()) fail(key, "not a list of whole numbers");
+  std::vector<std::uint64_t> result;
+  for (const Json& item : value) {
+    if (!item.is_number_unsigned()) fail(key, "not a list of whole numbers");
+    result.push_back(item.get<std::uint64_t>());
+  }
+  return result;
+}
+
 std::vector<StrictObject> StrictObject::objects(const std::string& key) {
   const Json& value = take(key);
   if (!value.is_array()) fail(key, "not a list of objects");

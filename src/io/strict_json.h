@@ -25,6 +25,7 @@ class StrictObject {
   StrictObject(const nlohmann::json& value, std::string where);
 
   bool has(const std::string& key) const { return value_.contains(key); }
+  bool holdsObject(const std::string& key) const { return has(key) && value_[key].is_object(); }
 
   /// The object at `key`, which must be there.
   StrictObject object(const std::string& key);
@@ -34,6 +35,7 @@ class StrictObject {
   double number(const std::string& key);
   std::uint64_t count(const std::string& key);
   std::vector<double> numbers(const std::string& key);
+  std::vector<std::uint64_t> counts(const std::string& key);
 
   /// Lists of objects and texts, and what an object with keys of its own holds at each of them.
   std::vector<StrictObject> objects(const std::string& key);

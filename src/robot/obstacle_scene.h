@@ -36,8 +36,7 @@ Of withShape(Of result, const SceneObject& object) {
     result.geometry = *primitive;
     return result;
   }
-  const MeshFile& file = std::get<MeshFile>(object.shape);
-  const TriangleMesh mesh = loadMeshIsolated(file.path, file.options);
+  const TriangleMesh mesh = std::get<MeshFile>(object.shape).read();
   result.geometry = buildModel<fcl::OBBRSSd>(mesh);
   result.coordinate_error = mesh.coordinate_error;
   result.notes = mesh.notes;

@@ -22,11 +22,11 @@ ProbabilityResult PreparedPair::answer(const Scene& scene,
 PreparedScenes::Geometry PreparedScenes::geometryOf(const SceneObject& object) {
   if (const auto* primitive = std::get_if<PrimitiveShape>(&object.shape)) return *primitive;
   const MeshFile& mesh = std::get<MeshFile>(object.shape);
+  if (mesh.given) return buildModel<fcl::OBBRSSd>(*mesh.given);
   std::ostringstream key;
   key << std::hexfloat << mesh.options.scale << mesh.options.normalize << mesh.path;
-  return meshes_.get(key.str(), [&]() -> Geometry {
-    return buildModel<fcl::OBBRSSd>(loadMeshIsolated(mesh.path, mesh.options));
-  });
+  return meshes_.get(key.str(),
+                     [&]() -> Geometry { return buildModel<fcl::OBBRSSd>(mesh.read()); });
 }
 
 void PreparedScenes::loadMeshes(const QueryLine& query) {

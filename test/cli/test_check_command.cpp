@@ -458,3 +458,36 @@ TEST_CASE("check writes a certificate, whole or not at all", "[cli]") {
   CHECK((result.exit_code == 2 && !std::filesystem::exists(file)));
   CHECK(result.err.find("no certificate with bands") != std::string::npos);
 }
+
+TEST_CASE("a reproduction needs no other file, and is answered with the same bits", "[cli]") {
+  const Cubes cubes;
+  const TemporaryFolder& folder = cubes.folder;
+  const std::string file = (folder.path() / "fault.json").string();
+  const json first = checkJson(
+      {cubes.file, cubes.file, "--scale-a", "0.7", "--pose-a", "1,0.1,0.2,0.9,0.1,0.2,0.3",
+       "--covariance", "0.01,0,0,0.02,0,0.03", "--relative-tolerance", "0.02", "--reproduce", file},
+      folder);
+  std::filesystem::remove(cubes.file);
+  const json again = checkJson({"--scene", file}, folder);
+  for (const char* key : {"lower", "upper", "method", "status", "decision"}) {
+    CHECK(first[key] == again[key]);
+  }
+  std::ifstream stream(file);
+  const std::string description = json::parse(stream)["description"];
+  CHECK(description.find("\"lower\":" + first["lower"].dump()) != std::string::npos);
+  CHECK(description.rfind("fcl_prob ", 0) == 0);
+}
+
+TEST_CASE("P of a cube within a larger one", "[cli]") {
+  const Cubes cubes;
+  const json result = checkJson({cubes.file, cubes.file, "--scale-a", "0.4", "--sigma",
+                                 "0.2,0.3,0.1", "--contact", "contained"},
+                                cubes.folder);
+  double truth = 1.0;
+  for (const double sigma : {0.2, 0.3, 0.1}) {
+    truth *= fcl_prob::normalIntervalMass(-0.3 / sigma, 0.3 / sigma);
+  }
+  CHECK(result["lower"].get<double>() <= truth);
+  CHECK(result["upper"].get<double>() >= truth);
+  CHECK(result["upper"].get<double>() - result["lower"].get<double>() < 0.0101 * truth);
+}

@@ -247,3 +247,64 @@ TEST_CASE("the scenes and meshes of data/ are sound", "[io]") {
   CHECK(meshes == 4);
   CHECK(bytes < 1'000'000);
 }
+
+TEST_CASE("a scene that was written is read back to the last bit", "[io]") {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("tetrahedron.obj",
+                                        "v 0 0 0.1\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                        "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto check = [&](const std::string& content) {
+    const Scene scene = loadScene(folder.write("scene.json", content));
+    std::ostringstream text;
+    writeScene(scene, "a fault", text);
+    const Scene again = loadScene(folder.write("again.json", text.str()));
+    for (const auto& [one, other] :
+         {std::pair(&scene.a, &again.a), std::pair(&scene.b, &again.b)}) {
+      CHECK(one->pose.matrix() == other->pose.matrix());
+      CHECK(one->band.outward == other->band.outward);
+      CHECK(one->band.inward == other->band.inward);
+      if (const auto* shape = std::get_if<PrimitiveShape>(&one->shape)) {
+        const auto& read = std::get<PrimitiveShape>(other->shape);
+        CHECK((*shape)->getNodeType() == read->getNodeType());
+        (*shape)->computeLocalAABB();
+        read->computeLocalAABB();
+        CHECK((*shape)->aabb_local.min_ == read->aabb_local.min_);
+        CHECK((*shape)->aabb_local.max_ == read->aabb_local.max_);
+      } else {
+        const TriangleMesh was = std::get<MeshFile>(one->shape).read();
+        const TriangleMesh is = std::get<MeshFile>(other->shape).read();
+        REQUIRE(was.vertices == is.vertices);
+        REQUIRE(was.triangles.size() == is.triangles.size());
+        for (std::size_t t = 0; t < was.triangles.size(); ++t) {
+          for (int k = 0; k < 3; ++k) CHECK(was.triangles[t][k] == is.triangles[t][k]);
+        }
+      }
+    }
+    CHECK(scene.displacement.mean() == again.displacement.mean());
+    CHECK(scene.displacement.covariance().isApprox(again.displacement.covariance(), 1e-15));
+    CHECK(scene.request.method == again.request.method);
+    CHECK(scene.request.contact == again.request.contact);
+    CHECK(scene.request.threshold == again.request.threshold);
+    CHECK(scene.request.seed == again.request.seed);
+    CHECK(scene.pose_error.has_value() == again.pose_error.has_value());
+  };
+  const std::string rest =
+      R"("displacement": {"sigma": [0.1, 0.02, 0.3], "sigma_axes": [1, 0.2, 0.3, 0.4],
+         "mean": [0.1, 0, 0.7]}, "request": {"method": "interval", "contact": "solid",
+         "threshold": 0.01, "seed": 9}})";
+  check(R"({"a": {"mesh": "tetrahedron.obj", "scale": 0.3, "pose": [1, 2, 3, 0.1, 0.2, 0.3]},
+            "b": {"mesh": "tetrahedron.obj", "normalize": true, "band": [0.01, 0.02]}, )" +
+        rest);
+  for (const char* shape :
+       {R"("box": [1, 0.1, 3])", R"("sphere": 0.3)", R"("ellipsoid": [1, 2, 0.3])",
+        R"("capsule": {"radius": 0.1, "length": 2})", R"("cone": {"radius": 0.1, "length": 2})",
+        R"("cylinder": {"radius": 0.1, "length": 2})"}) {
+    check(std::string("{\"a\": {") + shape + "}, \"b\": {" + shape + "}, " + rest);
+  }
+  check(R"({"a": {"sphere": 1}, "b": {"halfspace": {"normal": [1, 2, 3], "offset": 0.1}},
+            "pose_error": {"sigma": [0.1, 0.1, 0.1, 0.01, 0.01, 0.02], "convention": "body"}})");
+  CHECK_THROWS_WITH(loadScene(folder.write("scene.json", R"({"a": {"mesh": {"vertices": [0, 0, 0],
+                    "triangles": [0, 1, 2]}}, "b": {"sphere": 1}, )" +
+                                                             rest)),
+                    Catch::Contains("a: mesh") && Catch::Contains("triangles"));
+}

@@ -52,7 +52,7 @@ double withinBox(const Eigen::Vector3d& half, const Eigen::Vector3d& half_of_box
   for (int k = 0; k < 3; ++k) {
     const double room = half_of_box[k] - half[k];
     if (!(room > 0.0)) return 0.0;
-    p *= normalMass((-room - mean[k]) / deviations[k], (room - mean[k]) / deviations[k]);
+    p *= normalIntervalMass((-room - mean[k]) / deviations[k], (room - mean[k]) / deviations[k]);
   }
   return p;
 }
