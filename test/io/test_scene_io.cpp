@@ -13,6 +13,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "catch.h"
 #include "temporary_folder.h"
