@@ -67,10 +67,11 @@ GroupsQuery::GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b,
 
 void GroupsQuery::validate(const Poses& poses_a, const Poses& poses_b,
                            const ProbabilityRequest& request) const {
-  validateRequest(request);
   a_.validate(poses_a);
   b_.validate(poses_b);
-  if (!single_) requireMethod(request);
+  if (single_) return;  // a pair has more requests
+  validateRequest(request);
+  requireMethod(request);
 }
 
 ProbabilityResult GroupsQuery::answer(const Poses& poses_a, const Poses& poses_b,
@@ -100,18 +101,12 @@ ProbabilityResult GroupsQuery::answer(const Poses& poses_a, const Poses& poses_b
                                       const ProbabilityRequest& request) const {
   validate(poses_a, poses_b, request);
   if (single_) return single_->answer(poses_a[0], poses_b[0], displacement, request);
-  const ProbabilityRequest of_call = ofOneCall(request);
-  const TruncatedQuery truncated(displacement, of_call);
-  ProbabilityResult result;
-  if (truncated.isWhole()) {
-    result =
-        answerOfGaussian(poses_a, poses_b, displacement.gaussian(), truncated.requestOfContact());
-    truncated.ofContact(result);
-  } else {
-    result = answerOfGaussian(poses_a, poses_b, displacement.gaussian(), truncated.requestOfJoint(),
-                              &truncated.ball());
-    truncated.ofJoint(result);
-  }
+  ProbabilityResult result =
+      truncatedAnswer(displacement, ofOneCall(request),
+                      [&](const GaussianDisplacement& gaussian,
+                          const ProbabilityRequest& of_gaussian, const BallTruncation* ball) {
+                        return answerOfGaussian(poses_a, poses_b, gaussian, of_gaussian, ball);
+                      });
   noteTolerance(request, result);
   return result;
 }
@@ -135,6 +130,7 @@ ProbabilityResult GroupsQuery::certified(const Poses& poses_a, const Poses& pose
                                          const GaussianDisplacement& displacement,
                                          const ProbabilityRequest& request,
                                          std::ostream& certificate) const {
+  validateRequest(request);
   validate(poses_a, poses_b, request);
   requireAlike(a_, b_);
   requireAlike(b_, a_);

@@ -44,4 +44,21 @@ class TruncatedQuery {
   BallMass mass_;
 };
 
+/// \param answer  of the Gaussian and a request: of P(contact), or of P(contact and inside) where a
+///                ball is given
+template <class Answer>
+ProbabilityResult truncatedAnswer(const TruncatedGaussian& displacement,
+                                  const ProbabilityRequest& request, const Answer& answer) {
+  const TruncatedQuery truncated(displacement, request);
+  ProbabilityResult result;
+  if (truncated.isWhole()) {
+    result = answer(displacement.gaussian(), truncated.requestOfContact(), nullptr);
+    truncated.ofContact(result);
+  } else {
+    result = answer(displacement.gaussian(), truncated.requestOfJoint(), &truncated.ball());
+    truncated.ofJoint(result);
+  }
+  return result;
+}
+
 }  // namespace fcl_prob::detail

@@ -94,16 +94,10 @@ ProbabilityResult askSwept(const SweptBodies& bodies, const GaussianMixture& of_
 
 ProbabilityResult askSwept(const SweptBodies& bodies, const TruncatedGaussian& of_bodies,
                            const ProbabilityRequest& request) {
-  const TruncatedQuery truncated(of_bodies, request);
-  ProbabilityResult result;
-  if (truncated.isWhole()) {
-    result = bodies.answer(of_bodies.gaussian(), truncated.requestOfContact());
-    truncated.ofContact(result);
-  } else {
-    result = bodies.answer(of_bodies.gaussian(), truncated.requestOfJoint(), &truncated.ball());
-    truncated.ofJoint(result);
-  }
-  return result;
+  return truncatedAnswer(
+      of_bodies, request,
+      [&](const GaussianDisplacement& gaussian, const ProbabilityRequest& of_gaussian,
+          const BallTruncation* ball) { return bodies.answer(gaussian, of_gaussian, ball); });
 }
 
 }  // namespace

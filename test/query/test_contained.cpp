@@ -247,9 +247,9 @@ TEST_CASE("containment is refused by name where it is not told") {
   ProbabilityRequest banded = containedRequest();
   banded.band_a.outward = 0.01;
   CHECK_THROWS_AS(refused(ball, box, banded), InvalidRequest);
-  const GroupQuery groups({ball}, {box});
+  const GroupQuery groups({ball, ball}, {box});
   ProbabilityResult result;
-  CHECK_THROWS_WITH(groups.collisionProbability({kIdentity}, {kIdentity}, displacement,
+  CHECK_THROWS_WITH(groups.collisionProbability({kIdentity, kIdentity}, {kIdentity}, displacement,
                                                 containedRequest(), result),
                     Catch::Contains("of pairs"));
 }
