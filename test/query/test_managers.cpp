@@ -272,8 +272,9 @@ TEST_CASE("pairs of managers share cells: one that uses up its share leaves the 
   for (const double x : {0.45, 0.5, 0.55, 0.6, 0.65, 0.7}) {
     fcl::Transform3d pose = fcl::Transform3d::Identity();
     pose.translation() = Eigen::Vector3d(x, 0.1, 0.05);
-    const bool is_hard = others.empty();
-    others.push_back(std::make_unique<Object>(is_hard ? mesh : box, pose));
+    const std::shared_ptr<fcl::CollisionGeometryd> next = box;
+    const std::shared_ptr<fcl::CollisionGeometryd> hard = mesh;
+    others.push_back(std::make_unique<Object>(others.empty() ? hard : next, pose));
   }
   BroadphaseRequest request;
   request.displacement = [&](const Object& object) {
