@@ -28,7 +28,7 @@ using detail::PolytopeBoundary;
 // The wider the margin, the more pieces of a cubature it is worth.
 constexpr double kGoodRelativeWidth = 1e-11;
 constexpr double kPoorRelativeWidth = 9e-11;
-constexpr double kFewPieces = 8, kManyPieces = 64;
+constexpr double kFewPieces = 8, kManyPieces = 512;
 constexpr double kSliverRelativeWidth = 1e-3;
 
 // Of the cubature, relative: no finer than this, and this share of what is enough.

@@ -179,7 +179,7 @@ TEST_CASE("mass of rotated boxes from P = 0.5 to 1e-300 and sizes from 1e-3 to 1
     CAPTURE(distance, accuracy.count, accuracy.error, accuracy.width);
     CHECK(accuracy.count > 300);
     CHECK(accuracy.error < 1e-10);
-    CHECK(accuracy.width < 2e-9);
+    CHECK(accuracy.width < 2e-8);
   }
   for (const auto& [size, accuracy] : by_size) {
     CAPTURE(size, accuracy.count, accuracy.error, accuracy.width);
