@@ -26,7 +26,7 @@ namespace {
 
 using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
+const fcl::Transform3d kAtOrigin = fcl::Transform3d::Identity();
 
 ProbabilityRequest containedRequest(double tolerance = 1e-3) {
   ProbabilityRequest request;
@@ -105,9 +105,9 @@ TEST_CASE("boxes, spheres and tilted bodies within a box: a product of masses") 
       CHECK(*result.upper >= truth * (1 - 1e-12));
       CHECK(*result.upper - *result.lower <= std::max(1e-6, 1.0001e-3 * *result.upper));
     };
-    check(contained(sphere, kIdentity, container, kIdentity, displacement),
+    check(contained(sphere, kAtOrigin, container, kAtOrigin, displacement),
           withinBox(Eigen::Vector3d::Constant(sphere->radius), half_of_box, mean, deviations));
-    check(contained(brick, tilted, container, kIdentity, displacement),
+    check(contained(brick, tilted, container, kAtOrigin, displacement),
           withinBox(reach, half_of_box, mean, deviations));
     Eigen::Vector3d lowest = Eigen::Vector3d::Constant(1e9), highest = -lowest;
     for (int v = 0; v < bumpy->num_vertices; ++v) {
@@ -115,7 +115,7 @@ TEST_CASE("boxes, spheres and tilted bodies within a box: a product of masses") 
       lowest = lowest.cwiseMin(at);
       highest = highest.cwiseMax(at);
     }
-    check(contained(bumpy, tilted, container, kIdentity, displacement),
+    check(contained(bumpy, tilted, container, kAtOrigin, displacement),
           withinBox(0.5 * (highest - lowest), half_of_box, mean + 0.5 * (highest + lowest),
                     deviations));
   }
@@ -129,9 +129,9 @@ TEST_CASE("a mesh within a mesh is as often as counting says") {
     const fcl::Transform3d pose = random.pose(0.15);
     const GaussianDisplacement displacement = randomDisplacement(random, 0.05, 0.15);
     const ProbabilityResult result =
-        contained(inner, pose, outer, kIdentity, displacement, containedRequest(0.01));
+        contained(inner, pose, outer, kAtOrigin, displacement, containedRequest(0.01));
     CHECK(result.status == ProbabilityStatus::converged);
-    const ContainedCollider collider(inner, pose, outer, kIdentity);
+    const ContainedCollider collider(inner, pose, outer, kAtOrigin);
     const Eigen::Matrix3d factor = displacement.covariance().llt().matrixL();
     constexpr int kSamples = 20'000;
     int hits = 0;
@@ -149,7 +149,7 @@ TEST_CASE("a mesh within a mesh is as often as counting says") {
     ProbabilityRequest request = containedRequest(0.01);
     request.method = ProbabilityMethod::estimate;
     const ProbabilityResult estimate =
-        contained(inner, pose, outer, kIdentity, displacement, request);
+        contained(inner, pose, outer, kAtOrigin, displacement, request);
     CHECK(estimate.status == ProbabilityStatus::converged);
     CHECK(*estimate.estimate >= *result.lower - 5 * *estimate.standard_error);
     CHECK(*estimate.estimate <= *result.upper + 5 * *estimate.standard_error);
@@ -157,7 +157,7 @@ TEST_CASE("a mesh within a mesh is as often as counting says") {
       request = containedRequest();
       request.threshold = std::min(0.999, share * *result.upper);
       const ProbabilityResult decided =
-          contained(inner, pose, outer, kIdentity, displacement, request);
+          contained(inner, pose, outer, kAtOrigin, displacement, request);
       CHECK(decided.status == ProbabilityStatus::decided);
       CHECK(decided.decision ==
             (*request.threshold < *result.lower ? Decision::above : Decision::below));
@@ -169,10 +169,10 @@ TEST_CASE("what is larger is never within, and the other way round is no contain
   const auto large = makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 8, 10, 1));
   const auto small = makeModel<fcl::OBBRSSd>(bumpyMesh(0.1, 6, 8, 2));
   const GaussianDisplacement displacement(1e-4 * Eigen::Matrix3d::Identity());
-  const ProbabilityResult never = contained(large, kIdentity, small, kIdentity, displacement);
+  const ProbabilityResult never = contained(large, kAtOrigin, small, kAtOrigin, displacement);
   CHECK(never.status == ProbabilityStatus::exact);
   CHECK(*never.upper == 0.0);
-  const ProbabilityResult surely = contained(small, kIdentity, large, kIdentity, displacement);
+  const ProbabilityResult surely = contained(small, kAtOrigin, large, kAtOrigin, displacement);
   CHECK(*surely.lower > 0.999);
 }
 
@@ -185,7 +185,7 @@ TEST_CASE("mixtures, truncated and vanishing displacements, and gradients") {
       {{0.25, alongAxes(first, deviations)}, {0.75, alongAxes(second, deviations)}});
   ProbabilityResult result;
   const PreparedQuery query(ball, box);
-  query.collisionProbability(kIdentity, kIdentity, mixture, containedRequest(), result);
+  query.collisionProbability(kAtOrigin, kAtOrigin, mixture, containedRequest(), result);
   const double truth = 0.25 * withinBox(half, half_of_box, first, deviations) +
                        0.75 * withinBox(half, half_of_box, second, deviations);
   CHECK(*result.lower <= truth);
@@ -193,20 +193,20 @@ TEST_CASE("mixtures, truncated and vanishing displacements, and gradients") {
   CHECK(*result.upper - *result.lower < 2e-3);
 
   const TruncatedGaussian truncated(alongAxes(first, deviations), 6.0);
-  query.collisionProbability(kIdentity, kIdentity, truncated, containedRequest(), result);
+  query.collisionProbability(kAtOrigin, kAtOrigin, truncated, containedRequest(), result);
   const double of_first = withinBox(half, half_of_box, first, deviations);
   CHECK(*result.lower <= of_first + 1e-6);
   CHECK(*result.upper >= of_first - 1e-6);
 
   const GaussianDisplacement still(Eigen::Vector3d(0.1, 0, 0), Eigen::Matrix3d::Zero());
-  CHECK(*contained(ball, kIdentity, box, kIdentity, still).lower == 1.0);
+  CHECK(*contained(ball, kAtOrigin, box, kAtOrigin, still).lower == 1.0);
   const GaussianDisplacement out(Eigen::Vector3d(0.45, 0, 0), Eigen::Matrix3d::Zero());
-  CHECK(*contained(ball, kIdentity, box, kIdentity, out).upper == 0.0);
+  CHECK(*contained(ball, kAtOrigin, box, kAtOrigin, out).upper == 0.0);
 
   ProbabilityRequest request = containedRequest(1e-4);
   request.gradient = true;
   const ProbabilityResult with_gradient =
-      contained(ball, kIdentity, box, kIdentity, alongAxes(first, deviations), request);
+      contained(ball, kAtOrigin, box, kAtOrigin, alongAxes(first, deviations), request);
   REQUIRE(with_gradient.gradient);
   const double step = 1e-5;
   for (int k = 0; k < 3; ++k) {
@@ -226,7 +226,7 @@ TEST_CASE("containment is refused by name where it is not told") {
   const GaussianDisplacement displacement(0.01 * Eigen::Matrix3d::Identity());
   const auto refused = [&](const Geometry& a, const Geometry& b, ProbabilityRequest request) {
     ProbabilityResult result;
-    PreparedQuery(a, b).collisionProbability(kIdentity, kIdentity, displacement, request, result);
+    PreparedQuery(a, b).collisionProbability(kAtOrigin, kAtOrigin, displacement, request, result);
   };
   const auto by = [](ProbabilityMethod method) {
     ProbabilityRequest request = containedRequest();
@@ -249,7 +249,7 @@ TEST_CASE("containment is refused by name where it is not told") {
   CHECK_THROWS_AS(refused(ball, box, banded), InvalidRequest);
   const GroupQuery groups({ball, ball}, {box});
   ProbabilityResult result;
-  CHECK_THROWS_WITH(groups.collisionProbability({kIdentity, kIdentity}, {kIdentity}, displacement,
+  CHECK_THROWS_WITH(groups.collisionProbability({kAtOrigin, kAtOrigin}, {kAtOrigin}, displacement,
                                                 containedRequest(), result),
                     Catch::Contains("of pairs"));
 }
