@@ -34,6 +34,7 @@ constexpr double kSliverRelativeWidth = 1e-3;
 // Of the cubature, relative: no finer than this, and this share of what is enough.
 constexpr double kFinest = 1e-12;
 constexpr double kShareOfEnough = 1e-3;
+constexpr std::size_t kMostTetrahedra = 20'000;  // some 20 ms
 
 // Planes of a body that are tried for its narrowest side.
 constexpr std::size_t kMostPlanes = 1024;
@@ -128,7 +129,7 @@ Bounds massByCubature(const ConvexPolytope& polytope, double vertex_error,
                       PolytopeBoundary& boundary, const detail::MassEffort& effort) {
   const detail::MassAccuracy accuracy{std::max(kFinest, kShareOfEnough * effort.enough)};
   const Eigen::Vector3d& anchor = polytope.vertices.front();
-  detail::SimplexMass sum(anchor);
+  detail::SimplexMass sum(anchor, kMostTetrahedra);
   for (const ConvexPolytope::Face& face : polytope.faces) {
     const std::vector<int>& loop = face.vertices;
     if (std::find(loop.begin(), loop.end(), 0) != loop.end()) continue;

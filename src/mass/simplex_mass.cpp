@@ -173,7 +173,10 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   double tail = 2 * seriesTail(x, q, kLowDegree);
   const bool conical = tail > enough;
   if (conical) tail = 2 * seriesTail(x, q, kConicalDegree);
-  if (tail > enough && halvings < kMostHalvings) return addHalves(v, accuracy, halvings + 1);
+  if (tail > enough && halvings < kMostHalvings && halves_left_ > 1) {
+    halves_left_ -= 2;
+    return addHalves(v, accuracy, halvings + 1);
+  }
   const double mean = kDensity * (conical ? conicalRule().meanDensity(anchor_, v)
                                           : lowRule().meanDensity(anchor_, v));
   // Corners that halving has made are off by an ulp of their coordinates.
