@@ -16,7 +16,8 @@ macro(fcl_prob_install_wing room with)
 endmacro()
 fcl_prob_install_wing(io FCL_PROB_WITH_ASSIMP mesh_io.h scene_io.h octomap_io.h)
 fcl_prob_install_wing(cloud FCL_PROB_WITH_CLOUD point_cloud.h sensor_model.h reconstruction.h)
-fcl_prob_install_wing(robot FCL_PROB_WITH_ROBOT robot.h robot_query.h robot_scene.h self_collision.h)
+fcl_prob_install_wing(robot FCL_PROB_WITH_ROBOT robot.h robot_groups.h robot_query.h robot_scene.h self_collision.h
+                       urdf.h)
 fcl_prob_install_wing(planning FCL_PROB_WITH_PLANNING motion_planning.h certified_planning.h
                        timed_planning.h ompl.h)
 install(TARGETS ${fcl_prob_installed} EXPORT fcl_prob-targets

@@ -17,7 +17,8 @@ namespace fcl_prob {
 struct RobotOptions {
   /// The folder of each package or model: what stands for `package://NAME` and `model://NAME` in
   /// the names of meshes. One that is not named here is the folder of that name in which the URDF
-  /// is, if there is one.
+  /// is, if there is one; or else, of a package, where ROS finds it: `share/NAME` in the folders of
+  /// the environment's AMENT_PREFIX_PATH, then those of ROS_PACKAGE_PATH.
   std::map<std::string, std::string> packages;
 
   /// The links whose collision elements are taken; none named: all of them.
@@ -46,8 +47,9 @@ struct RobotJoint {
 /// A link, and how it hangs on the one that carries it.
 struct RobotLink {
   std::string name;
-  int parent = -1;     ///< index in Robot::links(), below its own; the root link has none
-  bool moves = false;  ///< relative to its parent: the joint between them is not fixed
+  int parent = -1;         ///< index in Robot::links(), below its own; the root link has none
+  bool moves = false;      ///< relative to its parent: the joint between them is not fixed
+  std::string joint = {};  ///< name of that joint; of the root link empty
 };
 
 /// A collision element of a link, or an object attached to it.
@@ -111,6 +113,14 @@ class Robot {
   ///         as loadMesh() for its meshes; InvalidPose for the base
   explicit Robot(const std::string& urdf_file, const RobotOptions& options = {});
 
+  /// The same from the text of a URDF, as ROS has it in the parameter robot_description. Messages
+  /// begin with "the URDF text" where they begin with the name of a file otherwise.
+  /// \param folder  where the URDF would be: what names of meshes are relative to. Empty: nowhere,
+  ///                and a name that is relative is refused
+  /// \throws as the constructor
+  static Robot fromText(const std::string& urdf_text, const RobotOptions& options = {},
+                        const std::string& folder = {});
+
   /// The same robot with an object that moves with a link: the last of its bodies. A query that
   /// was made before does not know of it.
   /// \throws InvalidRequest for a link that is not there, or a name that is empty or another
@@ -120,8 +130,11 @@ class Robot {
 
   const std::string& name() const;
 
-  /// What it was read from, so that it can be read again.
+  /// What it was read from, so that it can be read again: the path of a file, or, where that is
+  /// empty, a text. And what names of meshes are relative to, as fromText() takes it.
   const std::string& urdf() const;
+  const std::string& urdfText() const;
+  const std::string& folder() const;
   const RobotOptions& options() const;
 
   const std::vector<RobotJoint>& joints() const;

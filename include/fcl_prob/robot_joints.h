@@ -17,8 +17,13 @@ namespace fcl_prob {
 /// \param poses_b           metres, world frame
 /// \param displacement      of A relative to B besides, metres, world frame
 /// \throws InvalidRequest as Robot::requireWithinLimits(); InvalidDistribution as RandomJoints
-RandomJoints randomJoints(const Robot& robot, const Eigen::VectorXd& mean,
-                          const Eigen::MatrixXd& covariance, std::vector<fcl::Transform3d> poses_b,
-                          const GaussianDisplacement& displacement);
+inline RandomJoints randomJoints(const Robot& robot, const Eigen::VectorXd& mean,
+                                 const Eigen::MatrixXd& covariance,
+                                 std::vector<fcl::Transform3d> poses_b,
+                                 const GaussianDisplacement& displacement) {
+  robot.requireWithinLimits(mean);
+  const auto kinematics = [robot](const Eigen::VectorXd& values) { return robot.poses(values); };
+  return {mean, covariance, kinematics, std::move(poses_b), displacement};
+}
 
 }  // namespace fcl_prob

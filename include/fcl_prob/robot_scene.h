@@ -44,7 +44,8 @@ struct RobotScene {
   struct Plan {
     std::map<std::string, double> start;
     std::map<std::string, double> goal;
-    std::vector<std::string> joints;         ///< that may move; none named: all
+    std::vector<std::string> joints;         ///< that may move; none named: all, or
+    std::string group;                       ///< those of a group of the SRDF
     std::optional<double> motion_threshold;  ///< of the whole motion
     std::uint64_t seed = 1;
     std::optional<std::size_t> max_states;
@@ -109,6 +110,11 @@ RobotErrors errorsOf(const RobotScene& scene, const Robot& robot);
 
 /// \param what  begins the message \throws InvalidRequest if the scene names errors of the robot
 void requireExactRobot(const RobotScene& scene, const std::string& what);
+
+/// The joints that the plan may move, those of its group if it names one; none: all of them.
+/// \throws FileError as loadGroups(); InvalidRequest for a group that is not there, or of which no
+///         joint moves by itself
+std::vector<std::string> plannedJoints(const RobotScene& scene, const Robot& robot);
 
 /// The scene's robot against itself, with the pairs that its SRDF allows. \throws FileError
 SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot);

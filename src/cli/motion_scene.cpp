@@ -8,7 +8,6 @@
 
 #include "base/known_text.h"
 #include "cli/drawn_shapes.h"
-#include "cli/number_text.h"
 #include "cli/picture_colours.h"
 #include "geometry/geometry_kind.h"
 #include "robot/moving_obstacle.h"

@@ -122,10 +122,11 @@ PlanReport answer(const RobotScene& scene, const PlanArguments& arguments, const
 }
 
 int runPlan(const PlanArguments& arguments) {
-  const RobotScene scene = planSceneOf(arguments);
+  RobotScene scene = planSceneOf(arguments);
   const detail::Stopwatch building;
   const RobotQuery query = loadRobotQuery(scene);
   const Robot& robot = query.robot();
+  scene.plan->joints = plannedJoints(scene, robot);
   const PlanningRequest planning = requestOf(scene, arguments).planning;
   const double build_ms = building.milliseconds();
   noteInterrupts();

@@ -12,7 +12,6 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/reconstruction.h"
 #include "io/quantities.h"
-#include "io/text_reader.h"
 
 namespace fcl_prob::cli {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "fcl_prob/convex_hull_tree.h"

@@ -7,8 +7,6 @@
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 
-#include <cmath>
-
 #include "planning/joint_space.h"
 #include "planning/quiet_ompl.h"
 #include "planning/shorten_path.h"

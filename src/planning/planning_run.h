@@ -4,7 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <utility>
 
 #include "fcl_prob/motion_planning.h"
 

@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include <array>
-#include <limits>
 #include <sstream>
 
 #include "base/decision.h"

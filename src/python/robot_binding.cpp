@@ -12,15 +12,26 @@
 namespace fcl_prob::python {
 namespace {
 
-/// What loads a file, without the GIL.
-std::shared_ptr<Robot> loadRobot(const py::object& path,
-                                 const std::map<std::string, std::string>& packages,
-                                 const std::vector<std::string>& links, const py::object& base,
-                                 bool allow_outside_limits) {
-  const std::string name = pathFrom(path);
-  const RobotOptions options{packages, links, poseFrom(base, "base"), allow_outside_limits};
+using Packages = std::map<std::string, std::string>;
+using Names = std::vector<std::string>;
+
+/// What loads files, without the GIL. \param text  of the URDF; null: it is in the file
+Robot robotFrom(const std::string& file, const std::string* text, const std::string& folder,
+                const RobotOptions& options) {
   const py::gil_scoped_release released;
-  return std::make_shared<Robot>(name, options);
+  return text == nullptr ? Robot(file, options) : Robot::fromText(*text, options, folder);
+}
+
+Robot loadRobot(const py::object& file, const Packages& packages, const Names& links,
+                const py::object& base, bool allow_outside_limits) {
+  return robotFrom(pathFrom(file), nullptr, {},
+                   {packages, links, poseFrom(base, "base"), allow_outside_limits});
+}
+
+Robot robotOfText(const std::string& text, const Packages& packages, const Names& links,
+                  const py::object& base, bool allow_outside_limits, const py::object& folder) {
+  return robotFrom({}, &text, folder.is_none() ? "" : pathFrom(folder),
+                   {packages, links, poseFrom(base, "base"), allow_outside_limits});
 }
 
 Robot withAttached(const Robot& robot, const std::string& name, const std::string& link,
@@ -30,7 +41,7 @@ Robot withAttached(const Robot& robot, const std::string& name, const std::strin
       {name, link, geometryFrom(geometry, "geometry"), poseFrom(pose, "pose"), touch_links});
 }
 
-/// The files are read again.
+/// The files are read again, a text that is the URDF is kept.
 py::tuple robotState(const Robot& robot) {
   const RobotOptions& options = robot.options();
   py::list attached;
@@ -40,17 +51,20 @@ py::tuple robotState(const Robot& robot) {
                                    arrayOf(one.in_link.matrix()), one.touch_links));
   }
   return py::make_tuple(robot.urdf(), options.packages, options.links,
-                        arrayOf(options.base.matrix()), options.allow_outside_limits, attached);
+                        arrayOf(options.base.matrix()), options.allow_outside_limits, attached,
+                        robot.urdfText(), robot.folder());
 }
 
-std::shared_ptr<Robot> robotMadeAgain(const py::tuple& state) {
-  auto robot =
-      loadRobot(state[0], state[1].cast<std::map<std::string, std::string>>(),
-                state[2].cast<std::vector<std::string>>(), state[3], state[4].cast<bool>());
+Robot robotMadeAgain(const py::tuple& state) {
+  const auto text = state[6].cast<std::string>();
+  Robot robot = robotFrom(state[0].cast<std::string>(), text.empty() ? nullptr : &text,
+                          state[7].cast<std::string>(),
+                          {state[1].cast<Packages>(), state[2].cast<Names>(),
+                           poseFrom(state[3], "base"), state[4].cast<bool>()});
   for (const py::handle one : state[5].cast<py::list>()) {
     const auto of = one.cast<py::tuple>();
-    *robot = withAttached(*robot, of[0].cast<std::string>(), of[1].cast<std::string>(), of[2],
-                          of[3], of[4].cast<std::vector<std::string>>());
+    robot = withAttached(robot, of[0].cast<std::string>(), of[1].cast<std::string>(), of[2], of[3],
+                         of[4].cast<Names>());
   }
   return robot;
 }
@@ -88,10 +102,14 @@ void bindRobot(py::module_& module) {
       "metres, world frame; allow_outside_limits: queries answer for states beyond the limits of\n"
       "joints, too, which they refuse otherwise (InvalidRequest). Immutable. Raises FileError,\n"
       "InvalidPose.")
-      .def(py::init(&loadRobot), py::arg("urdf"),
-           py::arg("packages") = std::map<std::string, std::string>(),
-           py::arg("links") = std::vector<std::string>(), py::arg("base") = py::none(),
+      .def(py::init(&loadRobot), py::arg("urdf"), py::arg("packages") = Packages(),
+           py::arg("links") = Names(), py::arg("base") = py::none(),
            py::arg("allow_outside_limits") = false)
+      .def_static("from_text", &robotOfText, py::arg("urdf_text"), py::arg("packages") = Packages(),
+                  py::arg("links") = Names(), py::arg("base") = py::none(),
+                  py::arg("allow_outside_limits") = false, py::arg("folder") = py::none(),
+                  "From the text of a URDF, as of ROS's robot_description. folder: what names of\n"
+                  "meshes are relative to. Raises as Robot(), naming lines of the text.")
       .def_property_readonly("name", &Robot::name)
       .def_property_readonly(
           "joints",
@@ -115,11 +133,9 @@ void bindRobot(py::module_& module) {
       .def_property_readonly(
           "velocities",
           [](const Robot& robot) {
-            Eigen::VectorXd velocities(robot.joints().size());
-            for (Eigen::Index i = 0; i < velocities.size(); ++i) {
-              velocities[i] = robot.joints()[static_cast<std::size_t>(i)].velocity;
-            }
-            return vectorArray(velocities);
+            std::vector<double> velocities;
+            for (const RobotJoint& joint : robot.joints()) velocities.push_back(joint.velocity);
+            return arrayOf(velocities);
           },
           "(k,) float64, radians or metres per second; 0 where the URDF has none.")
       .def_property_readonly(

@@ -4,6 +4,7 @@
 
 #include "fcl_prob/joint_gradient.h"
 #include "fcl_prob/probable_decision.h"
+#include "fcl_prob/robot_groups.h"
 #include "fcl_prob/self_collision.h"
 #include "python/arrays.h"
 #include "python/results.h"
@@ -52,6 +53,18 @@ void bindSelfCollision(py::module_& module) {
           py::arg("values"), "Names of the bodies that touch.");
 }
 
+void bindGroups(py::module_& module) {
+  using G = RobotGroup;
+  py::class_<G>(module, "RobotGroup", "Joints that an SRDF names together, and states of them.")
+      .def_readonly("joints", &G::joints, "Those that move by themselves, in the robot's order.")
+      .def_readonly("links", &G::links, "Links that hang on a joint of the group.")
+      .def_readonly("states", &G::states, "By name: values of joints by name, radians or metres.");
+  module.def(
+      "load_groups",
+      [](const py::object& srdf, const Robot& robot) { return loadGroups(pathFrom(srdf), robot); },
+      py::arg("srdf"), py::arg("robot"), "The groups of an SRDF by name. Raises FileError.");
+}
+
 void bindGradient(py::module_& module) {
   using G = JointGradient;
   py::class_<G>(module, "JointGradient",
@@ -64,8 +77,7 @@ void bindGradient(py::module_& module) {
       .def_property_readonly(
           "gradient_standard_error",
           [](const G& g) { return arrayOf(g.gradient_standard_error.transpose()); })
-      .def_property_readonly(
-          "lines", [](const G& g) { return g.lines; }, "Random lines that were drawn.")
+      .def_readonly("lines", &G::lines, "Random lines that were drawn.")
       .def_property_readonly(
           "status", [](const G& g) { return toString(g.status); },
           "'sampled', 'time-limit' or 'cancelled'.")
@@ -84,9 +96,8 @@ void bindDecisions(py::module_& module) {
           "decision", [](const R& r) { return toString(r.decision); },
           "'undecided', 'certainly-below', 'certainly-above', 'probably-below' or\n"
           "'probably-above'.")
-      .def_property_readonly(
-          "chance_of_error", [](const R& r) { return r.chance_of_error; },
-          "Of being wrong with this decision; 0 for a certain one.")
+      .def_readonly("chance_of_error", &R::chance_of_error,
+                    "Of being wrong with this decision; 0 for a certain one.")
       .def_property_readonly(
           "certified", [](const R& r) { return pairOf(r.certified); }, "(lower, upper), certified.")
       .def_property_readonly(
@@ -99,6 +110,7 @@ void bindDecisions(py::module_& module) {
         return "<ProbableResult " + toString(r.decision) + ": " + toString(r.status) + ">";
       });
   bindSelfCollision(module);
+  bindGroups(module);
   bindGradient(module);
 }
 

@@ -69,30 +69,21 @@ void bindResult(py::module_& module) {
           "Between waypoints: no point is farther from where it was looked at, metres.")
       .def_property_readonly("far_bodies", [](const R& r) { return r.far_bodies; })
       .def_property_readonly("far_upper", [](const R& r) { return r.far_upper; })
-      .def_property_readonly(
-          "plan", [](const R& r) { return r.plan; },
+      .def_readonly(
+          "plan", &R::plan,
           "What was left out and what may be meant otherwise: links without a body, notes.")
       .def("to_dict",
-           [](const R& r) {
+           [](const py::object& result) {
              py::dict dict;
-             dict["probability"] = r.probability();
-             dict["lower"] = r.any.lower;
-             dict["upper"] = r.any.upper;
-             dict["estimate"] = orNone(r.estimate);
-             dict["standard_error"] = orNone(r.standard_error);
-             dict["confidence_interval"] = pairOf(r.confidence_interval);
-             dict["decision"] = decisionOf(r.decision);
-             dict["status"] = toString(r.status);
-             dict["by_waypoint"] = pairsOf(r.by_waypoint);
-             dict["any_dependence"] = pairOf(r.any_dependence);
-             dict["swept_band"] = orNone(r.swept_band);
-             dict["far_bodies"] = r.far_bodies;
-             dict["far_upper"] = r.far_upper;
-             dict["plan"] = r.plan;
-             py::list parts;
-             for (const ProbabilityResult& part : r.parts) {
-               parts.append(py::cast(part).attr("to_dict")());
+             for (const char* name :
+                  {"probability", "lower", "upper", "estimate", "standard_error",
+                   "confidence_interval", "decision", "status", "by_waypoint", "any_dependence",
+                   "swept_band", "far_bodies", "far_upper", "plan"}) {
+               dict[name] = result.attr(name);
              }
+             py::list parts;
+             for (const py::handle part : result.attr("parts"))
+               parts.append(part.attr("to_dict")());
              dict["parts"] = parts;
              return dict;
            })
@@ -168,13 +159,10 @@ Obstacle obstacleFrom(py::handle value, std::size_t number) {
   if (parts.size() > 4) obstacle.over_time = predictionFrom(parts[4], name + ": prediction");
   bodiesFrom(parts[1], name, obstacle);
   obstacle.name = parts[0].cast<std::string>();
-  if (const auto* gaussian = std::get_if<GaussianDisplacement>(&randomness)) {
-    obstacle.displacement = *gaussian;
-  } else if (const auto* mixture = std::get_if<GaussianMixture>(&randomness)) {
-    obstacle.displacement = *mixture;
-  } else {
-    obstacle.displacement = std::get<TruncatedGaussian>(randomness);
-  }
+  const auto set = [&obstacle](const auto& error) {
+    if constexpr (!std::is_same_v<decltype(error), const PoseError&>) obstacle.displacement = error;
+  };
+  std::visit(set, randomness);
   return obstacle;
 }
 

@@ -6,7 +6,6 @@
 
 #include "python/arrays.h"
 #include "python/displacements.h"
-#include "python/geometries.h"
 
 namespace fcl_prob::python {
 namespace {

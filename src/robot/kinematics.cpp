@@ -26,10 +26,8 @@ Eigen::Vector3d eigenOf(const KDL::Vector& v) { return {v.x(), v.y(), v.z()}; }
 
 fcl::Transform3d transformOf(const KDL::Frame& frame) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) pose.linear()(i, j) = frame.M(i, j);
-    pose.translation()[i] = frame.p(i);
-  }
+  pose.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(frame.M.data);
+  pose.translation() = eigenOf(frame.p);
   return pose;
 }
 
@@ -85,7 +83,7 @@ void Kinematics::addLinks(const std::string& link, int parent, const UrdfModel& 
     const int index = static_cast<int>(links_.size());
     link_index_[joint->child] = index;
     links_.push_back(carried);
-    tree_.push_back({joint->child, parent, !isFixed(*joint)});
+    tree_.push_back({joint->child, parent, !isFixed(*joint), joint->name});
     addLinks(joint->child, index, model, joints_of);
   }
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/constants.h"
 #include "base/quantiles.h"
 
 namespace fcl_prob::detail {

@@ -3,8 +3,10 @@
 #include "robot/mesh_names.h"
 
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
-#include <optional>
+#include <sstream>
+#include <vector>
 
 #include "fcl_prob/exceptions.h"
 
@@ -31,44 +33,79 @@ std::string decoded(const std::string& text, const std::string& where) {
   return result;
 }
 
-/// The folder of a package by name.
-std::optional<fs::path> folderOf(const std::string& package, const std::string& urdf,
-                                 const std::map<std::string, std::string>& packages) {
-  const auto known = packages.find(package);
-  if (known != packages.end()) return known->second;
-  fs::path folder = fs::absolute(urdf).lexically_normal().parent_path();
-  for (; folder.has_relative_path(); folder = folder.parent_path()) {
-    if (folder.filename() == package) return folder;
+/// What a variable of the environment lists.
+std::vector<fs::path> foldersOf(const char* variable) {
+  const char* value = std::getenv(variable);
+  std::istringstream listed(value == nullptr ? "" : value);
+  std::vector<fs::path> folders;
+  for (std::string one; std::getline(listed, one, ':');) {
+    if (!one.empty()) folders.push_back((fs::path(one) / "").parent_path());
   }
-  return std::nullopt;
+  return folders;
+}
+
+/// Where a package or model may be that is not among those given, in order: where the URDF is, and
+/// where ROS finds packages, what is installed before what is built from its sources.
+std::vector<fs::path> placesOf(const std::string& name, bool is_package, const std::string& urdf) {
+  std::vector<fs::path> places;
+  fs::path above = urdf.empty() ? "" : (fs::absolute(urdf) / "x").lexically_normal().parent_path();
+  for (; above.has_relative_path(); above = above.parent_path()) {
+    if (above.filename() == name) places.push_back(above);
+  }
+  // Those of the environment themselves, and what is above them, are no packages.
+  if (!is_package || name.find_first_not_of('.') == std::string::npos) return places;
+  for (const fs::path& prefix : foldersOf("AMENT_PREFIX_PATH")) {
+    places.push_back(prefix / "share" / name);
+  }
+  for (const fs::path& folder : foldersOf("ROS_PACKAGE_PATH")) {
+    places.push_back(folder / name);
+    if (folder.filename() == name) places.push_back(folder);
+  }
+  return places;
 }
 
 }  // namespace
 
-std::string meshFile(const std::string& name, const std::string& urdf,
+std::string meshFile(const std::string& name, const std::string& folder,
                      const std::map<std::string, std::string>& packages, const std::string& where) {
-  const fs::path beside = fs::path(urdf).parent_path();
+  const auto fail = [&](const std::string& fault) {
+    throw FileError(where + ": " + name + ": " + fault);
+  };
+  const auto beside = [&](const fs::path& path) {
+    if (folder.empty() && path.is_relative()) {
+      fail("is relative to the folder of the URDF, and none is given with the text");
+    }
+    return (folder / path).lexically_normal().string();
+  };
   const std::size_t colon = name.find("://");
-  if (colon == std::string::npos) return (beside / name).lexically_normal().string();
+  if (colon == std::string::npos) return beside(name);
   const std::string scheme = name.substr(0, colon);
   const std::string rest = decoded(name.substr(colon + 3), where);
   if (scheme == "file") {
     const std::string host = "localhost/";
-    const std::string path = rest.rfind(host, 0) == 0 ? rest.substr(host.size() - 1) : rest;
-    return (beside / path).lexically_normal().string();
+    return beside(rest.rfind(host, 0) == 0 ? rest.substr(host.size() - 1) : rest);
   }
   if (scheme != "package" && scheme != "model") {
-    throw FileError(where + ": " + name + ": " + scheme +
-                    ":// is not read here, only file://, package:// and model://");
+    fail(scheme + ":// is not read here, only file://, package:// and model://");
   }
   const std::size_t end = rest.find('/');
   const std::string package = rest.substr(0, end);
-  const auto folder = folderOf(package, urdf, packages);
-  if (!folder || end == std::string::npos) {
-    throw FileError(where + ": " + name + ": no folder is known for the " +
-                    (scheme == "model" ? "model " : "package ") + package);
+  if (end == std::string::npos) fail("no file of the " + scheme + " " + package);
+  const auto given = packages.find(package);
+  const bool is_package = scheme == "package";
+  const auto places = given != packages.end() ? std::vector<fs::path>{given->second}
+                                              : placesOf(package, is_package, folder);
+  std::string looked;
+  for (const fs::path& place : places) {
+    std::error_code error;
+    if (fs::is_directory(place, error)) {
+      return (place / rest.substr(end + 1)).lexically_normal().string();
+    }
+    looked += (looked.empty() ? ": there is no " : ", no ") + place.string();
   }
-  return (*folder / rest.substr(end + 1)).lexically_normal().string();
+  throw FileError(where + ": " + name + ": no folder is known for the " + scheme + " " + package +
+                  ", among those given, around the URDF" +
+                  (is_package ? ", in AMENT_PREFIX_PATH or ROS_PACKAGE_PATH" : "") + looked);
 }
 
 }  // namespace fcl_prob::detail

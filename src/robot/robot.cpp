@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/validation.h"
+#include "io/file_content.h"
 #include "io/import_notes.h"
+#include "robot/joint_indices.h"
 #include "robot/kinematics.h"
 #include "robot/urdf_shapes.h"
+#include "robot/xml_elements.h"
 
 namespace fcl_prob {
 
@@ -26,15 +30,23 @@ constexpr double kBeyondLimits = 1e-6;
 }  // namespace
 
 struct Robot::Implementation {
-  Implementation(detail::UrdfModel model, const std::string& path, const RobotOptions& given)
+  Implementation(detail::UrdfModel model, detail::UrdfSource of, const RobotOptions& given)
       : name(model.name),
         kinematics(model),
-        bodies(detail::bodiesOf(model, path, given)),
-        urdf(path),
+        bodies(detail::bodiesOf(model, of, given)),
+        source(std::move(of)),
         options(given),
         notes(std::move(model.notes)) {
+    if (!source.file.empty()) source.content.clear();
     if (!options.allow_outside_limits) kinematics.narrowLimits();
     for (const RobotBody& body : bodies) links.push_back(kinematics.linkIndex(body.link));
+  }
+
+  static std::shared_ptr<const Implementation> read(detail::UrdfSource source,
+                                                    const RobotOptions& options) {
+    detail::validatePose(options.base, "the robot's base");
+    auto model = detail::readUrdf(source);
+    return std::make_shared<const Implementation>(std::move(model), std::move(source), options);
   }
 
   void validate(const Eigen::VectorXd& values) const {
@@ -111,16 +123,20 @@ struct Robot::Implementation {
   detail::Kinematics kinematics;
   std::vector<RobotBody> bodies;
   std::vector<AttachedObject> attached;
-  std::vector<int> links;  ///< of the bodies
-  std::string urdf;
+  std::vector<int> links;     ///< of the bodies
+  detail::UrdfSource source;  ///< with what is in it unless it is a file
   RobotOptions options;
   std::vector<std::string> notes;
 };
 
-Robot::Robot(const std::string& urdf_file, const RobotOptions& options) {
-  detail::validatePose(options.base, "the robot's base");
-  implementation_ =
-      std::make_shared<const Implementation>(detail::readUrdf(urdf_file), urdf_file, options);
+Robot::Robot(const std::string& urdf_file, const RobotOptions& options)
+    : Robot(Implementation::read({urdf_file, detail::fileContent(urdf_file, detail::kMostXmlBytes),
+                                  (std::filesystem::path(".") / urdf_file).parent_path().string()},
+                                 options)) {}
+
+Robot Robot::fromText(const std::string& urdf_text, const RobotOptions& options,
+                      const std::string& folder) {
+  return Robot(Implementation::read({{}, urdf_text, folder}, options));
 }
 
 Robot::Robot(std::shared_ptr<const Implementation> implementation)
@@ -133,7 +149,9 @@ Robot Robot::withAttached(AttachedObject object) const {
 }
 
 const std::string& Robot::name() const { return implementation_->name; }
-const std::string& Robot::urdf() const { return implementation_->urdf; }
+const std::string& Robot::urdf() const { return implementation_->source.file; }
+const std::string& Robot::urdfText() const { return implementation_->source.content; }
+const std::string& Robot::folder() const { return implementation_->source.folder; }
 const RobotOptions& Robot::options() const { return implementation_->options; }
 const std::vector<RobotJoint>& Robot::joints() const {
   return implementation_->kinematics.joints();
@@ -163,23 +181,11 @@ std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> Robot::geometries() 
 
 Eigen::VectorXd Robot::values(const std::map<std::string, double>& by_name) const {
   Eigen::VectorXd result(static_cast<Eigen::Index>(joints().size()));
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < joints().size(); ++i) {
-    const RobotJoint& joint = joints()[i];
-    const auto named = by_name.find(joint.name);
-    found += named != by_name.end();
-    result[static_cast<Eigen::Index>(i)] =
-        named != by_name.end() ? named->second : std::clamp(0.0, joint.lower, joint.upper);
+  for (Eigen::Index i = 0; i < result.size(); ++i) {
+    const RobotJoint& joint = joints()[static_cast<std::size_t>(i)];
+    result[i] = std::clamp(0.0, joint.lower, joint.upper);
   }
-  if (found < by_name.size()) {
-    for (const auto& [name, value] : by_name) {
-      const auto is_it = [&name = name](const RobotJoint& joint) { return joint.name == name; };
-      if (std::none_of(joints().begin(), joints().end(), is_it)) {
-        throw InvalidRequest(implementation_->name + " has no joint " + name +
-                             " that moves by itself");
-      }
-    }
-  }
+  for (const auto& [name, value] : by_name) result[detail::jointIndex(*this, name)] = value;
   implementation_->validate(result);
   return result;
 }

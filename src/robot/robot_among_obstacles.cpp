@@ -34,10 +34,6 @@ void validatePoses(const Obstacle& obstacle) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 PreparedGeometries bodiesOf(const Robot& robot) {
   PreparedGeometries geometries;
   for (const RobotBody& body : robot.bodies()) {

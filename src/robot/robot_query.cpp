@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/budget.h"
-#include "base/number_text.h"
 #include "base/refuse_band.h"
 #include "base/seeds_apart.h"
 #include "base/until_no.h"

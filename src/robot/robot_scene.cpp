@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
-#include "io/quantities.h"
+#include "fcl_prob/robot_groups.h"
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
 #include "robot/joint_indices.h"
@@ -52,7 +52,10 @@ RobotScene::Plan readPlan(StrictObject object) {
   RobotScene::Plan plan;
   plan.start = object.object("start").numbersByName();
   plan.goal = object.object("goal").numbersByName();
-  if (object.has("joints")) plan.joints = object.texts("joints");
+  if (object.has("joints") && object.oneOf({"joints", "group"}) == "joints") {
+    plan.joints = object.texts("joints");
+  }
+  if (object.has("group")) plan.group = object.text("group");
   if (object.has("motion_threshold")) plan.motion_threshold = object.number("motion_threshold");
   if (object.has("seed")) plan.seed = object.count("seed");
   if (object.has("max_states")) plan.max_states = object.count("max_states");
@@ -71,6 +74,7 @@ void readStates(StrictObject& root, RobotScene& scene) {
   const std::string given = root.oneOf({"joints", "waypoints", "plan"});
   if (given == "plan") {
     scene.plan = readPlan(root.object("plan"));
+    if (!scene.plan->group.empty() && scene.srdf.empty()) root.fail("robot: srdf", "is missing");
   } else if (given == "joints") {
     scene.waypoints.push_back(root.object("joints").numbersByName());
   } else {
@@ -235,6 +239,16 @@ Robot loadRobot(const RobotScene& scene) {
 SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot) {
   if (scene.srdf.empty()) return SelfCollision(robot);
   return SelfCollision(robot, loadAllowedPairs(scene.srdf, robot));
+}
+
+std::vector<std::string> plannedJoints(const RobotScene& scene, const Robot& robot) {
+  const RobotScene::Plan& plan = scene.plan.value();
+  if (plan.group.empty()) return plan.joints;
+  const RobotGroups groups = loadGroups(scene.srdf, robot);
+  const auto group = groups.find(plan.group);
+  if (group != groups.end() && !group->second.joints.empty()) return group->second.joints;
+  throw InvalidRequest(scene.srdf + ": no group " + plan.group +
+                       " with joints that move by themselves");
 }
 
 bool isPredicted(const RobotScene& scene) {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "fcl_prob/exceptions.h"
 #include "fcl_prob/self_collision.h"
-#include "robot/xml_elements.h"
+#include "robot/urdf_elements.h"
 
 namespace fcl_prob {
 namespace {
@@ -18,17 +17,7 @@ class SrdfPairs {
   SrdfPairs(const std::string& path, const Robot& robot) : path_(path), robot_(robot) {}
 
   std::vector<LinkPair> read() {
-    const XmlElement root = detail::readRobotXml(path_, "SRDF");
-    const std::string* name = root.attribute("name");
-    if (name == nullptr || *name != robot_.name()) {
-      throw FileError(path_ + ": robot: its name is " + (name == nullptr ? "" : *name) + ", not " +
-                      robot_.name());
-    }
-    for (const XmlElement& element : root.children) {
-      if (!element.of_xacro) continue;
-      throw FileError(path_ + ": line " + std::to_string(element.line) + ": the element " +
-                      element.fullName() + ": xacro has not been run on this file");
-    }
+    const XmlElement root = detail::readSrdf(path_, robot_.name());
     // What is on by default, before what is on or off by name.
     for (const XmlElement& element : root.children) {
       if (element.name == "disable_default_collisions") allowAllOf(link(element, "link"));
@@ -52,15 +41,11 @@ class SrdfPairs {
   }
 
   std::string link(const XmlElement& element, const char* attribute) const {
-    const std::string where =
-        path_ + ": line " + std::to_string(element.line) + ": " + element.name;
-    const std::string* name = element.attribute(attribute);
-    if (name == nullptr) throw FileError(where + ": has no " + attribute);
-    const auto is_it = [name](const RobotLink& known) { return known.name == *name; };
-    if (std::none_of(robot_.links().begin(), robot_.links().end(), is_it)) {
-      throw FileError(where + ": " + robot_.name() + " has no link " + *name);
-    }
-    return *name;
+    const detail::UrdfContainer told(path_, element, element.name, {});
+    const std::string& name = told.text(attribute);
+    const auto is_it = [&name](const RobotLink& known) { return known.name == name; };
+    if (std::any_of(robot_.links().begin(), robot_.links().end(), is_it)) return name;
+    told.fail(robot_.name() + " has no link " + name);
   }
 
   void allowAllOf(const std::string& name) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "query/mixture_query.h"
 #include "query/partition.h"

@@ -104,15 +104,13 @@ UrdfContainer::UrdfContainer(const std::string& path, const XmlElement& element,
     : path_(path), element_(element), name_(std::move(name)) {
   for (const std::string& one : expected) found_[one];
   requireExpanded(element, path, name_);
-  for (const XmlElement& child : element.children) keep(child);
-}
-
-void UrdfContainer::keep(const XmlElement& child) {
-  const auto expected = found_.find(child.name);
-  if (expected != found_.end() && child.prefix.empty()) {
-    expected->second.push_back(&child);
-  } else {
-    requireHarmless(child, path_, name_);
+  for (const XmlElement& child : element.children) {
+    const auto one = found_.find(child.name);
+    if (one != found_.end() && child.prefix.empty()) {
+      one->second.push_back(&child);
+    } else {
+      requireHarmless(child, path_, name_);
+    }
   }
 }
 

@@ -38,8 +38,6 @@ class UrdfContainer {
   [[noreturn]] void fail(const std::string& fault) const;
 
  private:
-  void keep(const XmlElement& child);
-
   const std::string& path_;
   const XmlElement& element_;
   std::string name_;

@@ -79,9 +79,16 @@ struct UrdfModel {
   std::vector<std::string> notes;
 };
 
+struct UrdfSource {
+  std::string file;  ///< path; empty: it never was in a file
+  std::string content;
+  std::string folder;  ///< what names of meshes are relative to; empty: there is none
+  std::string name = file.empty() ? "the URDF text" : file;  ///< begins messages
+};
+
 /// Nothing that has a meaning for where bodies are is left out: an element or attribute that is
 /// neither read nor known to be of no meaning for that is refused.
 /// \throws FileError "file: line n: element: fault"
-UrdfModel readUrdf(const std::string& path);
+UrdfModel readUrdf(const UrdfSource& source);
 
 }  // namespace fcl_prob::detail

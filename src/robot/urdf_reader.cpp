@@ -37,8 +37,7 @@ class UrdfReader {
  public:
   explicit UrdfReader(const std::string& path) : path_(path) {}
 
-  UrdfModel read() {
-    const XmlElement document = readRobotXml(path_, "URDF");
+  UrdfModel read(const XmlElement& document) {
     const UrdfContainer robot(path_, document, "robot", {"link", "joint"});
     model_.name = robot.text("name");
     for (const XmlElement* element : robot.all("link")) readLink(*element);
@@ -239,6 +238,8 @@ class UrdfReader {
 
 }  // namespace
 
-UrdfModel readUrdf(const std::string& path) { return UrdfReader(path).read(); }
+UrdfModel readUrdf(const UrdfSource& source) {
+  return UrdfReader(source.name).read(readRobotXml(source.content, source.name, "URDF"));
+}
 
 }  // namespace fcl_prob::detail

@@ -24,8 +24,9 @@ struct Shape {
 
 class ShapeReader {
  public:
-  ShapeReader(const std::string& path, const RobotOptions& options, std::vector<std::string>& notes)
-      : path_(path), options_(options), notes_(notes) {}
+  ShapeReader(const std::string& folder, const RobotOptions& options,
+              std::vector<std::string>& notes)
+      : folder_(folder), options_(options), notes_(notes) {}
 
   Shape read(const UrdfCollision& collision) {
     where_ = &collision.where;
@@ -45,7 +46,7 @@ class ShapeReader {
   }
 
   Shape shapeOf(const UrdfMesh& mesh) {
-    const std::string file = meshFile(mesh.file, path_, options_.packages, *where_);
+    const std::string file = meshFile(mesh.file, folder_, options_.packages, *where_);
     for (const ReadMesh& known : meshes_) {
       if (known.file == file && known.scale == mesh.scale) return known.shape;
     }
@@ -82,7 +83,7 @@ class ShapeReader {
     Shape shape;
   };
 
-  const std::string& path_;
+  const std::string& folder_;
   const RobotOptions& options_;
   std::vector<std::string>& notes_;
   const std::string* where_ = nullptr;  ///< of what is being read
@@ -96,12 +97,12 @@ bool isTaken(const std::string& link, const RobotOptions& options) {
 
 }  // namespace
 
-std::vector<RobotBody> bodiesOf(UrdfModel& model, const std::string& path,
+std::vector<RobotBody> bodiesOf(UrdfModel& model, const UrdfSource& source,
                                 const RobotOptions& options) {
   for (const std::string& name : options.links) {
-    if (model.links.count(name) == 0) throw FileError(path + ": has no link " + name);
+    if (model.links.count(name) == 0) throw FileError(source.name + ": has no link " + name);
   }
-  ShapeReader reader(path, options, model.notes);
+  ShapeReader reader(source.folder, options, model.notes);
   std::vector<RobotBody> bodies;
   for (const auto& [name, link] : model.links) {
     if (!isTaken(name, options)) continue;
@@ -110,7 +111,7 @@ std::vector<RobotBody> bodiesOf(UrdfModel& model, const std::string& path,
       bodies.push_back({name, shape.geometry, collision.in_link, {}, shape.coordinate_error});
     }
   }
-  if (bodies.empty()) throw FileError(path + ": no collision element in the links taken");
+  if (bodies.empty()) throw FileError(source.name + ": no collision element in the links taken");
   return bodies;
 }
 

@@ -3,7 +3,6 @@
 // The collision elements of a URDF as geometries.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "fcl_prob/robot.h"
@@ -13,7 +12,7 @@ namespace fcl_prob::detail {
 
 /// Those of the links that the options name; notes of their meshes become the model's. \throws
 /// FileError and as loadMesh(), beginning with the place in the URDF
-std::vector<RobotBody> bodiesOf(UrdfModel& model, const std::string& path,
+std::vector<RobotBody> bodiesOf(UrdfModel& model, const UrdfSource& source,
                                 const RobotOptions& options);
 
 }  // namespace fcl_prob::detail

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 
 #include "fcl_prob/exceptions.h"
 #include "io/file_content.h"
@@ -147,24 +148,23 @@ const std::string* XmlElement::attribute(const std::string& wanted) const {
   return found == attributes.end() ? nullptr : &found->value;
 }
 
-XmlElement readRobotXml(const std::string& path, const std::string& what) {
-  std::string text = fileContent(path, kMostXmlBytes);
+XmlElement readRobotXml(std::string text, const std::string& name, const std::string& what) {
+  if (text.size() > kMostXmlBytes) {
+    throw FileError(name + ": more than " + std::to_string(kMostXmlBytes) + " bytes");
+  }
   const auto control = std::find_if(text.begin(), text.end(), isControlCharacter);
   if (control != text.end()) {
-    throw FileError(path + ": a control character, character " +
+    throw FileError(name + ": a control character, character " +
                     std::to_string(control - text.begin()));
   }
   // Before its declaration XML may have nothing, but files do.
   const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
   const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
-  const XmlElements elements(path, std::count(text.begin(), first, '\n'));
+  const XmlElements elements(name, std::count(text.begin(), first, '\n'));
   text.erase(text.begin(), first);
-  static const bool initialized = [] {
-    xmlInitParser();
-    return true;
-  }();
-  static_cast<void>(initialized);
-  if (text.empty()) throw FileError(path + ": no " + what + ": is empty");
+  static std::once_flag once;
+  std::call_once(once, &xmlInitParser);
+  if (text.empty()) throw FileError(name + ": no " + what + ": is empty");
   XmlParser parser;
   const xmlNode* root = parser.parse(text);
   if (root == nullptr) elements.fail(parser.line(), "no " + what + ": " + parser.fault());
@@ -174,6 +174,21 @@ XmlElement readRobotXml(const std::string& path, const std::string& what) {
                   "no " + what + ": its element is " + robot.fullName() + ", not robot");
   }
   return robot;
+}
+
+XmlElement readSrdf(const std::string& path, const std::string& robot) {
+  XmlElement root = readRobotXml(fileContent(path, kMostXmlBytes), path, "SRDF");
+  const std::string* name = root.attribute("name");
+  if (name == nullptr || *name != robot) {
+    throw FileError(path + ": robot: its name is " + (name == nullptr ? "" : *name) + ", not " +
+                    robot);
+  }
+  for (const XmlElement& element : root.children) {
+    if (!element.of_xacro) continue;
+    throw FileError(path + ": line " + std::to_string(element.line) + ": the element " +
+                    element.fullName() + ": xacro has not been run on this file");
+  }
+  return root;
 }
 
 }  // namespace fcl_prob::detail

@@ -32,10 +32,14 @@ struct XmlElement {
   const std::string* attribute(const std::string& wanted) const;
 };
 
-/// The root element of a file, which must be `robot`. The file is not trusted: it may have no
+/// The root element of a text, which must be `robot`. The text is not trusted: it may have no
 /// document type (entities could grow without end), no more than 16 MiB and 64 levels.
-/// \param what  URDF or SRDF, for messages
+/// \param name  of its file, which begins messages \param what  URDF or SRDF, for messages
 /// \throws FileError "file: line n: fault"
-XmlElement readRobotXml(const std::string& path, const std::string& what);
+XmlElement readRobotXml(std::string text, const std::string& name, const std::string& what);
+
+/// That of an SRDF. \throws FileError as readRobotXml(), and for the SRDF of a robot of another
+/// name or one that xacro has not been run on
+XmlElement readSrdf(const std::string& path, const std::string& robot);
 
 }  // namespace fcl_prob::detail

@@ -67,6 +67,36 @@ TEST_CASE("plan says why there is no path", "[cli]") {
   CHECK(start.out.find("start-refused") != std::string::npos);
 }
 
+TEST_CASE("plan moves the joints of a group of the SRDF and no others", "[cli]") {
+  const TemporaryFolder folder;
+  folder.write("arm.srdf",
+               "<robot name=\"arm\"><group name=\"turret\"><joint name=\"turn\"/></group></robot>");
+  json scene{{"robot", {{"urdf", dataFile("arm.urdf")}, {"srdf", "arm.srdf"}}}};
+  scene["obstacles"] = {{{"name", "far"},
+                         {"sphere", 0.1},
+                         {"pose", {9, 0, 0}},
+                         {"displacement", {{"sigma", {1e-2, 1e-2, 1e-2}}}}}};
+  scene["plan"] = {{"start", {{"turn", -1.0}, {"elbow", 0.5}}},
+                   {"goal", {{"turn", 1.0}, {"elbow", 0.5}}},
+                   {"group", "turret"}};
+  scene["request"] = {{"threshold", 0.05}};
+  folder.write("scene.json", scene.dump());
+  const CommandResult result = runCommand({"plan", "--scene", "scene.json", "--json"}, folder);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  for (const json& waypoint : json::parse(result.out).at("waypoints")) {
+    CHECK(waypoint.at("elbow") == 0.5);
+  }
+  scene["plan"]["group"] = "wrist";
+  folder.write("scene.json", scene.dump());
+  CHECK(runCommand({"plan", "--scene", "scene.json"}, folder).refused());
+  // Nor does a joint beside the group get to where it should be.
+  scene["plan"]["group"] = "turret";
+  scene["plan"]["goal"]["elbow"] = 0.6;
+  folder.write("scene.json", scene.dump());
+  CHECK(runCommand({"plan", "--scene", "scene.json"}, folder).refused());
+}
+
 TEST_CASE("plan says in one line what is wrong with a scene or a motion", "[cli]") {
   const TemporaryFolder folder;
   CHECK(runCommand({"plan"}, folder).refused());

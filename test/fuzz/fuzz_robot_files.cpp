@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/robot_groups.h"
 #include "fcl_prob/robot_query.h"
 #include "fcl_prob/self_collision.h"
 #include "fuzz_tally.h"
@@ -55,6 +56,11 @@ std::optional<std::vector<LinkPair>> allowedPairsOf(std::string_view srdf, const
   static const MemoryFile file(".srdf");
   return readFrom(file, srdf,
                   [&](const std::string& path) { return loadAllowedPairs(path, robot); });
+}
+
+std::optional<RobotGroups> groupsOf(std::string_view srdf, const Robot& robot) {
+  static const MemoryFile file(".groups.srdf");
+  return readFrom(file, srdf, [&](const std::string& path) { return loadGroups(path, robot); });
 }
 
 void requireWellFormed(const Robot& robot) {
@@ -110,6 +116,13 @@ void requireFewerPairs(const Robot& robot, const std::vector<LinkPair>& allowed)
   require(SelfCollision(robot, allowed).pairs().size() <= all, "pairs from what is allowed");
 }
 
+void requireStates(const Robot& robot, const RobotGroups& groups) {
+  for (const auto& [name, group] : groups) {
+    require(group.joints.size() <= group.links.size(), "a joint that carries no link");
+    for (const auto& [state, values] : group.states) robot.values(values);
+  }
+}
+
 /// Whether it is not refused, as sizes and places near the largest double may be.
 template <typename Ask>
 bool answers(const Ask& ask) {
@@ -132,6 +145,9 @@ void lookAt(const Robot& robot, std::string_view srdf, std::uint64_t hash, Tally
   if (allowed && answers([&] { requireFewerPairs(robot, *allowed); })) {
     tally.count("with links that may touch");
   }
+  const auto groups = groupsOf(srdf, robot);
+  if (groups) requireStates(robot, *groups);
+  if (groups && !groups->empty()) tally.count("with groups");
 }
 
 using Random = std::minstd_rand;
@@ -182,6 +198,15 @@ std::string anySrdf(std::size_t links, Random& random) {
       text += std::string(" ") + attribute + "=\"" + nameOf("l", random() % links) + "\"";
     }
     text += "/>";
+  }
+  for (std::size_t count = random() % 3; count > 0; --count) {
+    text += "<group name=\"" + nameOf("g", count) + "\"><joint name=\"" +
+            nameOf("j", random() % links) + "\"/>" +
+            (random() % 2 == 0 ? "<group name=\"" + nameOf("g", random() % 3) + "\"/>" : "") +
+            "<chain base_link=\"" + nameOf("l", random() % links) + "\" tip_link=\"" +
+            nameOf("l", random() % links) + "\"/></group><group_state name=\"s\" group=\"" +
+            nameOf("g", random() % 3) + "\"><joint name=\"" + nameOf("j", random() % links) +
+            "\" value=\"0.1\"/></group_state>";
   }
   return text + "</robot>";
 }

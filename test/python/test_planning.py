@@ -50,6 +50,64 @@ def test_robots_are_data():
 
 
 @needs_robot
+def test_robots_of_texts_are_those_of_files(cart, tmp_path):
+    robot = fcl_prob.Robot.from_text(CART, base=[1.0, 2.0, 3.0])
+    of_file = fcl_prob.Robot(tmp_path / "cart.urdf", base=[1.0, 2.0, 3.0])
+    assert (robot.poses([0.5, 0.1])[0] == of_file.poses([0.5, 0.1])[0]).all()
+    capsule = CART.replace('<sphere radius="0.1"/>', '<capsule radius="0.1" length="0.3"/>')
+    assert isinstance(fcl_prob.Robot.from_text(capsule).bodies[0][2], fcl_prob.Capsule)
+    (tmp_path / "cart.urdf").unlink()
+    again = pickle.loads(pickle.dumps(robot.with_attached("rod", "slide", fcl_prob.Box(0.1, 0.1, 0.1))))
+    assert (again.poses([0.5, 0.1])[0] == robot.poses([0.5, 0.1])[0]).all() and len(again.bodies) == 2
+    with_mesh = CART.replace('<sphere radius="0.1"/>', '<mesh filename="tetrahedron.off"/>')
+    with pytest.raises(fcl_prob.FileError, match="the URDF text: line 7: .*tetrahedron.off: is relative"):
+        fcl_prob.Robot.from_text(with_mesh)
+    faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+    (tmp_path / "tetrahedron.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + faces)
+    meshed = pickle.loads(pickle.dumps(fcl_prob.Robot.from_text(with_mesh, folder=tmp_path)))
+    assert isinstance(meshed.bodies[0][2], fcl_prob.Mesh)
+    with pytest.raises(fcl_prob.FileError, match="the URDF text: no URDF"):
+        fcl_prob.Robot.from_text("")
+    with pytest.raises(TypeError):
+        fcl_prob.Robot.from_text(3)
+
+
+@needs_robot
+def test_packages_are_those_of_ros(tmp_path, monkeypatch):
+    (tmp_path / "share" / "cart").mkdir(parents=True)
+    text = CART.replace('<sphere radius="0.1"/>', '<mesh filename="package://cart/none.off"/>')
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{tmp_path}")
+    with pytest.raises(fcl_prob.FileError, match=f"{tmp_path}/share/cart/none.off: no such file"):
+        fcl_prob.Robot.from_text(text)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", "/nowhere")
+    with pytest.raises(fcl_prob.FileError, match="package cart.*there is no /nowhere/share/cart"):
+        fcl_prob.Robot.from_text(text)
+
+
+@needs_robot
+def test_groups_of_an_srdf(cart, tmp_path):
+    srdf = tmp_path / "cart.srdf"
+    srdf.write_text("""<robot name="cart"><group name="side"><chain base_link="slide" tip_link="ball"/></group>
+      <group name="both"><group name="side"/><joint name="x"/></group>
+      <group_state name="home" group="both"><joint name="x" value="-1"/></group_state></robot>""")
+    groups = fcl_prob.load_groups(srdf, cart)
+    assert groups["side"].joints == ["y"] and groups["side"].links == ["ball"] and groups["side"].states == {}
+    assert groups["both"].joints == ["x", "y"] and groups["both"].states == {"home": {"x": -1.0}}
+    assert (cart.values(groups["both"].states["home"]) == [-1, 0]).all()
+    with pytest.raises(fcl_prob.FileError, match="its name is cart, not arm"):
+        fcl_prob.load_groups(srdf, fcl_prob.Robot(DATA / "arm.urdf"))
+
+
+@needs_planning
+def test_a_plan_moves_the_joints_of_a_group(cart, tmp_path):
+    (tmp_path / "cart.srdf").write_text('<robot name="cart"><group name="along"><joint name="x"/></group></robot>')
+    query = fcl_prob.RobotQuery(cart, [("far", fcl_prob.Sphere(0.2), error(0.01), [0, 5, 0])])
+    joints = fcl_prob.load_groups(tmp_path / "cart.srdf", cart)["along"].joints
+    plan = fcl_prob.plan(query, {"x": -1, "y": 0.1}, {"x": 1, "y": 0.1}, 0.02, joints=joints)
+    assert plan.status == "solved" and (plan.waypoints[:, 1] == 0.1).all()
+
+
+@needs_robot
 def test_jacobians_are_made_of_carrying_joints(cart):
     robot = fcl_prob.Robot(DATA / "arm.urdf")
     values, step = robot.values({"turn": 0.3, "shoulder": 0.4, "elbow": 0.6}), 1e-6
