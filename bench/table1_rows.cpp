@@ -6,12 +6,11 @@
 
 #include "base/stopwatch.h"
 #include "bench/fcl_loop.h"
+#include "bench/volume_trees.h"
 #include "cli/number_text.h"
 #include "cli/parts_scene.h"
 #include "cli/prior_runs.h"
 #include "cli/random_frames.h"
-#include "cli/tree_pair.h"
-#include "cli/volumes.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -120,7 +119,7 @@ Table1Scene::MeshPair Table1Scene::meshes() const {
 
 Table1Scene::TreeBounds Table1Scene::boundByTrees(const std::string& volume,
                                                   const MeshPair& pair) const {
-  const std::unique_ptr<TreePair> trees = makeTreePair(volume, pair.a, pair.b);
+  const std::unique_ptr<VolumeTrees> trees = makeVolumeTrees(volume, pair.a, pair.b);
   const std::vector<double> volumes = trees->volumes(kBveLevel + 1);
   TreeBounds bounds;
   bounds.root_volume = volumes.front();

@@ -194,7 +194,7 @@ ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& reque
   pcd_request.confidence = request.confidence;
   pcd_request.max_pairs = request.max_cells;
   pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
-  const GeneralPcdResult pcd = own_trees_->bound(a_.pose, b_.pose, displacement_, pcd_request);
+  const GeneralPcdResult pcd = own_trees_(a_.pose, b_.pose, displacement_, pcd_request);
   return resultOf(pcd, request);
 }
 

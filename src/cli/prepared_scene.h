@@ -84,7 +84,7 @@ class PreparedScene {
   std::unique_ptr<PreparedQuery> query_;
   std::unique_ptr<PreparedPoseQuery> pose_query_;  ///< instead, with a pose error
   std::unique_ptr<PreparedQuery> possible_query_;  ///< besides, where a cloud is among the objects
-  std::unique_ptr<TreePair> own_trees_;            ///< of bounding volumes that FCL does not have
+  TreePair own_trees_;                             ///< of bounding volumes that FCL does not have
   std::unique_ptr<PartsScene> parts_;
   PartsUse use_of_parts_;
 };
