@@ -15,7 +15,7 @@
 #include "cli/gltf_file.h"
 #include "cli/output.h"
 #include "cli/picture_colours.h"
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
 #include "cli/touch_map.h"

@@ -41,9 +41,6 @@ class PartsScene {
   GeneralPcdResult generalPcd(const GeneralPcdRequest& request) const;
   PartsBoundsResult bounds(const PartsBoundsRequest& request) const;
 
-  /// The trees, null for what is no mesh.
-  const std::optional<PartTree>& treeA() const { return a_.tree; }
-
  private:
   struct Object {
     Object(const LoadedObject& object, PartVolume volume);

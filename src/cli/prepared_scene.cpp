@@ -198,15 +198,6 @@ ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& reque
   return resultOf(pcd, request);
 }
 
-TimedResult PreparedScene::quickestOfThree(const ProbabilityRequest& request) const {
-  constexpr double kLong_ms = 2000.0;
-  TimedResult best = query(request);
-  for (int i = 1; i < 3 && best.time_ms < kLong_ms; ++i) {
-    best.time_ms = std::min(best.time_ms, query(request).time_ms);
-  }
-  return best;
-}
-
 NominalAnswer PreparedScene::nominal() const {
   const Geometry a = measures_distance_ ? geometry_a_ : buildGeometry(a_, kMeasuring);
   const Geometry b = measures_distance_ ? geometry_b_ : buildGeometry(b_, kMeasuring);

@@ -44,9 +44,6 @@ class PreparedScene {
   /// \throws InvalidRequest for parts, own volumes, errors of poses and reconstructed clouds
   TimedResult certified(const ProbabilityRequest& request, std::ostream& certificate) const;
 
-  /// Three runs, or one if it is long: the results are the same, and the quickest time counts.
-  TimedResult quickestOfThree(const ProbabilityRequest& request) const;
-
   /// Building the trees and preparing the query, milliseconds.
   double buildTime() const { return build_ms_; }
 

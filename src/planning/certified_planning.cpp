@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 
 #include "base/number_text.h"
 #include "base/refuse_band.h"
@@ -27,19 +26,6 @@ constexpr std::size_t kCellsOfMotion = 20;
 ProbabilityRequest intervalOf(ProbabilityRequest request) {
   request.threshold.reset();
   return request;
-}
-
-LargestProbability largestOf(const detail::StateDecision& decision,
-                             const std::vector<Eigen::VectorXd>& states,
-                             const std::function<ProbabilityRequest()>& request) {
-  detail::LargestOfStates largest;
-  std::size_t likeliest = 0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    // What is below the P of another state is not the largest.
-    const double least = largest.probability.lower;
-    if (largest.add(decision.above(states[i], least, request()))) likeliest = i;
-  }
-  return {largest.probability, likeliest};
 }
 
 class CertifiedPlanner {
@@ -180,10 +166,14 @@ class CertifiedPlanner {
 
   void certifyStates(CertifiedPlan& plan) const {
     const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
-    const LargestProbability largest = largestOf(
-        decision_, states, [&] { return withinLimits(request_.state, plan.path.states); });
+    detail::LargestOfStates largest;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      // What is below the P of another state is not the largest.
+      const double least = largest.probability.lower;
+      const ProbabilityRequest request = withinLimits(request_.state, plan.path.states);
+      if (largest.add(decision_.above(states[i], least, request))) plan.likeliest = i;
+    }
     plan.largest = largest.probability;
-    plan.likeliest = largest.state;
     // By the decisions, which may have been closer to the threshold than the tolerance.
     plan.largest.upper = std::min(plan.largest.upper, plan.state_threshold);
     // Where a limit ended one of the two, the other one may say more: the motion is no less likely
@@ -200,13 +190,6 @@ class CertifiedPlanner {
 };
 
 }  // namespace
-
-LargestProbability largestProbability(const RobotQuery& query,
-                                      const std::vector<Eigen::VectorXd>& states,
-                                      const ProbabilityRequest& request) {
-  const ProbabilityRequest of_call = detail::ofOneCall(request);
-  return largestOf(detail::StateDecision(query, {}), states, [&] { return of_call; });
-}
 
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,
                             const Eigen::VectorXd& start, const Eigen::VectorXd& goal,

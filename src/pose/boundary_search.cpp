@@ -36,10 +36,6 @@ constexpr double kQuestionsOfLine = 6.0;
 
 }  // namespace
 
-double BoundarySearch::questionsOfPlane(Eigen::Index dimension) {
-  return 1.5 * kLook + kQuestionsOfLine * static_cast<double>(pointsOfPlane(dimension));
-}
-
 Eigen::Index BoundarySearch::missingFor(int points_each) const {
   const Eigen::Index wanted = points_each * BoundaryModel::coefficients(dimension_, true);
   return std::max<Eigen::Index>(wanted - points_.cols(), 0);

@@ -27,9 +27,7 @@ class BoundarySearch {
   /// The same as a quadric, by more points of the boundary: so many for each of its coefficients.
   void bend(BoundaryModel& model, int points_each);
 
-  /// How many questions plane() asks, about; and how many bend() with so many points there are
-  /// already.
-  static double questionsOfPlane(Eigen::Index dimension);
+  /// How many questions bend() asks, about, with the points that there are already.
   double questionsOfBend(int points_each) const;
 
   std::size_t questions() const { return questions_; }

@@ -9,9 +9,9 @@
 #include "bench/fcl_loop.h"
 #include "bench/published_table.h"
 #include "bench/table1_rows.h"
+#include "bench/uniforms.h"
 #include "bench/volume_trees.h"
 #include "catch.h"
-#include "cli/random_frames.h"
 #include "command.h"
 #include "models.h"
 
@@ -100,6 +100,12 @@ TEST_CASE("random rotations are rotations, and have no preferred direction", "[c
   CHECK((mean_square.array() - 1.0 / 3.0).abs().maxCoeff() < 0.015);
   CHECK(randomRotation(7, 5) == randomRotation(7, 5));
   CHECK(randomRotation(7, 5) != randomRotation(8, 5));
+}
+
+TEST_CASE("tables as Markdown", "[cli]") {
+  TextTable table({"a", "long"});
+  table.add({"1,5", "x\"y"});
+  CHECK(markdownOf(table) == "| a | long |\n| --- | --- |\n| 1,5 | x\"y |\n");
 }
 
 TEST_CASE("the published table is looked up by row, model and distance", "[cli]") {
