@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "base/decision.h"
 #include "fcl_prob/convex_hull_tree.h"
+#include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -38,6 +40,28 @@ TreePair makeTreePair(const std::string& bounding_volume, const TriangleMesh& a,
   if (bounding_volume == "sphere") return pairOf(buildModel<SphereBv>(a), buildModel<SphereBv>(b));
   if (bounding_volume == "kdop26") return pairOf(buildModel<Kdop26>(a), buildModel<Kdop26>(b));
   return pairOf(hullTree(a), hullTree(b));
+}
+
+GeneralPcdRequest pcdRequestOf(const ProbabilityRequest& request, const std::string& refusal) {
+  const bool minimum = request.method == ProbabilityMethod::general_pcd_min;
+  if (!minimum && request.method != ProbabilityMethod::general_pcd) throw InvalidRequest(refusal);
+  GeneralPcdRequest pcd_request;
+  pcd_request.confidence = request.confidence;
+  pcd_request.max_pairs = request.max_cells;
+  pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
+  return pcd_request;
+}
+
+ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.method = request.method;
+  result.upper = pcd.upper;
+  result.status = pcd.complete ? ProbabilityStatus::bound_only : ProbabilityStatus::cell_limit;
+  result.decision = detail::decisionOf({0.0, pcd.upper}, request);
+  result.statistics.raw_sum = pcd.raw_sum;
+  result.statistics.pairs_tested = pcd.pairs_bounded;
+  result.statistics.leaf_pairs = pcd.leaf_pairs;
+  return result;
 }
 
 }  // namespace fcl_prob::cli

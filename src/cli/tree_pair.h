@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// GeneralPCD over trees of the library's own bounding volumes, by name.
+// GeneralPCD over trees of the library's own bounding volumes, by name, and as a query.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "fcl_prob/general_pcd.h"
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
 #include "fcl_prob/triangle_mesh.h"
 
 namespace fcl_prob::cli {
@@ -26,5 +28,10 @@ bool isOwnVolume(const std::string& bounding_volume);
 /// \throws InvalidGeometry
 TreePair makeTreePair(const std::string& bounding_volume, const TriangleMesh& a,
                       const TriangleMesh& b);
+
+/// What the request asks of GeneralPCD. \throws InvalidRequest that says `refusal` unless its
+/// method is general-pcd or general-pcd-min
+GeneralPcdRequest pcdRequestOf(const ProbabilityRequest& request, const std::string& refusal);
+ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::cli
