@@ -33,7 +33,7 @@ class BoundarySearch {
   std::size_t questions() const { return questions_; }
 
  private:
-  Eigen::VectorXd normals(std::uint64_t index) const;
+  Eigen::VectorXd nextNormals();
   bool asked(const Eigen::VectorXd& x);
   std::optional<BoundaryModel> halfSpace();
   Eigen::Index missingFor(int points_each) const;
