@@ -3,7 +3,6 @@
 #include "fcl_prob/certified_planning.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "base/number_text.h"
 #include "base/refuse_band.h"
@@ -87,28 +86,16 @@ class CertifiedPlanner {
     };
   }
 
-  double secondsPassed() const {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    return passed.count();
-  }
-
-  /// A limit must be > 0; one that has passed ends a plan at its first state.
-  double secondsLeft() const {
-    return std::max(1e-9, request_.planning.time_limit.value_or(0.0) - secondsPassed());
-  }
-
   /// Of a query, which gives what it has where the plan's time ends or its caller cancels it.
   /// \param path_is_found  else states are tested
   ProbabilityRequest withinLimits(ProbabilityRequest request, std::size_t states,
                                   bool path_is_found = true) const {
-    if (request_.planning.time_limit) {
-      request.time_limit = std::min(request.time_limit.value_or(secondsLeft()), secondsLeft());
-    }
+    request = detail::withinTime(std::move(request), request_.planning, watch_);
     if (request_.planning.on_progress) {
       request.on_progress = [this, states, path_is_found,
                              inner = request.on_progress](const auto& progress) {
         return (!inner || inner(progress)) &&
-               request_.planning.on_progress({states, secondsPassed(), path_is_found});
+               request_.planning.on_progress({states, watch_.seconds(), path_is_found});
       };
     }
     return request;
@@ -116,7 +103,7 @@ class CertifiedPlanner {
 
   PlanningRequest remaining(std::size_t states) const {
     PlanningRequest request = request_.planning;
-    if (request.time_limit) request.time_limit = secondsLeft();
+    request.time_limit = detail::secondsLeft(request_.planning, watch_);
     request.max_states -= std::min(states, request.max_states - 1);
     return request;
   }
@@ -157,11 +144,11 @@ class CertifiedPlanner {
   }
 
   bool mayGoOn(std::size_t states) const {
-    if (request_.planning.time_limit && secondsPassed() >= *request_.planning.time_limit) {
+    if (request_.planning.time_limit && watch_.seconds() >= *request_.planning.time_limit) {
       return false;
     }
     return !request_.planning.on_progress ||
-           request_.planning.on_progress({states, secondsPassed(), true});
+           request_.planning.on_progress({states, watch_.seconds(), true});
   }
 
   void certifyStates(CertifiedPlan& plan) const {
@@ -186,7 +173,7 @@ class CertifiedPlanner {
   const SelfCollision& self_;
   CertifiedPlanningRequest request_;
   detail::StateDecision decision_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const detail::Stopwatch watch_;
 };
 
 }  // namespace
