@@ -17,7 +17,6 @@
 
 #include "fcl_prob/mesh_io.h"
 #include "io/import_isolated.h"
-#include "io/import_mutex.h"
 #include "io/write_file.h"
 
 namespace fcl_prob {
