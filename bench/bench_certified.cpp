@@ -77,7 +77,7 @@ class MeasuredScene {
     const FclLoop loop = timeFclLoop(scene_, kFclSamples, seed_);
     if (!loop_ || loop.time_ms < loop_->time_ms) loop_ = loop;
     for (std::size_t task = 0; task < job_.tasks.size(); ++task) {
-      TimedResult timed = scene_.quickestOfThree(job_.tasks[task].request(seed_));
+      TimedResult timed = quickestOfThree(scene_, job_.tasks[task].request(seed_));
       if (task == timed_.size()) {
         timed_.push_back(std::move(timed));
       } else if (timed.time_ms < timed_[task].time_ms) {

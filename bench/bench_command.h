@@ -9,7 +9,7 @@ class App;
 
 namespace fcl_prob::cli {
 
-/// As addCheckCommand().
+/// As cli/commands.h does.
 void addBenchCommand(CLI::App& app, int& exit_code);
 
 }  // namespace fcl_prob::cli

@@ -132,7 +132,7 @@ class PartsTable {
                const BenchTask& task, const FclLoop& loop, std::size_t row) {
     ProbabilityRequest request = task.request(options_.seed);
     request.contact = contact;
-    const TimedResult timed = scene.quickestOfThree(request);
+    const TimedResult timed = quickestOfThree(scene, request);
     const ProbabilityResult& result = timed.result;
     Measured& all = measured_[row];
     all.times.push_back(timed.time_ms);

@@ -13,7 +13,7 @@
 #include "bench/benchmark.h"
 #include "bench/fetch_arm.h"
 #include "cli/number_text.h"
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 #include "fcl_prob/pose_probability.h"
 
 namespace fcl_prob::cli {

@@ -90,7 +90,7 @@ void addRealClouds(const Geometry& finger, const BenchOptions& options,
   report.notes +=
       "\nReal clouds, a finger 10 mm in front of their middle, σ = 10 mm; no truth is "
       "known. triangles: of both meshes.\n\n" +
-      table.markdown();
+      markdownOf(table);
 }
 
 }  // namespace fcl_prob::cli

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/bisection.h"
-#include "cli/random_frames.h"
+#include "bench/uniforms.h"
 
 namespace fcl_prob::cli {
 namespace {

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "bench/bench_task.h"
 
+#include <algorithm>
+
 #include "cli/number_text.h"
 
 namespace fcl_prob::cli {
@@ -33,6 +35,15 @@ BenchTask estimateTask(double relative_tolerance) {
 
 BenchTask decisionTask(double threshold) {
   return {"decision P < " + percentText(threshold), ProbabilityMethod::interval, 1e-9, threshold};
+}
+
+TimedResult quickestOfThree(const PreparedScene& scene, const ProbabilityRequest& request) {
+  constexpr double kLong_ms = 2000.0;
+  TimedResult best = scene.query(request);
+  for (int i = 1; i < 3 && best.time_ms < kLong_ms; ++i) {
+    best.time_ms = std::min(best.time_ms, scene.query(request).time_ms);
+  }
+  return best;
 }
 
 }  // namespace fcl_prob::cli

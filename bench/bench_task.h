@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "fcl_prob/probability_request.h"
+#include "cli/prepared_scene.h"
 
 namespace fcl_prob::cli {
 
@@ -26,5 +26,8 @@ BenchTask estimateTask(double relative_tolerance);
 
 /// Whether P is below the threshold, however close it comes.
 BenchTask decisionTask(double threshold);
+
+/// Three runs, or one if it is long: the results are the same, and the quickest time counts.
+TimedResult quickestOfThree(const PreparedScene& scene, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::cli

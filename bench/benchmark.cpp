@@ -7,12 +7,29 @@
 #endif
 
 namespace fcl_prob::cli {
+namespace {
+
+std::string markdownLine(const std::vector<std::string>& row) {
+  std::string line = "|";
+  for (const std::string& cell : row) line += " " + cell + " |";
+  return line + '\n';
+}
+
+}  // namespace
+
+std::string markdownOf(const TextTable& table) {
+  std::string result = markdownLine(table.header()) + "|";
+  for (std::size_t i = 0; i < table.header().size(); ++i) result += " --- |";
+  result += '\n';
+  for (const auto& row : table.rows()) result += markdownLine(row);
+  return result;
+}
 
 std::string BenchReport::markdown() const {
   const std::string warning = interrupted ? "**Interrupted: rows are missing.**\n\n" : "";
-  std::string text = "## " + title + "\n\n" + warning + table.markdown() + "\n";
+  std::string text = "## " + title + "\n\n" + warning + markdownOf(table) + "\n";
   for (const NamedTable& more : more_tables) {
-    text += "### " + more.title + "\n\n" + more.table.markdown() + "\n";
+    text += "### " + more.title + "\n\n" + markdownOf(more.table) + "\n";
   }
   return text + notes;
 }

@@ -24,6 +24,9 @@ struct BenchOptions {
   bool quick = false;                 ///< a few scenes, seeds or samples only
 };
 
+/// | a | b |
+std::string markdownOf(const TextTable& table);
+
 struct NamedTable {
   std::string title;
   TextTable table;

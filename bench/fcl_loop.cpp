@@ -5,7 +5,7 @@
 #include <fcl/narrowphase/collision.h>
 
 #include "base/stopwatch.h"
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 
 namespace fcl_prob::cli {
 namespace {

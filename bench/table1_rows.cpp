@@ -6,12 +6,12 @@
 
 #include "base/stopwatch.h"
 #include "bench/fcl_loop.h"
+#include "bench/uniforms.h"
+#include "bench/volume_trees.h"
 #include "cli/number_text.h"
 #include "cli/parts_scene.h"
 #include "cli/prior_runs.h"
-#include "cli/random_frames.h"
-#include "cli/tree_pair.h"
-#include "cli/volumes.h"
+#include "paper/part_bounding_tree.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -31,6 +31,24 @@ Table1Row plainRow(const std::string& name, RowKind kind, double value, double t
   row.value = value;
   row.time_ms = time_ms;
   return row;
+}
+
+double volumeOfLeaves(const PartTree& tree) {
+  double sum = 0.0;
+  for (std::size_t node = 0; node < tree.nodeCount(); ++node) {
+    if (tree.tree().isLeaf(static_cast<int>(node))) sum += tree.volume(node);
+  }
+  return sum;
+}
+
+/// Both methods with spheres, in both reaches, and enlargement at 95 %.
+std::vector<PriorRun> priorRuns() {
+  using Method = PriorMethod;
+  return {{Method::du_toit_burdick, PriorReach::objects},
+          {Method::du_toit_burdick, PriorReach::trees},
+          {Method::park, PriorReach::objects},
+          {Method::park, PriorReach::trees},
+          {Method::enlargement, PriorReach::objects, 0.95}};
 }
 
 /// Mean and standard error of numbers that come one by one.
@@ -120,7 +138,7 @@ Table1Scene::MeshPair Table1Scene::meshes() const {
 
 Table1Scene::TreeBounds Table1Scene::boundByTrees(const std::string& volume,
                                                   const MeshPair& pair) const {
-  const std::unique_ptr<TreePair> trees = makeTreePair(volume, pair.a, pair.b);
+  const std::unique_ptr<VolumeTrees> trees = makeVolumeTrees(volume, pair.a, pair.b);
   const std::vector<double> volumes = trees->volumes(kBveLevel + 1);
   TreeBounds bounds;
   bounds.root_volume = volumes.front();
@@ -180,7 +198,7 @@ Table1Row Table1Scene::partsRow(const std::string& volume, const PartsPair& part
   bounds.minimum = bound(GeneralPcdVariant::minimum, bounds.minimum_ms);
   Table1Row row = rowOf(volume + ", parts", bounds, volume);
   row.level_error.reset();
-  row.leaf_error = a.volumeOfLeaves() / enclosed_volume_;
+  row.leaf_error = volumeOfLeaves(a) / enclosed_volume_;
   row.remark =
       parts.counts() + ", " + std::to_string(bounds.sum.pairs_summed) + " pairs in the sum";
   return row;
@@ -253,7 +271,7 @@ Table1Row Table1Scene::frameRow(std::size_t frames, std::uint64_t seed) const {
 std::vector<Table1Row> Table1Scene::priorRows() const {
   const PriorScene prior(scene_);
   std::vector<Table1Row> rows;
-  for (const PriorRun& run : priorRunsOfTable1()) {
+  for (const PriorRun& run : priorRuns()) {
     const PriorAnswer answer = prior.answer(run);
     const bool approximates = run.method == PriorMethod::du_toit_burdick;
     Table1Row row = plainRow(toString(run.method) + ", " + run.budget(),

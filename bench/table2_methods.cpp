@@ -6,7 +6,7 @@
 
 #include "bench/table2_bounds.h"
 #include "cli/geometry.h"
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 #include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::cli {

@@ -2,12 +2,27 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "bench/uniforms.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 
 namespace fcl_prob::cli {
+
+Eigen::Matrix3d randomRotation(std::uint64_t seed, std::uint64_t index) {
+  // Four normals have no preferred direction in the space of quaternions.
+  const Eigen::Vector3d first = detail::standardNormalFrom(detail::randomWords({seed}, index, 0));
+  const Eigen::Vector3d second = detail::standardNormalFrom(detail::randomWords({seed}, index, 1));
+  return Eigen::Quaterniond(second.x(), first.x(), first.y(), first.z())
+      .normalized()
+      .toRotationMatrix();
+}
+
+TriangleMesh rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation) {
+  for (fcl::Vector3d& vertex : mesh.vertices) vertex = rotation * vertex;
+  return mesh;
+}
 
 double Uniforms::next() {
   const Eigen::Vector3d three = randomDisplacement(unit_, seed_, index_++);

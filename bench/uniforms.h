@@ -9,9 +9,16 @@
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
+#include "fcl_prob/triangle_mesh.h"
 #include "fcl_prob/whitening.h"
 
 namespace fcl_prob::cli {
+
+/// Rotation number `index` of a seed, uniform on SO(3).
+Eigen::Matrix3d randomRotation(std::uint64_t seed, std::uint64_t index);
+
+/// The mesh with its vertices rotated about the origin.
+TriangleMesh rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation);
 
 /// Deterministic numbers in (0, 1).
 class Uniforms {

@@ -49,17 +49,6 @@ struct CertifiedPlan {
                               ///< errors of the robot nothing is told of it
 };
 
-struct LargestProbability {
-  Bounds probability{0.0, 0.0};  ///< certified
-  std::size_t state = 0;         ///< whose upper bound it is
-};
-
-/// The largest P of several states. \throws as RobotQuery::state(); a threshold in the request is
-/// not looked at
-LargestProbability largestProbability(const RobotQuery& query,
-                                      const std::vector<Eigen::VectorXd>& states,
-                                      const ProbabilityRequest& request);
-
 /// Plans as planMotion() does: no state that was asked for touches the robot itself, and P of each
 /// is certainly below the threshold. What is between the states is not looked at.
 /// \param self  of a robot with the same joints, of which it may know more links

@@ -46,9 +46,6 @@ class PartTree {
   /// Volume of a node's bounding volume, cubic metres. (RSS and kIOS: of the box around it.)
   double volume(std::size_t node) const;
 
-  /// The same of all leaves, added up.
-  double volumeOfLeaves() const;
-
   const detail::PartBoundingTree& tree() const { return *tree_; }
 
  private:

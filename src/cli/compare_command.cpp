@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "cli/compare_command.h"
+#include "cli/commands.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

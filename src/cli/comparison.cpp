@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/stopwatch.h"
+#include "cloud/median.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -229,12 +230,6 @@ double rootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void setError(const std::vector<double>& errors, double reference, ComparisonRecord& record) {
   record.seeds = errors.size();
   record.error = rootMeanSquare(errors);
@@ -273,7 +268,7 @@ void recordSeeds(const PreparedScene& scene, ComparisonRun run, std::size_t seed
     if (timed.result.status == ProbabilityStatus::cancelled) break;
   }
   if (!stated.empty()) record.stated_error = rootMeanSquare(stated);
-  record.time_ms = median(times);
+  record.time_ms = detail::median(times);
   record.seeds = errors.size();
   if (reference.kind != ReferenceKind::counted) setError(errors, reference.value, record);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "cli/decompose_command.h"
+#include "cli/commands.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "cli/number_text.h"
 #include "cli/output.h"
 #include "cli/run.h"
+#include "fcl_prob/convex_parts.h"
 #include "fcl_prob/mesh_io.h"
 
 namespace fcl_prob::cli {
@@ -33,20 +34,7 @@ std::string summaryOf(const ConvexParts& parts, const TriangleMesh& mesh, double
          " m^3 in all, " + numberText(time_ms, 4) + " ms\n";
 }
 
-int runDecompose(const DecomposeArguments& arguments) {
-  const TriangleMesh mesh = loadMeshIsolated(arguments.mesh, arguments.options);
-  const detail::Stopwatch watch;
-  DecompositionRequest request = arguments.request;
-  request.pieces = std::max(request.pieces, request.max_parts);
-  const ConvexParts parts(mesh, request);
-  const double time_ms = watch.milliseconds();
-  writeFile(arguments.output, objOf(parts));
-  deliver(summaryOf(parts, mesh, time_ms), "");
-  return kAnswered;
-}
-
-}  // namespace
-
+/// The parts as a Wavefront file, one object a part, with all digits.
 std::string objOf(const ConvexParts& parts) {
   std::ostringstream text;
   text << std::setprecision(kAllDigits);
@@ -67,6 +55,20 @@ std::string objOf(const ConvexParts& parts) {
   }
   return text.str();
 }
+
+int runDecompose(const DecomposeArguments& arguments) {
+  const TriangleMesh mesh = loadMeshIsolated(arguments.mesh, arguments.options);
+  const detail::Stopwatch watch;
+  DecompositionRequest request = arguments.request;
+  request.pieces = std::max(request.pieces, request.max_parts);
+  const ConvexParts parts(mesh, request);
+  const double time_ms = watch.milliseconds();
+  writeFile(arguments.output, objOf(parts));
+  deliver(summaryOf(parts, mesh, time_ms), "");
+  return kAnswered;
+}
+
+}  // namespace
 
 void addDecomposeCommand(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<DecomposeArguments>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "cli/export_command.h"
+#include "cli/commands.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -15,7 +15,7 @@
 #include "cli/gltf_file.h"
 #include "cli/output.h"
 #include "cli/picture_colours.h"
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 #include "cli/run.h"
 #include "cli/scene_arguments.h"
 #include "cli/touch_map.h"

@@ -7,12 +7,62 @@
 #include <map>
 #include <utility>
 
-#include "cli/gltf_accessors.h"
-
 namespace fcl_prob::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Constants of the glTF 2.0 specification.
+constexpr int kFloat = 5126;
+constexpr int kArrayBuffer = 34962;
+
+const char* typeOfRows(Eigen::Index rows) {
+  if (rows == 1) return "SCALAR";
+  return rows == 3 ? "VEC3" : "VEC4";
+}
+
+std::vector<float> listOf(const Eigen::VectorXf& values) {
+  return {values.data(), values.data() + values.size()};
+}
+
+/// The numbers of the file: binary data, and the lists that say what is where in it.
+class GltfAccessors {
+ public:
+  enum class Use { vertices, animation };
+
+  /// One value a column: of one row, of three or of four.
+  /// \returns the index of its accessor, which has the least and the largest value if
+  /// `with_bounds`: the format asks for them of positions and of times
+  std::size_t add(const Eigen::MatrixXf& values, Use use, bool with_bounds);
+
+  const nlohmann::ordered_json& accessors() const { return accessors_; }
+  const nlohmann::ordered_json& bufferViews() const { return buffer_views_; }
+  const std::string& binary() const { return binary_; }
+
+ private:
+  nlohmann::ordered_json accessors_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json buffer_views_ = nlohmann::ordered_json::array();
+  std::string binary_;
+};
+
+std::size_t GltfAccessors::add(const Eigen::MatrixXf& values, Use use, bool with_bounds) {
+  const std::size_t offset = binary_.size();
+  binary_.append(reinterpret_cast<const char*>(values.data()),
+                 static_cast<std::size_t>(values.size()) * sizeof(float));
+  buffer_views_.push_back(
+      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", binary_.size() - offset}});
+  if (use == Use::vertices) buffer_views_.back()["target"] = kArrayBuffer;
+  nlohmann::ordered_json accessor = {{"bufferView", buffer_views_.size() - 1},
+                                     {"componentType", kFloat},
+                                     {"count", values.cols()},
+                                     {"type", typeOfRows(values.rows())}};
+  if (with_bounds && values.cols() > 0) {
+    accessor["min"] = listOf(values.rowwise().minCoeff());
+    accessor["max"] = listOf(values.rowwise().maxCoeff());
+  }
+  accessors_.push_back(accessor);
+  return accessors_.size() - 1;
+}
 
 /// Three columns a triangle: its corners' values.
 template <int Rows, typename Value>

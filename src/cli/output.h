@@ -6,7 +6,11 @@
 #include <ostream>
 #include <string>
 
+#include "io/write_file.h"
+
 namespace fcl_prob::cli {
+
+using detail::writeFile;
 
 /// `text` without line breaks and other control characters.
 std::string onOneLine(const std::string& text);
@@ -17,9 +21,5 @@ void flushOutput(std::ostream& stream, const std::string& name);
 /// Writes `content` to the file at `path`, or to standard output if `path` is empty. \throws
 /// FileError
 void deliver(const std::string& content, const std::string& path);
-
-/// Writes a file under another name beside it and renames it when it is complete and on the disk.
-/// \throws FileError; then a file that was there before is untouched.
-void writeFile(const std::string& path, const std::string& content);
 
 }  // namespace fcl_prob::cli

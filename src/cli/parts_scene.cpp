@@ -7,21 +7,10 @@
 #include "base/decision.h"
 #include "base/refuse_band.h"
 #include "cli/number_text.h"
+#include "cli/tree_pair.h"
 #include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::cli {
-namespace {
-
-ProbabilityResult boundedBy(double upper, const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  result.method = request.method;
-  result.upper = upper;
-  result.status = ProbabilityStatus::bound_only;
-  result.decision = detail::decisionOf({0.0, upper}, request);
-  return result;
-}
-
-}  // namespace
 
 PartVolume partVolumeFromString(const std::string& bounding_volume) {
   static const std::map<std::string, PartVolume> volumes{
@@ -65,30 +54,12 @@ ProbabilityResult PartsScene::answer(PartsUse use, const ProbabilityRequest& req
   return use == PartsUse::bounds ? bothSides(request) : sum(request);
 }
 
-GeneralPcdResult PartsScene::generalPcd(const GeneralPcdRequest& request) const {
-  if (!a_.tree || !b_.tree) throw UnsupportedGeometry("trees over parts are for two meshes");
-  return fcl_prob::generalPcd(*a_.tree, a_.pose, *b_.tree, b_.pose, displacement_, request);
-}
-
-PartsBoundsResult PartsScene::bounds(const PartsBoundsRequest& request) const {
-  return partsBounds(a_.bodies, a_.pose, b_.bodies, b_.pose, displacement_, request);
-}
-
 ProbabilityResult PartsScene::sum(const ProbabilityRequest& request) const {
-  const bool minimum = request.method == ProbabilityMethod::general_pcd_min;
-  if (!minimum && request.method != ProbabilityMethod::general_pcd) {
-    throw InvalidRequest("--leaves: parts are for --method general-pcd and general-pcd-min only");
-  }
-  GeneralPcdRequest pcd_request;
-  pcd_request.confidence = request.confidence;
-  pcd_request.max_pairs = request.max_cells;
-  pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
-  const GeneralPcdResult pcd = generalPcd(pcd_request);
-  ProbabilityResult result = boundedBy(pcd.upper, request);
-  if (!pcd.complete) result.status = ProbabilityStatus::cell_limit;
-  result.statistics.raw_sum = pcd.raw_sum;
-  result.statistics.pairs_tested = pcd.pairs_bounded;
-  result.statistics.leaf_pairs = pcd.leaf_pairs;
+  const GeneralPcdRequest pcd_request = pcdRequestOf(
+      request, "--leaves: parts are for --method general-pcd and general-pcd-min only");
+  if (!a_.tree || !b_.tree) throw UnsupportedGeometry("trees over parts are for two meshes");
+  ProbabilityResult result = resultOf(
+      generalPcd(*a_.tree, a_.pose, *b_.tree, b_.pose, displacement_, pcd_request), request);
   result.plan.push_back("GeneralPCD over trees of " + std::to_string(a_.bodies.size()) + " and " +
                         std::to_string(b_.bodies.size()) + " convex parts");
   return result;
@@ -98,10 +69,13 @@ ProbabilityResult PartsScene::bothSides(const ProbabilityRequest& request) const
   PartsBoundsRequest bounds_request;
   bounds_request.negligible =
       1e-3 * std::min(request.absolute_tolerance, request.threshold.value_or(1.0));
-  const PartsBoundsResult parts = bounds(bounds_request);
-  ProbabilityResult result = boundedBy(parts.any.upper, request);
-  result.statistics.raw_sum = parts.sum;
-  result.statistics.leaf_pairs = parts.pairs;
+  const PartsBoundsResult parts =
+      partsBounds(a_.bodies, a_.pose, b_.bodies, b_.pose, displacement_, bounds_request);
+  GeneralPcdResult added;
+  added.upper = parts.any.upper;
+  added.raw_sum = parts.sum;
+  added.leaf_pairs = parts.pairs;
+  ProbabilityResult result = resultOf(added, request);
   result.plan.push_back("Hunter's bound on the sum over " + std::to_string(parts.pairs) +
                         " pairs of convex parts, with " + std::to_string(parts.intersections) +
                         " intersections");

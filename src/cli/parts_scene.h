@@ -37,10 +37,6 @@ class PartsScene {
   /// InvalidRequest for a method that has no leaves
   ProbabilityResult answer(PartsUse use, const ProbabilityRequest& request) const;
 
-  /// As GeneralPcdResult has it. \throws UnsupportedGeometry for what is no mesh
-  GeneralPcdResult generalPcd(const GeneralPcdRequest& request) const;
-  PartsBoundsResult bounds(const PartsBoundsRequest& request) const;
-
  private:
   struct Object {
     Object(const LoadedObject& object, PartVolume volume);

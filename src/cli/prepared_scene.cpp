@@ -32,18 +32,6 @@ std::future<Geometry> treeBeside(const std::optional<TriangleMesh>& mesh,
   return std::async(std::launch::async, [&] { return buildTree(*mesh, bounding_volume); });
 }
 
-ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest& request) {
-  ProbabilityResult result;
-  result.method = request.method;
-  result.upper = pcd.upper;
-  result.status = pcd.complete ? ProbabilityStatus::bound_only : ProbabilityStatus::cell_limit;
-  result.decision = detail::decisionOf({0.0, pcd.upper}, request);
-  result.statistics.raw_sum = pcd.raw_sum;
-  result.statistics.pairs_tested = pcd.pairs_bounded;
-  result.statistics.leaf_pairs = pcd.leaf_pairs;
-  return result;
-}
-
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene, const std::string& bounding_volume, PartsUse parts)
@@ -185,26 +173,10 @@ ProbabilityResult PreparedScene::betweenTwo(const ProbabilityRequest& request) c
 }
 
 ProbabilityResult PreparedScene::boundByOwnTrees(const ProbabilityRequest& request) const {
-  const bool minimum = request.method == ProbabilityMethod::general_pcd_min;
-  if (!minimum && request.method != ProbabilityMethod::general_pcd) {
-    throw InvalidRequest("--bv: sphere, kdop26 and convex are for --method general-pcd only");
-  }
+  const GeneralPcdRequest pcd_request =
+      pcdRequestOf(request, "--bv: sphere, kdop26 and convex are for --method general-pcd only");
   validateRequest(request);
-  GeneralPcdRequest pcd_request;
-  pcd_request.confidence = request.confidence;
-  pcd_request.max_pairs = request.max_cells;
-  pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
-  const GeneralPcdResult pcd = own_trees_->bound(a_.pose, b_.pose, displacement_, pcd_request);
-  return resultOf(pcd, request);
-}
-
-TimedResult PreparedScene::quickestOfThree(const ProbabilityRequest& request) const {
-  constexpr double kLong_ms = 2000.0;
-  TimedResult best = query(request);
-  for (int i = 1; i < 3 && best.time_ms < kLong_ms; ++i) {
-    best.time_ms = std::min(best.time_ms, query(request).time_ms);
-  }
-  return best;
+  return resultOf(own_trees_(a_.pose, b_.pose, displacement_, pcd_request), request);
 }
 
 NominalAnswer PreparedScene::nominal() const {

@@ -44,9 +44,6 @@ class PreparedScene {
   /// \throws InvalidRequest for parts, own volumes, errors of poses and reconstructed clouds
   TimedResult certified(const ProbabilityRequest& request, std::ostream& certificate) const;
 
-  /// Three runs, or one if it is long: the results are the same, and the quickest time counts.
-  TimedResult quickestOfThree(const ProbabilityRequest& request) const;
-
   /// Building the trees and preparing the query, milliseconds.
   double buildTime() const { return build_ms_; }
 
@@ -84,7 +81,7 @@ class PreparedScene {
   std::unique_ptr<PreparedQuery> query_;
   std::unique_ptr<PreparedPoseQuery> pose_query_;  ///< instead, with a pose error
   std::unique_ptr<PreparedQuery> possible_query_;  ///< besides, where a cloud is among the objects
-  std::unique_ptr<TreePair> own_trees_;            ///< of bounding volumes that FCL does not have
+  TreePair own_trees_;                             ///< of bounding volumes that FCL does not have
   std::unique_ptr<PartsScene> parts_;
   PartsUse use_of_parts_;
 };

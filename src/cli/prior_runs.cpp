@@ -56,15 +56,6 @@ std::string PriorRun::budget() const {
   return "trees delta " + numberText(confidence, 6);
 }
 
-std::vector<PriorRun> priorRunsOfTable1() {
-  using Method = PriorMethod;
-  return {{Method::du_toit_burdick, PriorReach::objects},
-          {Method::du_toit_burdick, PriorReach::trees},
-          {Method::park, PriorReach::objects},
-          {Method::park, PriorReach::trees},
-          {Method::enlargement, PriorReach::objects, 0.95}};
-}
-
 std::vector<PriorRun> priorRunsOfComparison() {
   using Method = PriorMethod;
   std::vector<PriorRun> runs;

@@ -37,10 +37,7 @@ struct PriorRun {
   std::string budget() const;
 };
 
-/// Both methods with spheres, in both reaches, and enlargement at 95 %.
-std::vector<PriorRun> priorRunsOfTable1();
-
-/// Those and more budgets, for `fcl_prob compare`.
+/// Both methods with spheres, in both reaches, and enlargement, with several budgets.
 std::vector<PriorRun> priorRunsOfComparison();
 
 struct PriorAnswer {

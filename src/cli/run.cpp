@@ -6,21 +6,8 @@
 #include <csignal>
 #include <iostream>
 
-#include "cli/check_command.h"
-#include "cli/compare_command.h"
-#include "cli/decompose_command.h"
-#include "cli/export_command.h"
+#include "cli/commands.h"
 #include "cli/output.h"
-#ifdef FCL_PROB_HAS_ROBOT
-#include "cli/path_command.h"
-#endif
-#include "cli/sweep_command.h"
-#ifdef FCL_PROB_HAS_PLANNING
-#include "cli/plan_command.h"
-#endif
-#ifdef FCL_PROB_HAS_CLOUD
-#include "cli/reconstruct_command.h"
-#endif
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/version.h"
 

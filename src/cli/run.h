@@ -18,7 +18,7 @@ enum ExitCode {
   kStopped = 3    ///< a limit came before the tolerance; what was printed is valid
 };
 
-/// Adds a subcommand, as addCheckCommand().
+/// Adds a subcommand, as cli/commands.h does.
 using AddCommand = void (*)(CLI::App& app, int& exit_code);
 
 /// Runs the command line. Results go to standard output; one line to standard error if the exit

@@ -34,12 +34,6 @@ std::string paddedLine(const Row& row, const std::vector<std::size_t>& widths) {
   return line + '\n';
 }
 
-std::string markdownLine(const Row& row) {
-  std::string line = "|";
-  for (const std::string& cell : row) line += " " + cell + " |";
-  return line + '\n';
-}
-
 }  // namespace
 
 std::string TextTable::text() const {
@@ -51,14 +45,6 @@ std::string TextTable::text() const {
   for (const Row& row : rows_) widen(row);
   std::string result = paddedLine(header_, widths);
   for (const Row& row : rows_) result += paddedLine(row, widths);
-  return result;
-}
-
-std::string TextTable::markdown() const {
-  std::string result = markdownLine(header_) + "|";
-  for (std::size_t i = 0; i < header_.size(); ++i) result += " --- |";
-  result += '\n';
-  for (const Row& row : rows_) result += markdownLine(row);
   return result;
 }
 

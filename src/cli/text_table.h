@@ -15,11 +15,11 @@ class TextTable {
   /// \param row  as many cells as the header
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
+  const std::vector<std::string>& header() const { return header_; }
+  const std::vector<std::vector<std::string>>& rows() const { return rows_; }
+
   /// Columns padded to the width of their widest cell.
   std::string text() const;
-
-  /// | a | b |
-  std::string markdown() const;
 
   /// Cells with commas, quotes or line breaks are quoted (RFC 4180).
   std::string csv() const;

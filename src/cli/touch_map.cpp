@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cli/random_frames.h"
+#include "cli/random_displacement.h"
 
 namespace fcl_prob::cli {
 namespace {

@@ -3,43 +3,24 @@
 #include "cli/tree_pair.h"
 
 #include <algorithm>
-#include <map>
 
-#include "cli/volumes.h"
+#include "base/decision.h"
+#include "fcl_prob/convex_hull_tree.h"
+#include "fcl_prob/exceptions.h"
 
 namespace fcl_prob::cli {
 namespace {
 
 template <typename Tree>
-class TreePairOf final : public TreePair {
- public:
-  TreePairOf(Tree a, Tree b) : a_(std::move(a)), b_(std::move(b)) {}
-
-  GeneralPcdResult bound(const fcl::Transform3d& pose_a, const fcl::Transform3d& pose_b,
-                         const GaussianDisplacement& displacement,
-                         const GeneralPcdRequest& request) const override {
-    return generalPcd(*a_, pose_a, *b_, pose_b, displacement, request);
-  }
-
-  std::vector<double> volumes(int levels) const override { return volumesByLevel(*a_, levels); }
-
- private:
-  Tree a_;
-  Tree b_;
-};
-
-template <typename BV>
-std::unique_ptr<TreePair> modelPair(const TriangleMesh& a, const TriangleMesh& b) {
-  using Tree = std::shared_ptr<fcl::BVHModel<BV>>;
-  return std::make_unique<TreePairOf<Tree>>(buildModel<BV>(a), buildModel<BV>(b));
+TreePair pairOf(std::shared_ptr<Tree> a, std::shared_ptr<Tree> b) {
+  return [a = std::move(a), b = std::move(b)](const auto& pose_a, const auto& pose_b,
+                                              const auto& displacement, const auto& request) {
+    return generalPcd(*a, pose_a, *b, pose_b, displacement, request);
+  };
 }
 
-std::unique_ptr<TreePair> hullPair(const TriangleMesh& a, const TriangleMesh& b) {
-  using Tree = std::shared_ptr<ConvexHullTree>;
-  const auto tree = [](const TriangleMesh& mesh) {
-    return std::make_shared<ConvexHullTree>(*buildModel<fcl::OBBd>(mesh));
-  };
-  return std::make_unique<TreePairOf<Tree>>(tree(a), tree(b));
+std::shared_ptr<ConvexHullTree> hullTree(const TriangleMesh& mesh) {
+  return std::make_shared<ConvexHullTree>(*buildModel<fcl::OBBd>(mesh));
 }
 
 }  // namespace
@@ -54,25 +35,33 @@ bool isOwnVolume(const std::string& bounding_volume) {
   return std::find(names.begin(), names.end(), bounding_volume) != names.end();
 }
 
-std::unique_ptr<TreePair> makeTreePair(const std::string& bounding_volume, const TriangleMesh& a,
-                                       const TriangleMesh& b) {
-  using Maker = std::unique_ptr<TreePair> (*)(const TriangleMesh&, const TriangleMesh&);
-  static const std::map<std::string, Maker> makers{{"sphere", modelPair<SphereBv>},
-                                                   {"aabb", modelPair<fcl::AABBd>},
-                                                   {"obb", modelPair<fcl::OBBd>},
-                                                   {"rss", modelPair<fcl::RSSd>},
-                                                   {"obbrss", modelPair<fcl::OBBRSSd>},
-                                                   {"kios", modelPair<fcl::kIOSd>},
-                                                   {"kdop16", modelPair<fcl::KDOPd<16>>},
-                                                   {"kdop18", modelPair<fcl::KDOPd<18>>},
-                                                   {"kdop24", modelPair<fcl::KDOPd<24>>},
-                                                   {"kdop26", modelPair<Kdop26>},
-                                                   {"convex", hullPair}};
-  const auto maker = makers.find(bounding_volume);
-  if (maker == makers.end()) {
-    throw InvalidRequest("unknown bounding volume '" + bounding_volume + "'");
-  }
-  return maker->second(a, b);
+TreePair makeTreePair(const std::string& bounding_volume, const TriangleMesh& a,
+                      const TriangleMesh& b) {
+  if (bounding_volume == "sphere") return pairOf(buildModel<SphereBv>(a), buildModel<SphereBv>(b));
+  if (bounding_volume == "kdop26") return pairOf(buildModel<Kdop26>(a), buildModel<Kdop26>(b));
+  return pairOf(hullTree(a), hullTree(b));
+}
+
+GeneralPcdRequest pcdRequestOf(const ProbabilityRequest& request, const std::string& refusal) {
+  const bool minimum = request.method == ProbabilityMethod::general_pcd_min;
+  if (!minimum && request.method != ProbabilityMethod::general_pcd) throw InvalidRequest(refusal);
+  GeneralPcdRequest pcd_request;
+  pcd_request.confidence = request.confidence;
+  pcd_request.max_pairs = request.max_cells;
+  pcd_request.variant = minimum ? GeneralPcdVariant::minimum : GeneralPcdVariant::sum;
+  return pcd_request;
+}
+
+ProbabilityResult resultOf(const GeneralPcdResult& pcd, const ProbabilityRequest& request) {
+  ProbabilityResult result;
+  result.method = request.method;
+  result.upper = pcd.upper;
+  result.status = pcd.complete ? ProbabilityStatus::bound_only : ProbabilityStatus::cell_limit;
+  result.decision = detail::decisionOf({0.0, pcd.upper}, request);
+  result.statistics.raw_sum = pcd.raw_sum;
+  result.statistics.pairs_tested = pcd.pairs_bounded;
+  result.statistics.leaf_pairs = pcd.leaf_pairs;
+  return result;
 }
 
 }  // namespace fcl_prob::cli

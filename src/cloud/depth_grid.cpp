@@ -82,6 +82,23 @@ void visitNeighbours(const DepthGrid& grid, int pixel, const Function& function)
   }
 }
 
+/// All pixels that steps from `start` lead to, none of which was `seen` before.
+/// \param leads  whether a step from a pixel to its neighbour is one
+template <typename Leads>
+std::vector<int> reachedFrom(const DepthGrid& grid, int start, const Leads& leads,
+                             std::vector<std::uint8_t>& seen) {
+  std::vector<int> reached{start};
+  seen[start] = 1;
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    visitNeighbours(grid, reached[next], [&, pixel = reached[next]](int other) {
+      if (seen[other] || !leads(pixel, other)) return;
+      seen[other] = 1;
+      reached.push_back(other);
+    });
+  }
+  return reached;
+}
+
 }  // namespace
 
 bool DepthGrid::connected(int p, int q, int apart) const {
@@ -202,24 +219,12 @@ double average(int window, DepthGrid& grid) {
 
 std::vector<std::size_t> findRegions(std::size_t least, DepthGrid& grid) {
   std::vector<std::size_t> sizes;
-  std::vector<int> stack, members;
   std::vector<std::uint8_t> seen(grid.size(), 0);
+  const auto leads = [&grid](int pixel, int other) { return grid.connected(pixel, other); };
   grid.region.assign(grid.size(), -1);
   for (int start = 0; start < static_cast<int>(grid.size()); ++start) {
     if (seen[start] || !(grid.inverse[start] > 0.0)) continue;
-    stack.assign(1, start);
-    members.clear();
-    seen[start] = 1;
-    while (!stack.empty()) {
-      const int pixel = stack.back();
-      stack.pop_back();
-      members.push_back(pixel);
-      visitNeighbours(grid, pixel, [&](int other) {
-        if (seen[other] || !grid.connected(pixel, other)) return;
-        seen[other] = 1;
-        stack.push_back(other);
-      });
-    }
+    const std::vector<int> members = reachedFrom(grid, start, leads, seen);
     const bool kept = members.size() >= least;
     for (const int pixel : members) {
       if (kept) {
@@ -239,26 +244,17 @@ namespace {
 std::vector<std::vector<int>> holesOf(const DepthGrid& grid) {
   std::vector<std::vector<int>> holes;
   std::vector<std::uint8_t> seen(grid.size(), 0);
-  std::vector<int> stack;
+  const auto leads = [&grid](int, int other) { return !(grid.inverse[other] > 0.0); };
+  const auto isAtBorder = [&grid](int pixel) {
+    const int u = pixel % grid.width, v = pixel / grid.width;
+    return u == 0 || v == 0 || u == grid.width - 1 || v == grid.height - 1;
+  };
   for (int start = 0; start < static_cast<int>(grid.size()); ++start) {
     if (seen[start] || grid.inverse[start] > 0.0) continue;
-    std::vector<int> members;
-    bool at_border = false;
-    stack.assign(1, start);
-    seen[start] = 1;
-    while (!stack.empty()) {
-      const int pixel = stack.back();
-      stack.pop_back();
-      members.push_back(pixel);
-      const int u = pixel % grid.width, v = pixel / grid.width;
-      at_border = at_border || u == 0 || v == 0 || u == grid.width - 1 || v == grid.height - 1;
-      visitNeighbours(grid, pixel, [&](int other) {
-        if (seen[other] || grid.inverse[other] > 0.0) return;
-        seen[other] = 1;
-        stack.push_back(other);
-      });
+    std::vector<int> members = reachedFrom(grid, start, leads, seen);
+    if (std::none_of(members.begin(), members.end(), isAtBorder)) {
+      holes.push_back(std::move(members));
     }
-    if (!at_border) holes.push_back(std::move(members));
   }
   return holes;
 }

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/number_text.h"
 #include "decomposition/cover_proof.h"
 #include "decomposition/hull_volume.h"
-#include "decomposition/padded_hull.h"
 #include "decomposition/piece_cutting.h"
+#include "decomposition/point_sets.h"
 #include "decomposition/solid_cover_proof.h"
 #include "fcl_prob/exceptions.h"
 
@@ -35,6 +36,59 @@ void validateDecompositionRequest(const DecompositionRequest& request) {
     throw InvalidRequest("concavity is " + detail::numberText(request.concavity) +
                          ", must be at least 0");
   }
+}
+
+/// Scaling by more would be seen.
+constexpr double kMostScaling = 1e-6;
+
+/// Of the padding, against the rounding of the hull and of the scaling.
+constexpr double kReserve = 2.0;
+
+double inradiusAbout(const Eigen::Vector3d& middle, const ConvexPolytope& hull) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConvexPolytope::Face& face : hull.faces) {
+    least = std::min(least, face.offset - face.normal.dot(middle));
+  }
+  return hull.faces.empty() ? 0.0 : least;
+}
+
+void setOffsets(ConvexPolytope& hull) {
+  for (ConvexPolytope::Face& face : hull.faces) {
+    face.offset = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& v : hull.vertices) {
+      face.offset = std::max(face.offset, face.normal.dot(v));
+    }
+  }
+}
+
+/// An octahedron contains a ball of its size over the square root of three.
+ConvexPolytope hullOfOctahedra(const std::vector<Eigen::Vector3d>& points, double size) {
+  std::vector<Eigen::Vector3d> corners;
+  for (const Eigen::Vector3d& point : points) {
+    for (int k = 0; k < 3; ++k) {
+      for (const double sign : {-1.0, 1.0}) {
+        corners.push_back(point + sign * size * Eigen::Vector3d::Unit(k));
+      }
+    }
+  }
+  return convexHull(corners);
+}
+
+/// A polytope with faces that contains every point within `padding` (metres) of a hull, and hardly
+/// more: the hull scaled about its middle, or, where it is too thin for that, the hull of an
+/// octahedron around each of its corners. So rounding cannot make it smaller than the hull.
+ConvexPolytope paddedHull(ConvexPolytope hull, double padding) {
+  const Eigen::Vector3d middle = detail::middleOf(hull.vertices);
+  const double inradius = inradiusAbout(middle, hull);
+  if (inradius * kMostScaling > kReserve * padding) {
+    const double scale = 1.0 + kReserve * padding / inradius;
+    for (Eigen::Vector3d& v : hull.vertices) v = middle + scale * (v - middle);
+    setOffsets(hull);
+    return hull;
+  }
+  ConvexPolytope thick = hullOfOctahedra(hull.vertices, kReserve * std::sqrt(3.0) * padding);
+  if (thick.faces.empty()) throw InvalidGeometry("a part of a mesh has a hull without faces");
+  return thick;
 }
 
 /// Below two to this power (1e-290 m) what parts are moved outwards by is lost where doubles end.
@@ -97,7 +151,7 @@ Cover paddedParts(const std::vector<detail::PointSet>& parts) {
       kPadding * static_cast<double>(faces) / static_cast<double>(kFacesOfPadding);
   Cover cover{{}, marginsOf(padding)};
   for (ConvexPolytope& hull : hulls) {
-    cover.polytopes.push_back(detail::paddedHull(std::move(hull), padding));
+    cover.polytopes.push_back(paddedHull(std::move(hull), padding));
   }
   return cover;
 }

@@ -11,6 +11,7 @@
 
 #include "base/keep_once.h"
 #include "decomposition/hull_volume.h"
+#include "decomposition/point_sets.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -217,9 +218,7 @@ void addDirection(const Eigen::Vector3d& direction, Points& directions) {
 }
 
 void addPrincipalAxes(const SurfacePiece& piece, Points& directions) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : piece.vertices()) mean += v;
-  mean /= static_cast<double>(piece.vertices().size());
+  const Eigen::Vector3d mean = middleOf(piece.vertices());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& v : piece.vertices()) spread += (v - mean) * (v - mean).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);

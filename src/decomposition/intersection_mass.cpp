@@ -8,6 +8,7 @@
 
 #include "convex/cut_polytope.h"
 #include "convex/thinned_points.h"
+#include "decomposition/point_sets.h"
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/polytope_mass.h"
 
@@ -59,12 +60,6 @@ double scaleInto(const KnownObstacle& obstacle, const FaceSet& body,
   return scale;
 }
 
-Eigen::Vector3d middleOf(const FaceSet& faces) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : faces.vertices()) sum += v;
-  return sum / static_cast<double>(faces.vertices().size());
-}
-
 /// Cuts leave narrow faces that are uneven; those of a hull are even, and merged where they can be.
 /// Points may be off by `error`.
 Bounds massOfHull(const FaceSet& faces, double error) {
@@ -77,7 +72,7 @@ Bounds massOfHull(const FaceSet& faces, double error) {
 
 /// The mass of the same body a little smaller, every corner of which is in both obstacles.
 double massInside(const KnownObstacle& a, const KnownObstacle& b, FaceSet common) {
-  const Eigen::Vector3d centre = middleOf(common);
+  const Eigen::Vector3d centre = middleOf(common.vertices());
   const double scale = std::min(scaleInto(a, common, centre), scaleInto(b, common, centre));
   if (!(scale > 0.0)) return 0.0;
   for (Eigen::Vector3d& v : common.vertices()) v = centre + scale * (v - centre);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "decomposition/solid_cell.h"
 
-#include "decomposition/mesh_box.h"
+#include "decomposition/point_sets.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -42,10 +42,8 @@ bool SolidCell::reachesInto(const Eigen::Vector3d& corner,
                             const std::vector<Eigen::Vector3d>& corners) const {
   const Containment containment = solid_->contains(corner);
   if (containment != Containment::unknown) return containment == Containment::inside;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& other : corners) middle += other;
-  middle /= static_cast<double>(corners.size());
-  return solid_->contains(corner + kStepInside * (middle - corner)) != Containment::outside;
+  const Eigen::Vector3d inwards = corner + kStepInside * (middleOf(corners) - corner);
+  return solid_->contains(inwards) != Containment::outside;
 }
 
 }  // namespace fcl_prob::detail

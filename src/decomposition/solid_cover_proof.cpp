@@ -7,7 +7,7 @@
 
 #include "convex/cut_polytope.h"
 #include "decomposition/lowered_polytope.h"
-#include "decomposition/mesh_box.h"
+#include "decomposition/point_sets.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "fcl_prob/mesh_io.h"
 #include "io/import_isolated.h"
-#include "io/import_mutex.h"
+#include "io/write_file.h"
 
 namespace fcl_prob {
 namespace {
@@ -39,22 +39,6 @@ struct Message {
 /// Three doubles and three indices, without the classes' own layout.
 using RawVertex = std::array<double, 3>;
 using RawTriangle = std::array<std::uint64_t, 3>;
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int number) : number_(number) {}
-  ~FileDescriptor() { close(); }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  int number() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-
- private:
-  int number_;
-};
 
 // The child.
 
@@ -88,18 +72,6 @@ void confine(const ImportLimits& limits) {
   }
 }
 
-bool writeAll(int descriptor, const void* data, std::size_t size) {
-  const char* position = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = ::write(descriptor, position, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    position += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
 void sendMesh(int descriptor, const TriangleMesh& mesh) {
   std::string notes;  // each ends in a 0
   for (const std::string& note : mesh.notes) notes.append(note).push_back('\0');
@@ -109,15 +81,16 @@ void sendMesh(int descriptor, const TriangleMesh& mesh) {
   for (const fcl::Vector3d& v : mesh.vertices) vertices.push_back({v.x(), v.y(), v.z()});
   std::vector<RawTriangle> triangles;
   for (const fcl::Triangle& t : mesh.triangles) triangles.push_back({t[0], t[1], t[2]});
-  writeAll(descriptor, &message, sizeof message) &&
-      writeAll(descriptor, vertices.data(), vertices.size() * sizeof(RawVertex)) &&
-      writeAll(descriptor, triangles.data(), triangles.size() * sizeof(RawTriangle)) &&
-      writeAll(descriptor, notes.data(), notes.size());
+  detail::writeAll(descriptor, &message, sizeof message) &&
+      detail::writeAll(descriptor, vertices.data(), vertices.size() * sizeof(RawVertex)) &&
+      detail::writeAll(descriptor, triangles.data(), triangles.size() * sizeof(RawTriangle)) &&
+      detail::writeAll(descriptor, notes.data(), notes.size());
 }
 
 void sendError(int descriptor, Outcome outcome, const char* text) {
   const Message message{outcome, std::strlen(text), 0, 0, 0.0};
-  writeAll(descriptor, &message, sizeof message) && writeAll(descriptor, text, message.first);
+  detail::writeAll(descriptor, &message, sizeof message) &&
+      detail::writeAll(descriptor, text, message.first);
 }
 
 /// Never returns to the caller's code: no destructor or exit handler of the parent may run here.
@@ -275,8 +248,8 @@ TriangleMesh detail::importIsolated(const std::string& path,
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw FileError(path + ": no pipe to the importer: " + std::strerror(errno));
   }
-  FileDescriptor read_end(ends[0]);
-  FileDescriptor write_end(ends[1]);
+  detail::FileDescriptor read_end(ends[0]);
+  detail::FileDescriptor write_end(ends[1]);
   std::unique_lock<std::mutex> no_import(detail::importMutex());
   const pid_t id = ::fork();
   no_import.unlock();  // in both processes

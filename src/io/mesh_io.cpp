@@ -16,7 +16,7 @@
 
 #include "geometry/length_limit.h"
 #include "io/file_content.h"
-#include "io/import_mutex.h"
+#include "io/import_isolated.h"
 #include "io/mesh_formats.h"
 
 namespace fcl_prob {

@@ -4,7 +4,7 @@
 
 #include <chrono>
 #include <climits>
-#include <cstring>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "fcl_prob/exceptions.h"
@@ -12,43 +12,14 @@
 namespace fcl_prob::mpi {
 namespace {
 
-void put(std::string& message, std::uint64_t number) {
-  message.append(reinterpret_cast<const char*>(&number), sizeof number);
+using Json = nlohmann::json;
+
+/// Texts are not checked: lines of the file need not be UTF-8.
+std::string cborOf(const Json& message) {
+  std::string cbor;
+  Json::to_cbor(message, cbor);
+  return cbor;
 }
-
-void put(std::string& message, const std::string& text) {
-  put(message, std::uint64_t{text.size()});
-  message += text;
-}
-
-/// Takes apart what put() has put together.
-class Reader {
- public:
-  explicit Reader(const std::string& message) : message_(message) {}
-  bool atEnd() const { return position_ == message_.size(); }
-
-  std::uint64_t number() {
-    std::uint64_t number = 0;
-    std::memcpy(&number, take(sizeof number), sizeof number);
-    return number;
-  }
-
-  std::string text() {
-    const auto size = static_cast<std::size_t>(number());
-    return {take(size), size};
-  }
-
- private:
-  const char* take(std::size_t size) {
-    if (size > message_.size() - position_) throw Exception("a message of MPI is cut off");
-    const char* data = message_.data() + position_;
-    position_ += size;
-    return data;
-  }
-
-  const std::string& message_;
-  std::size_t position_ = 0;
-};
 
 std::string received(MPI_Message message, const MPI_Status& status) {
   int size = 0;
@@ -69,40 +40,26 @@ void waitFor(MPI_Request& request) {
 }  // namespace
 
 std::string packed(const Lines& lines) {
-  std::string message;
+  Json message = Json::array();
   for (const sweep::NumberedLine& line : lines) {
-    put(message, std::uint64_t{line.number});
-    put(message, std::uint64_t{line.too_long});
-    put(message, line.text);
+    message.push_back(Json::array({line.number, line.text, line.too_long}));
   }
-  return message;
+  return cborOf(message);
 }
 
 Lines linesFrom(const std::string& message) {
   Lines lines;
-  for (Reader reader(message); !reader.atEnd();) {
-    sweep::NumberedLine line;
-    line.number = static_cast<std::size_t>(reader.number());
-    line.too_long = reader.number() != 0;
-    line.text = reader.text();
-    lines.push_back(std::move(line));
-  }
+  for (const Json& line : Json::from_cbor(message)) lines.push_back({line[0], line[1], line[2]});
   return lines;
 }
 
 std::string packed(const Answered& answered) {
-  std::string message;
-  put(message, std::uint64_t{answered.errors});
-  for (const std::string& record : answered.records) put(message, record);
-  return message;
+  return cborOf(Json::array({answered.records, answered.errors}));
 }
 
 Answered answeredFrom(const std::string& message) {
-  Answered answered;
-  Reader reader(message);
-  answered.errors = static_cast<std::size_t>(reader.number());
-  while (!reader.atEnd()) answered.records.push_back(reader.text());
-  return answered;
+  const Json answered = Json::from_cbor(message);
+  return {answered[0], answered[1]};
 }
 
 void send(const std::string& message, int rank, Tag tag) {

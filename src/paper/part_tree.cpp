@@ -155,14 +155,6 @@ std::size_t PartTree::nodeCount() const { return tree_->nodeCount(); }
 
 double PartTree::volume(std::size_t node) const { return tree_->volume(static_cast<int>(node)); }
 
-double PartTree::volumeOfLeaves() const {
-  double sum = 0.0;
-  for (std::size_t node = 0; node < nodeCount(); ++node) {
-    if (tree_->isLeaf(static_cast<int>(node))) sum += volume(node);
-  }
-  return sum;
-}
-
 GeneralPcdResult generalPcd(const PartTree& a, const fcl::Transform3d& pose_a, const PartTree& b,
                             const fcl::Transform3d& pose_b,
                             const GaussianDisplacement& displacement,

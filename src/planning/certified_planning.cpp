@@ -3,8 +3,6 @@
 #include "fcl_prob/certified_planning.h"
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 
 #include "base/number_text.h"
 #include "base/refuse_band.h"
@@ -27,19 +25,6 @@ constexpr std::size_t kCellsOfMotion = 20;
 ProbabilityRequest intervalOf(ProbabilityRequest request) {
   request.threshold.reset();
   return request;
-}
-
-LargestProbability largestOf(const detail::StateDecision& decision,
-                             const std::vector<Eigen::VectorXd>& states,
-                             const std::function<ProbabilityRequest()>& request) {
-  detail::LargestOfStates largest;
-  std::size_t likeliest = 0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    // What is below the P of another state is not the largest.
-    const double least = largest.probability.lower;
-    if (largest.add(decision.above(states[i], least, request()))) likeliest = i;
-  }
-  return {largest.probability, likeliest};
 }
 
 class CertifiedPlanner {
@@ -101,28 +86,16 @@ class CertifiedPlanner {
     };
   }
 
-  double secondsPassed() const {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    return passed.count();
-  }
-
-  /// A limit must be > 0; one that has passed ends a plan at its first state.
-  double secondsLeft() const {
-    return std::max(1e-9, request_.planning.time_limit.value_or(0.0) - secondsPassed());
-  }
-
   /// Of a query, which gives what it has where the plan's time ends or its caller cancels it.
   /// \param path_is_found  else states are tested
   ProbabilityRequest withinLimits(ProbabilityRequest request, std::size_t states,
                                   bool path_is_found = true) const {
-    if (request_.planning.time_limit) {
-      request.time_limit = std::min(request.time_limit.value_or(secondsLeft()), secondsLeft());
-    }
+    request = detail::withinTime(std::move(request), request_.planning, watch_);
     if (request_.planning.on_progress) {
       request.on_progress = [this, states, path_is_found,
                              inner = request.on_progress](const auto& progress) {
         return (!inner || inner(progress)) &&
-               request_.planning.on_progress({states, secondsPassed(), path_is_found});
+               request_.planning.on_progress({states, watch_.seconds(), path_is_found});
       };
     }
     return request;
@@ -130,7 +103,7 @@ class CertifiedPlanner {
 
   PlanningRequest remaining(std::size_t states) const {
     PlanningRequest request = request_.planning;
-    if (request.time_limit) request.time_limit = secondsLeft();
+    request.time_limit = detail::secondsLeft(request_.planning, watch_);
     request.max_states -= std::min(states, request.max_states - 1);
     return request;
   }
@@ -171,19 +144,23 @@ class CertifiedPlanner {
   }
 
   bool mayGoOn(std::size_t states) const {
-    if (request_.planning.time_limit && secondsPassed() >= *request_.planning.time_limit) {
+    if (request_.planning.time_limit && watch_.seconds() >= *request_.planning.time_limit) {
       return false;
     }
     return !request_.planning.on_progress ||
-           request_.planning.on_progress({states, secondsPassed(), true});
+           request_.planning.on_progress({states, watch_.seconds(), true});
   }
 
   void certifyStates(CertifiedPlan& plan) const {
     const auto states = interpolated(plan.path.waypoints, request_.planning.largest_step);
-    const LargestProbability largest = largestOf(
-        decision_, states, [&] { return withinLimits(request_.state, plan.path.states); });
+    detail::LargestOfStates largest;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      // What is below the P of another state is not the largest.
+      const double least = largest.probability.lower;
+      const ProbabilityRequest request = withinLimits(request_.state, plan.path.states);
+      if (largest.add(decision_.above(states[i], least, request))) plan.likeliest = i;
+    }
     plan.largest = largest.probability;
-    plan.likeliest = largest.state;
     // By the decisions, which may have been closer to the threshold than the tolerance.
     plan.largest.upper = std::min(plan.largest.upper, plan.state_threshold);
     // Where a limit ended one of the two, the other one may say more: the motion is no less likely
@@ -196,17 +173,10 @@ class CertifiedPlanner {
   const SelfCollision& self_;
   CertifiedPlanningRequest request_;
   detail::StateDecision decision_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const detail::Stopwatch watch_;
 };
 
 }  // namespace
-
-LargestProbability largestProbability(const RobotQuery& query,
-                                      const std::vector<Eigen::VectorXd>& states,
-                                      const ProbabilityRequest& request) {
-  const ProbabilityRequest of_call = detail::ofOneCall(request);
-  return largestOf(detail::StateDecision(query, {}), states, [&] { return of_call; });
-}
 
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,
                             const Eigen::VectorXd& start, const Eigen::VectorXd& goal,

@@ -6,9 +6,11 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+
+#include <mutex>
 
 #include "planning/joint_space.h"
-#include "planning/quiet_ompl.h"
 #include "planning/shorten_path.h"
 
 namespace fcl_prob {
@@ -16,6 +18,32 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
+
+std::mutex& quietMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+int quiet_plans = 0;
+ompl::msg::OutputHandler* handler_before = nullptr;
+
+/// While any of these lives OMPL's log, which belongs to the whole process, goes nowhere; then to
+/// where it went before.
+class QuietOmpl {
+ public:
+  QuietOmpl() {
+    const std::lock_guard<std::mutex> lock(quietMutex());
+    if (quiet_plans++ > 0) return;
+    handler_before = ompl::msg::getOutputHandler();
+    ompl::msg::noOutputHandler();
+  }
+  ~QuietOmpl() {
+    const std::lock_guard<std::mutex> lock(quietMutex());
+    if (--quiet_plans == 0) ompl::msg::useOutputHandler(handler_before);
+  }
+  QuietOmpl(const QuietOmpl&) = delete;
+  QuietOmpl& operator=(const QuietOmpl&) = delete;
+};
 
 /// By RRT-Connect; nothing if a limit ended it.
 std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
@@ -58,7 +86,7 @@ class MotionPlan {
       result.shortened = true;
       return PlanningStatus::solved;
     }
-    const detail::QuietOmpl quiet;
+    const QuietOmpl quiet;
     const auto path = connect(space_, run_, start_, goal_);
     if (!path) return run_.stopped().value_or(PlanningStatus::state_limit);
     result.waypoints = space_.waypointsOf(*path);

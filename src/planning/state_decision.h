@@ -3,6 +3,10 @@
 // Whether a state of a plan is certainly below its threshold, and what its P is.
 #pragma once
 
+#include <algorithm>
+
+#include "base/stopwatch.h"
+#include "fcl_prob/motion_planning.h"
 #include "fcl_prob/robot_query.h"
 #include "robot/interval_with_errors.h"
 #include "robot/state_screen.h"
@@ -45,6 +49,21 @@ class StateDecision {
   Eigen::MatrixXd covariance_;  ///< of the joints, with errors
   StateScreen screen_;
 };
+
+/// What is left of a plan's time, if that has a limit: > 0, as a limit must be. One that has passed
+/// ends a plan at its first state.
+inline std::optional<double> secondsLeft(const PlanningRequest& plan, const Stopwatch& watch) {
+  if (!plan.time_limit) return std::nullopt;
+  return std::max(1e-9, *plan.time_limit - watch.seconds());
+}
+
+/// A request that gives what it has where the plan's time ends.
+inline ProbabilityRequest withinTime(ProbabilityRequest request, const PlanningRequest& plan,
+                                     const Stopwatch& watch) {
+  const auto left = secondsLeft(plan, watch);
+  if (left) request.time_limit = std::min(request.time_limit.value_or(*left), *left);
+  return request;
+}
 
 /// The largest P of several, as it becomes known.
 struct LargestOfStates {

@@ -133,13 +133,8 @@ class TimedPlanner {
     return detail::StateDecision(then, request_.errors).isBelow(values, withinLimits());
   }
 
-  /// A state gives what it has where the plan's time ends. A limit must be > 0.
   ProbabilityRequest withinLimits() const {
-    ProbabilityRequest request = request_.state;
-    if (!request_.planning.time_limit) return request;
-    const double left = std::max(1e-9, *request_.planning.time_limit - watch_.seconds());
-    request.time_limit = std::min(request.time_limit.value_or(left), left);
-    return request;
+    return detail::withinTime(request_.state, request_.planning, watch_);
   }
 
   Eigen::VectorXd heldFrom(const Eigen::VectorXd& goal) const {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/quantiles.h"
-#include "base/random_words.h"
+#include "pose/sampled_configuration.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -36,10 +36,6 @@ constexpr double kQuestionsOfLine = 6.0;
 
 }  // namespace
 
-double BoundarySearch::questionsOfPlane(Eigen::Index dimension) {
-  return 1.5 * kLook + kQuestionsOfLine * static_cast<double>(pointsOfPlane(dimension));
-}
-
 Eigen::Index BoundarySearch::missingFor(int points_each) const {
   const Eigen::Index wanted = points_each * BoundaryModel::coefficients(dimension_, true);
   return std::max<Eigen::Index>(wanted - points_.cols(), 0);
@@ -49,15 +45,8 @@ double BoundarySearch::questionsOfBend(int points_each) const {
   return kQuestionsOfLine * static_cast<double>(missingFor(points_each));
 }
 
-Eigen::VectorXd BoundarySearch::normals(std::uint64_t index) const {
-  Eigen::VectorXd x(dimension_);
-  for (Eigen::Index k = 0; k < dimension_; k += 3) {
-    const Eigen::Vector3d three = standardNormalFrom(
-        randomWords({seed_, kStreamOfSearch}, index, static_cast<std::uint64_t>(k / 3)));
-    const Eigen::Index count = std::min<Eigen::Index>(3, dimension_ - k);
-    x.segment(k, count) = three.head(count);
-  }
-  return x;
+Eigen::VectorXd BoundarySearch::nextNormals() {
+  return standardNormals({seed_, kStreamOfSearch}, drawn_++, dimension_);
 }
 
 bool BoundarySearch::asked(const Eigen::VectorXd& x) {
@@ -71,7 +60,7 @@ std::optional<BoundaryModel> BoundarySearch::halfSpace() {
     Eigen::VectorXd meeting = Eigen::VectorXd::Zero(dimension_), missing = meeting;
     int hits = 0;
     for (int i = 0; i < kLook; ++i) {
-      const Eigen::VectorXd x = scale * normals(drawn_++);
+      const Eigen::VectorXd x = scale * nextNormals();
       const bool hit = asked(x);
       hits += hit ? 1 : 0;
       (hit ? meeting : missing) += x;
@@ -116,7 +105,7 @@ void BoundarySearch::addPoints(const BoundaryModel& model, Eigen::Index count, d
   Eigen::Index found = before;
   points_.conservativeResize(dimension_, before + count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::VectorXd across = model.acrossOf(normals(drawn_++));
+    const Eigen::VectorXd across = model.acrossOf(nextNormals());
     const auto level = levelOn(model, across, model.level(across), step);
     if (level) points_.col(found++) = model.pointAt(across, *level);
   }

@@ -27,15 +27,13 @@ class BoundarySearch {
   /// The same as a quadric, by more points of the boundary: so many for each of its coefficients.
   void bend(BoundaryModel& model, int points_each);
 
-  /// How many questions plane() asks, about; and how many bend() with so many points there are
-  /// already.
-  static double questionsOfPlane(Eigen::Index dimension);
+  /// How many questions bend() asks, about, with the points that there are already.
   double questionsOfBend(int points_each) const;
 
   std::size_t questions() const { return questions_; }
 
  private:
-  Eigen::VectorXd normals(std::uint64_t index) const;
+  Eigen::VectorXd nextNormals();
   bool asked(const Eigen::VectorXd& x);
   std::optional<BoundaryModel> halfSpace();
   Eigen::Index missingFor(int points_each) const;

@@ -17,17 +17,6 @@
 namespace fcl_prob {
 namespace {
 
-// Monte Carlo draws from the request's first stream; block 0 is the displacement's.
-Eigen::VectorXd normalsOf(std::uint64_t seed, std::size_t index, int count) {
-  Eigen::VectorXd z(count);
-  for (int k = 0; k < count; k += 3) {
-    const Eigen::Vector3d three = detail::standardNormalFrom(
-        detail::randomWords({seed}, index, static_cast<std::uint64_t>(1 + k / 3)));
-    z.segment(k, std::min(3, count - k)) = three.head(std::min(3, count - k));
-  }
-  return z;
-}
-
 detail::ConfigurationMixture validatedMixture(
     const std::vector<ConfigurationQuery::Weighted>& mixture) {
   std::vector<detail::ConfigurationMixture::Component> components;
@@ -83,8 +72,10 @@ struct ConfigurationQuery::Implementation {
           detail::uniformFrom(detail::randomWords({request.seed, kChoices}, index)[0]);
       const RandomConfiguration& configuration =
           *mixture.components()[mixture.chosenBy(uniform)].configuration;
+      // From the request's first stream; block 0 is the displacement's.
       return detail::sampledAt(
-          configuration, normalsOf(request.seed, index, configuration.dimension()),
+          configuration,
+          detail::standardNormals({request.seed}, index, configuration.dimension(), 1),
           detail::standardNormalFrom(detail::randomWords({request.seed}, index, 0)));
     };
     return detail::placementMonteCarlo(a, b, sampler, request);

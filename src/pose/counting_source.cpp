@@ -176,13 +176,8 @@ CountingSource::Counted CountingSource::countAt(std::size_t index) const {
   const auto words = randomWords(stream, index);
   const std::size_t chosen = countings_.size() == 1 ? 0 : mixture_.chosenBy(unitUniform(words[1]));
   const Counting& counting = countings_[chosen];
-  Eigen::VectorXd normals(kTranslation + counting.configuration->dimension());
-  for (Eigen::Index k = 0; k < normals.size(); k += 3) {
-    const Eigen::Vector3d three =
-        standardNormalFrom(randomWords(stream, index, static_cast<std::uint64_t>(1 + k / 3)));
-    const Eigen::Index count = std::min<Eigen::Index>(3, normals.size() - k);
-    normals.segment(k, count) = three.head(count);
-  }
+  const Eigen::VectorXd normals =
+      standardNormals(stream, index, kTranslation + counting.configuration->dimension(), 1);
   if (counting.model) return countNear(counting, normals, uniformFrom(words[0]));
   const bool hit = collidesAt(*counting.configuration, normals);
   return {hit ? 1.0 : 0.0, hit};

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/random_words.h"
+#include "base/statistics.h"
+#include "pose/sampled_configuration.h"
 #include "sampling/sample_loop.h"
 
 namespace fcl_prob::detail {
@@ -29,17 +31,6 @@ constexpr double kCoarsest = 0.3;
 
 // Of the spread between configurations, what a single answer may have as its standard error.
 constexpr double kInnerDeviation = 0.7;
-
-Eigen::VectorXd normalsOf(std::uint64_t seed, std::size_t pair, int dimension) {
-  Eigen::VectorXd z(dimension);
-  for (int k = 0; k < dimension; k += 3) {
-    const Eigen::Vector3d three = standardNormalFrom(
-        randomWords({seed, kConfigurations}, pair, static_cast<std::uint64_t>(k / 3)));
-    const int count = std::min(3, dimension - k);
-    z.segment(k, count) = three.head(count);
-  }
-  return z;
-}
 
 // |∂P/∂mean| along an axis is at most that of a half-space across it through the mean.
 Eigen::Vector3d largestGradient(const GaussianDisplacement& displacement) {
@@ -68,7 +59,8 @@ PairSource::Answer PairSource::answerAt(std::size_t index, double tolerance) con
   const double choice = unitUniform(randomWords({request_.seed, kChoices}, pair)[0]);
   const RandomConfiguration& configuration =
       *mixture_.components()[mixture_.chosenBy(choice)].configuration;
-  const Eigen::VectorXd z = normalsOf(request_.seed, pair, configuration.dimension());
+  const Eigen::VectorXd z =
+      standardNormals({request_.seed, kConfigurations}, pair, configuration.dimension());
   const PlacedConfiguration placed = configuration.at(index % 2 == 0 ? z : Eigen::VectorXd(-z));
   ProbabilityRequest request = request_;
   // Rare events are counted by fcl::collide, given the configuration; all else is estimated.
@@ -158,12 +150,7 @@ void PairSource::fillGradient(ProbabilityResult& result) const {
 }
 
 void PairSource::describe(ProbabilityResult& result) const {
-  result.statistics.cells += statistics_.cells;
-  result.statistics.pairs_tested += statistics_.pairs_tested;
-  result.statistics.leaf_pairs += statistics_.leaf_pairs;
-  result.statistics.samples += statistics_.samples;
-  result.statistics.peak_front = std::max(result.statistics.peak_front, statistics_.peak_front);
-  result.statistics.peak_memory = std::max(result.statistics.peak_memory, statistics_.peak_memory);
+  detail::addStatistics(statistics_, result.statistics);
   result.plan.push_back(std::to_string(2 * pairs_) + " configurations of " +
                         std::to_string(mixture_.dimension()) +
                         " dimensions in antithetic pairs, each answered by itself");

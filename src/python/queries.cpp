@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "python/queries.h"
-
 #include <pybind11/stl.h>
 
 #include <mutex>

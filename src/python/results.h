@@ -52,4 +52,7 @@ struct BatchArrays {
 void bindResults(py::module_& module);
 void bindBatchResult(py::module_& module);
 
+/// Queries of pairs and groups, which give them.
+void bindQueries(py::module_& module);
+
 }  // namespace fcl_prob::python

@@ -7,7 +7,6 @@
 
 #include "fcl_prob/gaussian_displacement.h"
 #include "robot/linear_errors.h"
-#include "robot/placed_body.h"
 #include "robot/prepared_obstacle.h"
 #include "robot/prepared_robot.h"
 

@@ -8,7 +8,10 @@
 #include "base/number_text.h"
 #include "base/round_workers.h"
 #include "base/stopwatch.h"
+#include "base/until_no.h"
 #include "fcl_prob/exceptions.h"
+#include "robot/interval_with_errors.h"
+#include "robot/state_with_errors.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -66,6 +69,11 @@ class ManyStates {
   std::vector<ProbableDecision> decisions_;
 };
 
+ProbableDecision decisionFrom(Decision decision, ProbableDecision below, ProbableDecision above) {
+  if (decision == Decision::below) return below;
+  return decision == Decision::above ? above : ProbableDecision::undecided;
+}
+
 }  // namespace
 
 void requireChance(double chance_of_error) {
@@ -78,6 +86,30 @@ std::vector<ProbableDecision> manyStates(const Eigen::MatrixXd& states,
                                          const ProbabilityRequest& request,
                                          const StateDecision& decide) {
   return ManyStates(states, request, decide).run();
+}
+
+std::vector<ProbableDecision> decideWithErrors(const RobotQuery& query,
+                                               const Eigen::MatrixXd& states,
+                                               const RobotErrors& errors,
+                                               const ProbabilityRequest& request,
+                                               std::optional<double> chance_of_error) {
+  const Eigen::MatrixXd covariance = validCovariance(query.among(), errors);
+  const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
+    const double threshold = *of_one.threshold;
+    if (upperWithErrors(query.among(), values, covariance, errors.base, threshold) < threshold) {
+      return ProbableDecision::certainly_below;
+    }
+    if (!chance_of_error) {
+      of_one.method = ProbabilityMethod::interval;
+      return decisionFrom(query.state(values, errors, of_one).decision,
+                          ProbableDecision::certainly_below, ProbableDecision::certainly_above);
+    }
+    of_one.method = ProbabilityMethod::automatic;
+    of_one.confidence = 1.0 - *chance_of_error;
+    return decisionFrom(query.state(values, errors, of_one).decision,
+                        ProbableDecision::probably_below, ProbableDecision::probably_above);
+  };
+  return manyStates(states, ofOneCall(request), decide);
 }
 
 }  // namespace fcl_prob::detail

@@ -5,10 +5,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "fcl_prob/probability_request.h"
 #include "fcl_prob/probable_decision.h"
+#include "fcl_prob/robot_query.h"
 
 namespace fcl_prob::detail {
 
@@ -23,5 +24,12 @@ using StateDecision =
 std::vector<ProbableDecision> manyStates(const Eigen::MatrixXd& states,
                                          const ProbabilityRequest& request,
                                          const StateDecision& decide);
+
+/// As RobotQuery::decideStates(), which has validated all but the errors. \param errors  some
+std::vector<ProbableDecision> decideWithErrors(const RobotQuery& query,
+                                               const Eigen::MatrixXd& states,
+                                               const RobotErrors& errors,
+                                               const ProbabilityRequest& request,
+                                               std::optional<double> chance_of_error);
 
 }  // namespace fcl_prob::detail

@@ -7,7 +7,6 @@
 
 #include "fcl_prob/robot_query.h"
 #include "robot/body_balls.h"
-#include "robot/placed_body.h"
 #include "robot/prepared_obstacle.h"
 #include "robot/prepared_robot.h"
 

@@ -21,4 +21,10 @@ struct PreparedRobot {
   HullsOfBodies hulls;
 };
 
+/// A body of the robot at one of the waypoints.
+struct PlacedBody {
+  std::size_t body;
+  fcl::Transform3d pose;  ///< metres, world frame
+};
+
 }  // namespace fcl_prob::detail

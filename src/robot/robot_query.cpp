@@ -13,7 +13,6 @@
 #include "io/import_notes.h"
 #include "query/motion_gradient.h"
 #include "robot/certified_motion.h"
-#include "robot/decide_with_errors.h"
 #include "robot/gradient_parts.h"
 #include "robot/many_states.h"
 #include "robot/moving_obstacle.h"

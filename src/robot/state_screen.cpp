@@ -71,10 +71,6 @@ bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const
   return is_usable_ && isBelow(nearOf(values, kNegligible * threshold), threshold);
 }
 
-bool StateScreen::isHardlyBelow(const Eigen::VectorXd& values, double threshold) const {
-  return is_usable_ && isHardlyBelow(nearOf(values, kNegligible * threshold), threshold);
-}
-
 bool StateScreen::isBelow(const Near& near, double threshold) const {
   const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
   const auto& all = near.of_obstacles;

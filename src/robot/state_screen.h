@@ -18,18 +18,13 @@ class StateScreen {
   /// \param among  must outlive this
   explicit StateScreen(const RobotAmongObstacles& among);
 
-  /// Whether P is below `threshold`, by isBelow() or isHardlyBelow(); nothing: not known.
+  /// Whether P is below `threshold`: certainly, or hardly; nothing: not known.
   /// \param values  valid ones
   std::optional<bool> tell(const Eigen::VectorXd& values, double threshold) const;
 
   /// Whether P(any body touches any obstacle) is certainly below `threshold`; false: not known.
   /// \param values  valid ones
   bool isBelow(const Eigen::VectorXd& values, double threshold) const;
-
-  /// Whether so many of a few displaced obstacles are touched that P is hardly below `threshold`:
-  /// no proof, but where only what is below is wanted a proof of the opposite is not needed. The
-  /// same displacements every time. \param values  valid ones
-  bool isHardlyBelow(const Eigen::VectorXd& values, double threshold) const;
 
  private:
   /// Bodies that are not far from an obstacle, by obstacle, and what those left out add up to.
@@ -39,6 +34,10 @@ class StateScreen {
   };
 
   bool isBelow(const Near& near, double threshold) const;
+
+  /// Whether so many of a few displaced obstacles are touched that P is hardly below `threshold`:
+  /// no proof, but where only what is below is wanted a proof of the opposite is not needed. The
+  /// same displacements every time.
   bool isHardlyBelow(const Near& near, double threshold) const;
 
   /// \param negligible  what one that is left out may add

@@ -17,18 +17,11 @@
 namespace fcl_prob::sweep {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw FileError(path + ": " + what + ": " + std::strerror(errno));
-}
-
-void writeAll(int descriptor, const std::string& content, const std::string& path) {
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t count = ::write(descriptor, content.data() + done, content.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail(path, "cannot be written");
-    done += static_cast<std::size_t>(count);
-  }
+/// \throws FileError for what is there and no regular file
+std::string canonicalPath(const std::string& path) {
+  if (!std::filesystem::exists(path)) return path;
+  if (!std::filesystem::is_regular_file(path)) throw FileError(path + ": no regular file");
+  return std::filesystem::canonical(path).string();
 }
 
 struct ResultLine {
@@ -59,29 +52,19 @@ bool isBeginOfResult(const std::string& text) {
 
 }  // namespace
 
-ResultsFile::ResultsFile(const std::string& path, bool resume) : path_(path) {
-  if (std::filesystem::exists(path_)) {
-    if (!std::filesystem::is_regular_file(path_)) throw FileError(path_ + ": no regular file");
-    path_ = std::filesystem::canonical(path_).string();
+ResultsFile::ResultsFile(const std::string& path, bool resume)
+    : path_(canonicalPath(path)),
+      descriptor_(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+  if (descriptor_.number() < 0) detail::failToWrite(path_);
+  if (::flock(descriptor_.number(), LOCK_EX | LOCK_NB) != 0) {
+    throw FileError(path_ + ": is being written by another run");
   }
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail(path_, "cannot be written");
-  try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      throw FileError(path_ + ": is being written by another run");
-    }
-    if (resume) {
-      takeOver();
-    } else if (::lseek(descriptor_, 0, SEEK_END) != 0) {
-      throw FileError(path_ + ": is there already; --resume goes on with it");
-    }
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
+  if (resume) {
+    takeOver();
+  } else if (::lseek(descriptor_.number(), 0, SEEK_END) != 0) {
+    throw FileError(path_ + ": is there already; --resume goes on with it");
   }
 }
-
-ResultsFile::~ResultsFile() { ::close(descriptor_); }
 
 void ResultsFile::takeOver() {
   std::ifstream file(path_, std::ios::binary);
@@ -99,10 +82,14 @@ void ResultsFile::takeOver() {
     }
     kept += line.size() + 1;
   }
-  if (::ftruncate(descriptor_, static_cast<off_t>(kept)) != 0) fail(path_, "cannot be cut");
+  if (::ftruncate(descriptor_.number(), static_cast<off_t>(kept)) != 0) {
+    throw FileError(path_ + ": cannot be cut: " + std::strerror(errno));
+  }
 }
 
-void ResultsFile::append(const std::string& record) { writeAll(descriptor_, record + "\n", path_); }
+void ResultsFile::append(const std::string& record) {
+  detail::writeAll(descriptor_.number(), record + "\n", path_);
+}
 
 void ResultsFile::finish() {
   std::vector<std::pair<std::size_t, std::string>> lines;
@@ -115,19 +102,7 @@ void ResultsFile::finish() {
   std::sort(lines.begin(), lines.end());
   std::string content;
   for (const auto& [number, line] : lines) content += line + "\n";
-  const std::string temporary = path_ + ".sorted";
-  const int sorted = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (sorted < 0) fail(temporary, "cannot be written");
-  try {
-    writeAll(sorted, content, temporary);
-    if (::fsync(sorted) != 0) fail(temporary, "cannot be written");
-    if (::rename(temporary.c_str(), path_.c_str()) != 0) fail(path_, "cannot be replaced");
-  } catch (...) {
-    ::close(sorted);
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  ::close(sorted);
+  detail::writeFile(path_, content);
 }
 
 }  // namespace fcl_prob::sweep

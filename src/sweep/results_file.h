@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "io/write_file.h"
 #include "sweep/pending_lines.h"
 
 namespace fcl_prob::sweep {
@@ -18,9 +19,6 @@ class ResultsFile {
   /// \throws FileError if it cannot be written, another run has it open, it is there and `resume`
   ///                   is false, or it holds anything that is no result of a sweep
   ResultsFile(const std::string& path, bool resume);
-  ~ResultsFile();
-  ResultsFile(const ResultsFile&) = delete;
-  ResultsFile& operator=(const ResultsFile&) = delete;
 
   const Done& done() const { return done_; }
 
@@ -34,7 +32,7 @@ class ResultsFile {
   void takeOver();
 
   std::string path_;
-  int descriptor_ = -1;
+  detail::FileDescriptor descriptor_;
   Done done_;
 };
 

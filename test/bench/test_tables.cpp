@@ -9,10 +9,9 @@
 #include "bench/fcl_loop.h"
 #include "bench/published_table.h"
 #include "bench/table1_rows.h"
+#include "bench/uniforms.h"
+#include "bench/volume_trees.h"
 #include "catch.h"
-#include "cli/random_frames.h"
-#include "cli/tree_pair.h"
-#include "cli/volumes.h"
 #include "command.h"
 #include "models.h"
 
@@ -44,15 +43,15 @@ TEST_CASE("volumes of a cuboid and of its bounding volumes", "[cli]") {
   const double ball = 4.0 / 3.0 * pi * std::pow(std::sqrt(14.0) / 2.0, 3);
   for (const std::string volume : {"aabb", "kdop16", "kdop18", "kdop24", "kdop26", "convex"}) {
     CAPTURE(volume);
-    CHECK(makeTreePair(volume, mesh, mesh)->volumes(3).at(0) == Approx(6.0).epsilon(1e-6));
+    CHECK(makeVolumeTrees(volume, mesh, mesh)->volumes(3).at(0) == Approx(6.0).epsilon(1e-6));
   }
-  CHECK(makeTreePair("sphere", mesh, mesh)->volumes(1).at(0) >= ball);
-  CHECK(makeTreePair("sphere", mesh, mesh)->volumes(1).at(0) <= 1.1 * ball);
+  CHECK(makeVolumeTrees("sphere", mesh, mesh)->volumes(1).at(0) >= ball);
+  CHECK(makeVolumeTrees("sphere", mesh, mesh)->volumes(1).at(0) <= 1.1 * ball);
   // FCL fits these to the covariance of the triangles, whose diagonals turn them.
   for (const std::string volume : {"rss", "kios", "obb", "obbrss"}) {
     CAPTURE(volume);
-    CHECK(makeTreePair(volume, mesh, mesh)->volumes(1).at(0) >= 6.0 * (1 - 1e-12));
-    CHECK(makeTreePair(volume, mesh, mesh)->volumes(1).at(0) <= 3.0 * 6.0);
+    CHECK(makeVolumeTrees(volume, mesh, mesh)->volumes(1).at(0) >= 6.0 * (1 - 1e-12));
+    CHECK(makeVolumeTrees(volume, mesh, mesh)->volumes(1).at(0) <= 3.0 * 6.0);
   }
   fcl::OBBd box;
   box.extent = {0.5, 1.0, 1.5};
@@ -78,7 +77,7 @@ TEST_CASE("a cut cube is smaller as a k-DOP than as a box", "[cli]") {
                           {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   CHECK(enclosedVolume(octahedron) == Approx(4.0 / 3.0));
   const auto rootVolume = [&](const char* volume) {
-    return makeTreePair(volume, octahedron, octahedron)->volumes(1).at(0);
+    return makeVolumeTrees(volume, octahedron, octahedron)->volumes(1).at(0);
   };
   CHECK(rootVolume("aabb") == Approx(8.0));
   CHECK(rootVolume("kdop26") == Approx(4.0 / 3.0).epsilon(1e-6));
@@ -101,6 +100,12 @@ TEST_CASE("random rotations are rotations, and have no preferred direction", "[c
   CHECK((mean_square.array() - 1.0 / 3.0).abs().maxCoeff() < 0.015);
   CHECK(randomRotation(7, 5) == randomRotation(7, 5));
   CHECK(randomRotation(7, 5) != randomRotation(8, 5));
+}
+
+TEST_CASE("tables as Markdown", "[cli]") {
+  TextTable table({"a", "long"});
+  table.add({"1,5", "x\"y"});
+  CHECK(markdownOf(table) == "| a | long |\n| --- | --- |\n| 1,5 | x\"y |\n");
 }
 
 TEST_CASE("the published table is looked up by row, model and distance", "[cli]") {
@@ -144,7 +149,7 @@ std::map<std::string, double> rootErrors(const TriangleMesh& mesh) {
   std::map<std::string, double> errors{{"convex", hullVolume(mesh)}};
   for (const std::string& volume : volumesOfTable1()) {
     if (volume == "convex") continue;  // hulls of all nodes take seconds
-    errors[volume] = makeTreePair(volume, mesh, mesh)->volumes(1).at(0);
+    errors[volume] = makeVolumeTrees(volume, mesh, mesh)->volumes(1).at(0);
   }
   constexpr int kFrames = 500;
   for (int i = 0; i < kFrames; ++i) {

@@ -131,11 +131,10 @@ TEST_CASE("compare plots with gnuplot, or says that it is missing", "[cli]") {
             .refused());
 }
 
-TEST_CASE("tables as text, Markdown and CSV", "[cli]") {
+TEST_CASE("tables as text and CSV", "[cli]") {
   cli::TextTable table({"a", "long"});
   table.add({"1,5", "x\"y"});
   CHECK(table.text() == "a    long\n1,5  x\"y\n");
-  CHECK(table.markdown() == "| a | long |\n| --- | --- |\n| 1,5 | x\"y |\n");
   CHECK(table.csv() == "a,long\n\"1,5\",\"x\"\"y\"\n");
 }
 
