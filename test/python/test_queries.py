@@ -2,6 +2,7 @@
 # Copyright (c) 2026, the fcl_prob authors
 """Answers: against closed forms, and against the command's to the last bit."""
 import json
+import math
 import os
 import subprocess
 
@@ -356,3 +357,16 @@ def test_certificates():
     assert lines[-1]["cells"] == sum("cell" in line for line in lines)
     with pytest.raises(fcl_prob.UnsupportedGeometry, match="Sphere"):
         fcl_prob.certified_probability(fcl_prob.Sphere(0.1), box, error)
+
+
+def test_contained_is_a_product_of_masses_within_a_box():
+    ball, box = fcl_prob.Sphere(0.1), fcl_prob.Box(1.0, 0.8, 0.6)
+    error = fcl_prob.GaussianDisplacement.from_standard_deviations([0.2, 0.3, 0.1])
+    result = fcl_prob.collision_probability(ball, box, error, contact="contained")
+    truth = 1.0
+    for room, sigma in ((0.4, 0.2), (0.3, 0.3), (0.2, 0.1)):
+        truth *= math.erf(room / sigma / math.sqrt(2))
+    assert result.lower <= truth <= result.upper
+    assert result.upper - result.lower < 0.011 * truth
+    with pytest.raises(fcl_prob.UnsupportedGeometry, match="object B"):
+        fcl_prob.collision_probability(ball, ball, error, contact="contained")
