@@ -31,12 +31,12 @@ enum class ProbabilityMethod {
 
 /// What counts as a collision.
 enum class ContactMeaning {
-  fcl,   ///< what fcl::collide answers: meshes are surfaces, primitives and Convex are solids
+  fcl,    ///< what fcl::collide answers: meshes are surfaces, primitives and Convex are solids
   solid,  ///< closed meshes are solids too: one inside the other collides
 
-  /// No contact, but A wholly within B, surfaces apart: of pairs, by methods automatic, interval and
-  /// estimate. B is a closed mesh, a Box or a Convex (its faces), A a closed mesh or a convex shape,
-  /// and neither is in several pieces that do not hang together.
+  /// No contact, but A wholly within B, surfaces apart: of pairs, by methods automatic, interval
+  /// and estimate. B is a closed mesh, a Box or a Convex (its faces), A a closed mesh or a convex
+  /// shape, and neither is in several pieces that do not hang together.
   contained
 };
 
