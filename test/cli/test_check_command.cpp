@@ -462,7 +462,7 @@ TEST_CASE("check writes a certificate, whole or not at all", "[cli]") {
 TEST_CASE("a reproduction needs no other file, and is answered with the same bits", "[cli]") {
   const Cubes cubes;
   const TemporaryFolder& folder = cubes.folder;
-  const std::string file = (folder.path() / "fault.json").string();
+  const std::string file = folder.path("fault.json");
   const json first = checkJson(
       {cubes.file, cubes.file, "--scale-a", "0.7", "--pose-a", "1,0.1,0.2,0.9,0.1,0.2,0.3",
        "--covariance", "0.01,0,0,0.02,0,0.03", "--relative-tolerance", "0.02", "--reproduce", file},

@@ -185,7 +185,7 @@ TEST_CASE("mixtures, truncated and vanishing displacements, and gradients") {
       {{0.25, alongAxes(first, deviations)}, {0.75, alongAxes(second, deviations)}});
   ProbabilityResult result;
   const PreparedQuery query(ball, box);
-  query.collisionProbability(kAtOrigin, kAtOrigin, mixture, containedRequest(), result);
+  collisionProbability(query, kAtOrigin, kAtOrigin, mixture, containedRequest(), result);
   const double truth = 0.25 * withinBox(half, half_of_box, first, deviations) +
                        0.75 * withinBox(half, half_of_box, second, deviations);
   CHECK(*result.lower <= truth);
@@ -193,7 +193,7 @@ TEST_CASE("mixtures, truncated and vanishing displacements, and gradients") {
   CHECK(*result.upper - *result.lower < 2e-3);
 
   const TruncatedGaussian truncated(alongAxes(first, deviations), 6.0);
-  query.collisionProbability(kAtOrigin, kAtOrigin, truncated, containedRequest(), result);
+  collisionProbability(query, kAtOrigin, kAtOrigin, truncated, containedRequest(), result);
   const double of_first = withinBox(half, half_of_box, first, deviations);
   CHECK(*result.lower <= of_first + 1e-6);
   CHECK(*result.upper >= of_first - 1e-6);
