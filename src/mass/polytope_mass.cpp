@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "base/agreed_bounds.h"
@@ -15,7 +16,7 @@
 #include "fcl_prob/normal_mass.h"
 #include "mass/boundary_mass.h"
 #include "mass/polytope_effort.h"
-#include "mass/simplex_mass.h"
+#include "mass/solid_mass.h"
 
 namespace fcl_prob {
 namespace {
@@ -26,15 +27,11 @@ using detail::MassWithError;
 using detail::PolytopeBoundary;
 
 // The wider the margin, the more pieces of a cubature it is worth.
-constexpr double kGoodRelativeWidth = 1e-11;
+constexpr double kGoodRelativeWidth = 3e-12;
+constexpr double kFairRelativeWidth = 1e-11;
 constexpr double kPoorRelativeWidth = 9e-11;
-constexpr double kFewPieces = 8, kManyPieces = 512;
 constexpr double kSliverRelativeWidth = 1e-3;
-
-// Of the cubature, relative: no finer than this, and this share of what is enough.
-constexpr double kFinest = 1e-12;
-constexpr double kShareOfEnough = 1e-3;
-constexpr std::size_t kMostTetrahedra = 20'000;  // some 20 ms
+constexpr int kMaxPieces = 512;
 
 // Planes of a body that are tried for its narrowest side.
 constexpr std::size_t kMostPlanes = 1024;
@@ -46,7 +43,7 @@ Bounds widened(const MassWithError& mass, const detail::SlabMass& slabs) {
           std::clamp(mass.value + (margin + slabs.gain), 0.0, 1.0)};
 }
 
-// About how many pieces a cubature takes: each spans half a standard deviation, less in the tail,
+// About how many pieces a cubature takes: each spans a few standard deviations, less in the tail,
 // where the density changes by e over 1/distance.
 double expectedPieces(const ConvexPolytope& polytope, const PolytopeBoundary& boundary) {
   double length = 0, area = 0, volume = 0;
@@ -66,7 +63,7 @@ double expectedPieces(const ConvexPolytope& polytope, const PolytopeBoundary& bo
   }
   if (!(area > 0)) return 1;
   const auto pieces = [&](double extent) {
-    return std::clamp(2 * (1 + boundary.distance) * extent, 1.0, 50.0);
+    return std::clamp(0.5 * (1 + boundary.distance) * extent, 1.0, 50.0);
   };
   return pieces(length) * pieces(0.5 * area / length) * pieces(2 * volume / area);
 }
@@ -75,8 +72,10 @@ bool isWorthCubature(const ConvexPolytope& polytope, const PolytopeBoundary& bou
                      const Bounds& bounds, double enough) {
   const double relative_width = bounds.width() / bounds.upper;
   if (!(relative_width > std::max(enough, kGoodRelativeWidth))) return false;
-  return expectedPieces(polytope, boundary) <=
-         (relative_width > kPoorRelativeWidth ? kManyPieces : kFewPieces);
+  const double limit = relative_width > kPoorRelativeWidth   ? 256
+                       : relative_width > kFairRelativeWidth ? 32
+                                                             : 2;
+  return expectedPieces(polytope, boundary) <= limit;
 }
 
 // The mass between two parallel planes that hold the body, the least over the faces: what is left
@@ -122,26 +121,13 @@ void requireVertexError(double vertex_error) {
   }
 }
 
-// Tetrahedra that one corner spans with the faces that it is not on: they fill the polytope as far
-// as its faces are plane (see FaceFrame::unevenness). All terms are positive, so that nothing
-// cancels, however small the polytope is beside its distance from the origin.
-Bounds massByCubature(const ConvexPolytope& polytope, double vertex_error,
-                      PolytopeBoundary& boundary, const detail::MassEffort& effort) {
-  const detail::MassAccuracy accuracy{std::max(kFinest, kShareOfEnough * effort.enough)};
-  const Eigen::Vector3d& anchor = polytope.vertices.front();
-  detail::SimplexMass sum(anchor, kMostTetrahedra);
-  for (const ConvexPolytope::Face& face : polytope.faces) {
-    const std::vector<int>& loop = face.vertices;
-    if (std::find(loop.begin(), loop.end(), 0) != loop.end()) continue;
-    const auto at = [&](std::size_t k) -> Eigen::Vector3d {
-      return polytope.vertices[static_cast<std::size_t>(loop[k])] - anchor;
-    };
-    for (std::size_t k = 2; k < loop.size(); ++k) {
-      sum.add({Eigen::Vector3d::Zero(), at(0), at(k - 1), at(k)}, accuracy);
-    }
-  }
-  return widened(MassWithError{sum.mass(), sum.error()},
-                 detail::surfaceSlabMass(boundary, &FaceFrame::unevenness, vertex_error));
+std::optional<Bounds> massByCubature(const ConvexPolytope& polytope, double vertex_error,
+                                     PolytopeBoundary& boundary, double lower_bound,
+                                     const detail::MassEffort& effort) {
+  const auto solid = detail::solidMass(polytope, lower_bound, kMaxPieces, effort);
+  if (!solid) return std::nullopt;
+  return widened(solid->mass, detail::surfaceSlabMass(boundary, &FaceFrame::unevenness,
+                                                      vertex_error + solid->cut_error));
 }
 
 Bounds massOfFaces(const ConvexPolytope& polytope, double vertex_error,
@@ -152,7 +138,8 @@ Bounds massOfFaces(const ConvexPolytope& polytope, double vertex_error,
   Bounds bounds =
       widened(*by_boundary, detail::surfaceSlabMass(boundary, &FaceFrame::deviation, vertex_error));
   if (isWorthCubature(polytope, boundary, bounds, effort.enough)) {
-    bounds = detail::agreed(bounds, massByCubature(polytope, vertex_error, boundary, effort));
+    const auto by_cubature = massByCubature(polytope, vertex_error, boundary, bounds.lower, effort);
+    if (by_cubature) bounds = detail::agreed(bounds, *by_cubature);
   }
   if (bounds.width() > kSliverRelativeWidth * bounds.upper) {
     bounds.upper =

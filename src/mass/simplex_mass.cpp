@@ -54,11 +54,11 @@ struct PointRule {
   double weight[points] = {};
 
   // Of the density over the tetrahedron, but for the factor kDensity.
-  double meanDensity(const Eigen::Vector3d& anchor, const SimplexMass::Corners& v) const {
+  double meanDensity(const SimplexMass::Corners& v) const {
     double sum = 0.0;
     for (int i = 0; i < points; ++i) {
-      const Eigen::Vector3d at = anchor + share[0][i] * v[0] + share[1][i] * v[1] +
-                                 share[2][i] * v[2] + share[3][i] * v[3];
+      const Eigen::Vector3d at =
+          share[0][i] * v[0] + share[1][i] * v[1] + share[2][i] * v[2] + share[3][i] * v[3];
       sum += weight[i] * std::exp(-0.5 * at.squaredNorm());
     }
     return sum;
@@ -153,14 +153,13 @@ constexpr int kLowDegree = 5;
 }  // namespace
 
 void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvings) {
-  const Eigen::Vector3d from_anchor = 0.25 * (v[0] + v[1] + v[2] + v[3]);
-  const Eigen::Vector3d middle = anchor_ + from_anchor;
+  const Eigen::Vector3d middle = 0.25 * (v[0] + v[1] + v[2] + v[3]);
   double x = 0.0;
   double q = 0.0;
   double farthest = 0.0;
   for (const Eigen::Vector3d& corner : v) {
-    farthest = std::max(farthest, 0.5 * (anchor_ + corner).squaredNorm());
-    const Eigen::Vector3d off = corner - from_anchor;
+    farthest = std::max(farthest, 0.5 * corner.squaredNorm());
+    const Eigen::Vector3d off = corner - middle;
     x = std::max(x, std::fabs(off.dot(middle)));
     q = std::max(q, 0.5 * off.squaredNorm());
   }
@@ -173,15 +172,12 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   double tail = 2 * seriesTail(x, q, kLowDegree);
   const bool conical = tail > enough;
   if (conical) tail = 2 * seriesTail(x, q, kConicalDegree);
-  if (tail > enough && halvings < kMostHalvings && halves_left_ > 1) {
-    halves_left_ -= 2;
-    return addHalves(v, accuracy, halvings + 1);
-  }
-  const double mean = kDensity * (conical ? conicalRule().meanDensity(anchor_, v)
-                                          : lowRule().meanDensity(anchor_, v));
+  if (tail > enough && halvings < kMostHalvings) return addHalves(v, accuracy, halvings + 1);
+  const double mean =
+      kDensity * (conical ? conicalRule().meanDensity(v) : lowRule().meanDensity(v));
   // Corners that halving has made are off by an ulp of their coordinates.
   const double length = std::sqrt(8 * q);
-  const double size = length * length * (length + from_anchor.norm());
+  const double size = length * length * (length + middle.norm());
   mass_ += volume * mean;
   const double rounding = (32 + 4 * middle.squaredNorm()) * kEpsilon;
   error_ += std::max(around, std::numeric_limits<double>::denorm_min()) * tail +

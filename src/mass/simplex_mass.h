@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
-#include <limits>
 
 #include "fcl_prob/bounds.h"
 
@@ -26,28 +24,15 @@ struct MassAccuracy {
 /// are positive.
 class SimplexMass {
  public:
-  /// Relative to the anchor.
   using Corners = std::array<Eigen::Vector3d, 4>;
-
-  /// \param anchor  near the tetrahedra, if they are small beside their distance from the origin:
-  ///                corners that halving makes are rounded in their coordinates
-  /// \param halves  that may be made of all tetrahedra together: what is left then stays as wide as
-  ///                it is
-  explicit SimplexMass(const Eigen::Vector3d& anchor = Eigen::Vector3d::Zero(),
-                       std::size_t halves = std::numeric_limits<std::size_t>::max())
-      : anchor_(anchor), halves_left_(halves) {}
 
   void add(const Corners& corners, const MassAccuracy& accuracy, int halvings = 0);
 
   Bounds bounds() const;
-  double mass() const { return mass_; }
-  double error() const { return error_; }
 
  private:
   void addHalves(const Corners& corners, const MassAccuracy& accuracy, int halvings);
 
-  Eigen::Vector3d anchor_;
-  std::size_t halves_left_;
   double mass_ = 0.0;
   double error_ = 0.0;
 };

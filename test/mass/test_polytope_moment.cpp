@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "fcl_prob/normal_mass.h"
 #include "fcl_prob/polytope_mass.h"
-#include "polytope_clip.h"
+#include "mass/polytope_clip.h"
 #include "random_inputs.h"
 #include "test_polytopes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include "polytope_clip.h"
+#include "mass/polytope_clip.h"
 
 #include <algorithm>
 #include <cmath>
