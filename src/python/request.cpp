@@ -191,7 +191,10 @@ Question questionFrom(const py::kwargs& keywords) {
     }
     keyword->set(question, value, keyword->name);
   }
-  validateRequest(question.request);
+  // Where more than a pair is asked, that is refused there.
+  ProbabilityRequest of_pair = question.request;
+  if (of_pair.contact == ContactMeaning::contained) of_pair.contact = ContactMeaning::fcl;
+  validateRequest(of_pair);
   return question;
 }
 

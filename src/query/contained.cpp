@@ -204,11 +204,14 @@ ContainedPair::ContainedPair(Prepared a, const fcl::Transform3d& pose_a, Prepare
   holds_no_other_ = isWider(*b_, pose_b, *a_, pose_a);
 }
 
-/// Of overlap less touch, rounded outwards.
+/// Of overlap less touch, rounded outwards: a difference by no more than half an ulp of itself, and
+/// not at all where nothing is taken away.
 Bounds ContainedPair::difference(const Bounds& overlap, const Bounds& touch) const {
-  const double rounding = kEpsilon * (overlap.upper + touch.upper);
-  return {holds_no_other_ ? std::max(0.0, overlap.lower - touch.upper - rounding) : 0.0,
-          std::clamp(overlap.upper - touch.lower + rounding, 0.0, overlap.upper)};
+  const auto less = [](double one, double other, double sign) {
+    return other > 0.0 ? (one - other) * (1.0 + sign * kEpsilon) : one;
+  };
+  return {holds_no_other_ ? std::max(0.0, less(overlap.lower, touch.upper, -1.0)) : 0.0,
+          std::clamp(less(overlap.upper, touch.lower, 1.0), 0.0, overlap.upper)};
 }
 
 ProbabilityResult ContainedPair::answer(const ProbabilityRequest& request, const Ask& ask) const {

@@ -202,7 +202,7 @@ TEST_CASE("faults of a scene file are named with file and key", "[io]") {
   CHECK(inA(R"("cone": {"radius": 1})") == "a: cone: length: missing");
   CHECK(inA(R"("plane": {"normal": [0, 0, 0], "offset": 1})") ==
         "a: plane: normal: must not be zero");
-  CHECK(inA(R"("sphere": 1, "pose": [1, 2])").find("a: pose: a pose needs 3, 6 or 7") == 0);
+  CHECK(inA(R"("sphere": 1, "pose": [1, 2])").find("a: pose: a pose needs 3, 6, 7") == 0);
   CHECK(inA(R"("sphere": 1, "pose": [0, 0, 0, 0, 0, 0, 0])").find("a: pose: a quaternion") == 0);
   CHECK(inA(R"("sphere": 1, "pose": ["10mm", 0, 0])") == "a: pose: not a list of numbers");
   CHECK(inA(R"("mesh": "x.stl", "scale": 0)") == "a: scale: must be > 0");

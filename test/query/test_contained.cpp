@@ -234,7 +234,7 @@ TEST_CASE("containment is refused by name where it is not told") {
     return request;
   };
   CHECK_THROWS_WITH(refused(ball, std::make_shared<fcl::Capsuled>(1, 2), containedRequest()),
-                    Catch::Contains("object B is a GEOM_CAPSULE"));
+                    Catch::Contains("object B is a Capsule"));
   TriangleMesh away = boxMesh({0.1, 0.1, 0.1});
   for (Eigen::Vector3d& v : away.vertices) v.x() += 0.2;
   const auto two = makeModel<fcl::OBBRSSd>(joined(boxMesh({0.1, 0.1, 0.1}), away));
