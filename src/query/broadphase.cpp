@@ -8,7 +8,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/decision.h"
 #include "base/refuse_band.h"
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/combined_bounds.h"
@@ -56,6 +55,13 @@ std::vector<PairProbability> answeredPairs(const ObjectPairs& pairs, const Parts
   return answered;
 }
 
+/// By a limit of the whole call, or not asked at all.
+bool wasCut(const std::optional<ProbabilityResult>& answer) {
+  return !answer || answer->status == ProbabilityStatus::time_limit ||
+         answer->status == ProbabilityStatus::cell_limit ||
+         answer->status == ProbabilityStatus::cancelled;
+}
+
 BroadphaseResult answerPairs(const ObjectPairs& pairs, const BroadphaseRequest& request) {
   const Bounds culled{0.0, pairs.culledUpper()};
   const PartsLoop::Ask ask = [&](std::size_t i, const ProbabilityRequest& of_pair) {
@@ -82,10 +88,11 @@ BroadphaseResult answerPairs(const ObjectPairs& pairs, const BroadphaseRequest& 
   result.culled_upper = pairs.culledUpper();
   result.any = any(loop.bounds());
   result.stopped = isStopped();
-  const bool is_complete =
-      std::all_of(loop.answers().begin(), loop.answers().end(),
-                  [](const auto& answer) { return answer && detail::isAnswered(answer->status); });
-  if (!is_complete) result.interrupted = loop.out();
+  const auto cut = std::find_if(loop.answers().begin(), loop.answers().end(), wasCut);
+  if (cut != loop.answers().end() && !result.stopped) {
+    // Where a share that is left is too small to be of use, none of the whole has been reached yet.
+    result.interrupted = loop.isOut() ? loop.out() : (*cut)->status;
+  }
   return result;
 }
 
