@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/symmetric_axes.h"
+#include "mass/rule_kernels.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -42,29 +43,22 @@ constexpr double kNode[3] = {0.31088591926330060980, 0.092735250310891226402,
 constexpr double kWeight[3] = {0.11268792571801585080, 0.073493043116361949544,
                                0.042546020777081466438};
 
-// Exponents farther out than this have densities that a double does not hold to the last digit, and
-// that are no larger than the other.
-constexpr double kMostExponent = 700.0;
-constexpr double kLeastDensity = 1e-304;
+// What lies beyond the exponents of the kernels is no denser.
+constexpr double kLeastDensity = 1e-304;  // exp(-kMostRuleExponent), rounded up
 
-// What Eigen's vectorised exp() may be off by, relative: some 1e7 times as much as it is.
-constexpr double kExpError = 8e-9;
-
-// Points given by their barycentric coordinates, in arrays of their own of an even length.
+// Points given by their barycentric coordinates, in arrays of their own.
 template <int points>
 struct PointRule {
-  using Array = Eigen::Array<double, (points + 1) / 2 * 2, 1>;
-  Array share[4] = {Array::Zero(), Array::Zero(), Array::Zero(), Array::Zero()};
-  Array weight = Array::Zero();
+  static constexpr int kCount = (points + 3) / 4 * 4;  // as the kernels take them
+  double share[4][kCount] = {};
+  double weight[kCount] = {};
 
   // Of the density over the tetrahedron, but for the factor kDensity.
   double meanDensity(const SimplexMass::Corners& v) const {
-    Array square = Array::Zero();
-    for (int k = 0; k < 3; ++k) {
-      square += (share[0] * v[0][k] + share[1] * v[1][k] + share[2] * v[2][k] + share[3] * v[3][k])
-                    .square();
-    }
-    return (weight * (-0.5 * square).max(-kMostExponent).exp()).sum();
+    double corners[12];
+    for (int k = 0; k < 12; ++k) corners[k] = v[static_cast<std::size_t>(k / 3)][k % 3];
+    static const RuleKernel kernel = ruleKernel();
+    return kernel(share[0], weight, corners, kCount);
   }
 };
 
@@ -182,10 +176,10 @@ void SimplexMass::add(const Corners& v, const MassAccuracy& accuracy, int halvin
   const double length = std::sqrt(8 * q);
   const double size = length * length * (length + middle.norm());
   mass_ += volume * mean;
-  const double rounding = kExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
+  const double rounding = kRuleExpError + (32 + 4 * middle.squaredNorm()) * kEpsilon;
   error_ += std::max(around, std::numeric_limits<double>::denorm_min()) * tail +
             std::fabs(volume) * rounding * mean + 16 * kEpsilon * size * mean;
-  if (farthest > 0.99 * kMostExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
+  if (farthest > 0.99 * kMostRuleExponent) error_ += std::fabs(volume) * kDensity * kLeastDensity;
 }
 
 // Halves the longest edge.
