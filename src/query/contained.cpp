@@ -25,8 +25,14 @@ namespace {
 /// Far more than rotating and adding up coordinates rounds, as a share of them.
 constexpr double kWidthRounding = 1e-12;
 
-/// Estimates are asked so often at the most, each time for what the last ones tell is needed.
-constexpr int kMostEstimates = 4;
+/// Both are asked so often at the most, each time for what the last answers tell is needed: first
+/// for no more than this, of their own.
+constexpr int kMostAsked = 4;
+constexpr double kFirstTolerance = 0.1;
+
+/// Of an interval that does not decide, and of what is allowed: what either may leave open next.
+constexpr double kShareOfWidth = 0.25;
+constexpr double kShareOfTolerance = 0.45;
 
 bool isMesh(const PreparedGeometry& geometry) {
   return kindOf(geometry.geometry()) == GeometryKind::mesh;
@@ -151,7 +157,7 @@ double toleranceOf(const ProbabilityRequest& request, const PartsLoop& loop) {
 
 void narrowEstimates(const ProbabilityRequest& request, ProbabilityRequest of_part,
                      PartsLoop& loop) {
-  for (int asked = 1; asked < kMostEstimates && !loop.isOut(); ++asked) {
+  for (int asked = 1; asked < kMostAsked && !loop.isOut(); ++asked) {
     const double half = 0.5 * toleranceOf(request, loop);
     if (!(half > 0.0) || errorOf(loop) <= 2 * half) return;
     of_part.relative_tolerance = 0.0;
@@ -161,6 +167,28 @@ void narrowEstimates(const ProbabilityRequest& request, ProbabilityRequest of_pa
       return of_part;
     });
   }
+}
+
+/// What either may leave open for the request to be satisfied, as far as their difference tells.
+double openFor(const ProbabilityRequest& request, const Bounds& now) {
+  if (request.threshold) return kShareOfWidth * now.width();
+  return kShareOfTolerance * request.toleranceAt(now.upper);
+}
+
+void narrow(const ProbabilityRequest& request, const PartsLoop::Combine& combine, PartsLoop& loop) {
+  ProbabilityRequest of_part = request;
+  of_part.threshold.reset();
+  of_part.relative_tolerance = 0.0;
+  for (int asked = 1; asked < kMostAsked; ++asked) {
+    const Bounds now = combine(loop.bounds());
+    if (satisfied(now, request) || loop.isOut()) return;
+    of_part.absolute_tolerance = openFor(request, now);
+    loop.askEach([&](std::size_t part) -> std::optional<ProbabilityRequest> {
+      if (loop.bounds()[part].width() <= of_part.absolute_tolerance) return std::nullopt;
+      return of_part;
+    });
+  }
+  while (!satisfied(combine(loop.bounds()), request) && loop.narrowWidest(of_part)) continue;
 }
 
 ProbabilityResult told(const ProbabilityRequest& request, const Bounds& interval, PartsLoop& loop) {
@@ -229,11 +257,15 @@ ProbabilityResult ContainedPair::answer(const ProbabilityRequest& request, const
   PartsLoop loop(request, ask_part, combine, {{0.0, 1.0}, {0.0, 1.0}});
   ProbabilityRequest of_part = request;
   of_part.threshold.reset();
+  const bool estimates = request.method == ProbabilityMethod::estimate;
+  if (!estimates) {
+    of_part.relative_tolerance = std::max(of_part.relative_tolerance, kFirstTolerance);
+  }
   loop.askEach([&](std::size_t) { return std::optional(of_part); });
-  if (request.method == ProbabilityMethod::estimate) {
+  if (estimates) {
     narrowEstimates(request, of_part, loop);
   } else {
-    while (!satisfied(combine(loop.bounds()), request) && loop.narrowWidest(of_part)) continue;
+    narrow(request, combine, loop);
   }
   return told(request, combine(loop.bounds()), loop);
 }

@@ -123,13 +123,13 @@ TEST_CASE("boxes, spheres and tilted bodies within a box: a product of masses") 
 
 TEST_CASE("a mesh within a mesh is as often as counting says") {
   RandomBodies random(12);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const auto outer = makeModel<fcl::OBBRSSd>(bumpyMesh(0.5, 8, 10, 20 + i));
     const auto inner = makeModel<fcl::OBBRSSd>(bumpyMesh(0.12, 6, 8, 40 + i));
     const fcl::Transform3d pose = random.pose(0.15);
     const GaussianDisplacement displacement = randomDisplacement(random, 0.05, 0.15);
     const ProbabilityResult result =
-        contained(inner, pose, outer, kAtOrigin, displacement, containedRequest(0.01));
+        contained(inner, pose, outer, kAtOrigin, displacement, containedRequest(0.02));
     CHECK(result.status == ProbabilityStatus::converged);
     const ContainedCollider collider(inner, pose, outer, kAtOrigin);
     const Eigen::Matrix3d factor = displacement.covariance().llt().matrixL();
