@@ -52,9 +52,7 @@ bool rebuiltInEveryCall(fcl::NODE_TYPE type) {
 std::shared_ptr<const fcl::CollisionGeometryd> withOrientedTree(
     const fcl::CollisionGeometryd& geometry) {
   const auto model = buildModel<fcl::OBBRSSd>(triangleMesh(meshView(geometry)));
-  model->cost_density = geometry.cost_density;  // FCL collides only what is "occupied"
-  model->threshold_occupied = geometry.threshold_occupied;
-  model->threshold_free = geometry.threshold_free;
+  copyOccupancy(geometry, *model);
   return model;
 }
 

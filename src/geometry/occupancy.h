@@ -23,4 +23,11 @@ std::optional<std::string> whyNeverInContact(const fcl::CollisionGeometryd& a,
 /// Whether FCL asks of the geometry, beside an octree, what it asks of it beside anything else.
 bool isAlikeBesideOcTrees(const fcl::CollisionGeometryd& geometry);
 
+/// For another geometry that stands for the same object.
+inline void copyOccupancy(const fcl::CollisionGeometryd& from, fcl::CollisionGeometryd& to) {
+  to.cost_density = from.cost_density;
+  to.threshold_occupied = from.threshold_occupied;
+  to.threshold_free = from.threshold_free;
+}
+
 }  // namespace fcl_prob::detail

@@ -3,46 +3,17 @@
 #include "io/quantities.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
+#include "gaussian/named_values.h"
 #include "gaussian/rotation.h"
+#include "geometry/validation.h"
 #include "io/text_reader.h"
 
 namespace fcl_prob::detail {
 namespace {
-
-template <class Value, std::size_t count>
-using Names = std::array<std::pair<Value, const char*>, count>;
-
-constexpr Names<PoseConvention, 4> kConventions{
-    {{PoseConvention::world_rotation_vector, "world"},
-     {PoseConvention::body_rotation_vector, "body"},
-     {PoseConvention::world_exponential, "world-exponential"},
-     {PoseConvention::body_exponential, "body-exponential"}}};
-
-constexpr Names<ContactMeaning, 3> kContacts{{{ContactMeaning::fcl, "fcl"},
-                                              {ContactMeaning::solid, "solid"},
-                                              {ContactMeaning::contained, "contained"}}};
-
-template <class Table>
-std::optional<typename Table::value_type::first_type> valueOf(const Table& table,
-                                                              const std::string& name) {
-  for (const auto& [value, known] : table) {
-    if (name == known) return value;
-  }
-  return std::nullopt;
-}
-
-template <class Table, class Value>
-std::string nameOf(const Table& table, Value wanted) {
-  for (const auto& [value, name] : table) {
-    if (value == wanted) return name;
-  }
-  return "";
-}
 
 bool allFinite(const Numbers& numbers) {
   for (const double number : numbers) {
@@ -89,6 +60,7 @@ fcl::Transform3d poseFrom(const Numbers& numbers) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
   if (count == 12) {
     pose.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
+    validatePose(pose, "twelve numbers");
     return pose;
   }
   pose.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
@@ -164,13 +136,13 @@ PoseError poseErrorFrom(const PoseError::Vector6& sigma, PoseConvention conventi
 }
 
 std::optional<PoseConvention> poseConventionFromString(const std::string& name) {
-  return valueOf(kConventions, name);
+  return valueOf(kPoseConventions, name);
 }
-std::string toString(PoseConvention convention) { return nameOf(kConventions, convention); }
+std::string toString(PoseConvention convention) { return nameOf(kPoseConventions, convention); }
 
 std::optional<ContactMeaning> contactFromString(const std::string& name) {
-  return valueOf(kContacts, name);
+  return valueOf(kContactMeanings, name);
 }
-std::string toString(ContactMeaning contact) { return nameOf(kContacts, contact); }
+std::string toString(ContactMeaning contact) { return nameOf(kContactMeanings, contact); }
 
 }  // namespace fcl_prob::detail

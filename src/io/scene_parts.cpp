@@ -37,10 +37,7 @@ std::shared_ptr<const TriangleMesh> readGivenMesh(StrictObject object) {
   for (std::size_t i = 0; i < corners.size(); i += 3) {
     mesh->triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
   }
-  located(object, "triangles", [&] {
-    validateMesh(*mesh);
-    return true;
-  });
+  located(object, "triangles", [&] { validateMesh(*mesh); });
   return mesh;
 }
 

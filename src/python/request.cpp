@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fcl_prob/exceptions.h"
+#include "gaussian/named_values.h"
 #include "python/arrays.h"
 
 namespace fcl_prob::python {
@@ -149,18 +150,6 @@ constexpr std::array<Keyword, 16> kKeywords = {{
      [](Question& q, py::handle v, const char*) { q.on_progress = progressFrom(v); }},
 }};
 
-struct NamedConvention {
-  PoseConvention convention;
-  const char* name;
-};
-
-constexpr std::array<NamedConvention, 4> kConventions = {{
-    {PoseConvention::world_rotation_vector, "world"},
-    {PoseConvention::body_rotation_vector, "body"},
-    {PoseConvention::world_exponential, "world-exponential"},
-    {PoseConvention::body_exponential, "body-exponential"},
-}};
-
 }  // namespace
 
 std::optional<py::function> progressFrom(py::handle value) {
@@ -171,9 +160,7 @@ std::optional<py::function> progressFrom(py::handle value) {
 
 ContactMeaning contactFrom(py::handle value) {
   const std::string name = nameFrom("contact", value);
-  if (name == "fcl") return ContactMeaning::fcl;
-  if (name == "solid") return ContactMeaning::solid;
-  if (name == "contained") return ContactMeaning::contained;
+  if (const auto contact = detail::valueOf(detail::kContactMeanings, name)) return *contact;
   throw InvalidRequest("contact is " + textOf(value) + ", must be 'fcl', 'solid' or 'contained'");
 }
 
@@ -199,18 +186,13 @@ Question questionFrom(const py::kwargs& keywords) {
 }
 
 PoseConvention conventionFrom(const std::string& name) {
-  for (const NamedConvention& named : kConventions) {
-    if (name == named.name) return named.convention;
-  }
+  if (const auto convention = detail::valueOf(detail::kPoseConventions, name)) return *convention;
   throw InvalidRequest("convention is '" + name +
                        "', must be one of world, body, world-exponential, body-exponential");
 }
 
 std::string toString(PoseConvention convention) {
-  for (const NamedConvention& named : kConventions) {
-    if (convention == named.convention) return named.name;
-  }
-  throw InvalidRequest("not a convention");
+  return detail::nameOf(detail::kPoseConventions, convention);
 }
 
 }  // namespace fcl_prob::python

@@ -3,6 +3,7 @@
 #include "query/contained.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "convex/support_shape.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/geometry_kind.h"
+#include "geometry/occupancy.h"
 #include "geometry/outer_mesh.h"
 #include "geometry/validation.h"
 #include "query/parts_loop.h"
@@ -55,38 +57,49 @@ ContainedPair::Prepared surfaceOf(ContainedPair::Prepared b) {
   if (type != fcl::GEOM_BOX && type != fcl::GEOM_CONVEX) {
     refuse("B", "a " + nodeTypeName(type) + ", not a closed mesh, a Box or a Convex");
   }
-  const TriangleMesh faces = outerMesh(b->geometry(), {0.0, Eigen::Vector3d::Zero(), 0.0});
-  return std::make_shared<const PreparedGeometry>(buildModel<fcl::OBBRSSd>(faces), "object B");
+  const auto faces =
+      buildModel<fcl::OBBRSSd>(outerMesh(b->geometry(), {0.0, Eigen::Vector3d::Zero(), 0.0}));
+  copyOccupancy(b->geometry(), *faces);
+  return std::make_shared<const PreparedGeometry>(faces, "object B");
 }
 
-/// How far an object reaches along an axis of the world, from one side to the other.
-Bounds widthAlong(const PreparedGeometry& geometry, const fcl::Transform3d& pose, int axis) {
-  const Eigen::Vector3d along = pose.linear().row(axis).transpose();
-  double lowest = kInfinity, highest = -kInfinity, size = 0.0;
+/// How far an object reaches along each axis of the world, from one side to the other.
+using Widths = std::array<Bounds, 3>;
+
+Widths widthsOf(const PreparedGeometry& geometry, const fcl::Transform3d& pose) {
+  const Eigen::Matrix3d& turn = pose.linear();
+  Eigen::Vector3d lowest = Eigen::Vector3d::Constant(kInfinity), highest = -lowest;
+  double size = 0.0;
   if (isMesh(geometry)) {
     const MeshView mesh = meshView(geometry.geometry());
     for (int v = 0; v < mesh.vertex_count; ++v) {
-      const double height = along.dot(mesh.vertices[v]);
-      lowest = std::min(lowest, height);
-      highest = std::max(highest, height);
+      const Eigen::Vector3d turned = turn * mesh.vertices[v];
+      lowest = lowest.cwiseMin(turned);
+      highest = highest.cwiseMax(turned);
       size = std::max(size, mesh.vertices[v].norm());
     }
   } else {
     const SupportShape shape = supportShape(geometry.geometry());
-    lowest = -shape.supportValue(-along);
-    highest = shape.supportValue(along);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d along = turn.row(k).transpose();
+      lowest[k] = -shape.supportValue(-along);
+      highest[k] = shape.supportValue(along);
+    }
     size = shape.radius();
   }
   const double rounding = kWidthRounding * size;
-  return {highest - lowest - rounding, highest - lowest + rounding};
+  Widths widths;
+  for (int k = 0; k < 3; ++k) {
+    const double width = highest[k] - lowest[k];
+    widths[static_cast<std::size_t>(k)] = {width - rounding, width + rounding};
+  }
+  return widths;
 }
 
-/// Certainly further than the other one, along some axis.
-bool isWider(const PreparedGeometry& one, const fcl::Transform3d& pose,
-             const PreparedGeometry& other, const fcl::Transform3d& pose_of_other) {
-  for (int k = 0; k < 3; ++k) {
-    const Bounds width = widthAlong(one, pose, k);
-    if (width.lower > widthAlong(other, pose_of_other, k).upper) return true;
+/// Certainly, along some axis.
+bool isWider(const Widths& one, const Widths& other) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (one[k].lower > other[k].upper) return true;
   }
   return false;
 }
@@ -128,11 +141,11 @@ void takeGradients(const ProbabilityResult& overlap, const ProbabilityResult& to
   if (!overlap.gradient || !touch.gradient) return;
   result.gradient = *overlap.gradient - *touch.gradient;
   if (overlap.gradient_lower && touch.gradient_lower) {
-    // One rounding each.
-    const Eigen::Vector3d rounding =
-        kEpsilon * (overlap.gradient->cwiseAbs() + touch.gradient->cwiseAbs());
-    result.gradient_lower = *overlap.gradient_lower - *touch.gradient_upper - rounding;
-    result.gradient_upper = *overlap.gradient_upper - *touch.gradient_lower + rounding;
+    const Eigen::Vector3d lower = *overlap.gradient_lower - *touch.gradient_upper;
+    const Eigen::Vector3d upper = *overlap.gradient_upper - *touch.gradient_lower;
+    // Each is rounded by half an ulp of itself.
+    result.gradient_lower = lower - kEpsilon * lower.cwiseAbs();
+    result.gradient_upper = upper + kEpsilon * upper.cwiseAbs();
   }
   if (overlap.gradient_standard_error && touch.gradient_standard_error) {
     result.gradient_standard_error =
@@ -155,22 +168,14 @@ double toleranceOf(const ProbabilityRequest& request, const PartsLoop& loop) {
   return request.toleranceAt(std::max(0.0, *overlap->estimate - *touch->estimate));
 }
 
-void narrowEstimates(const ProbabilityRequest& request, ProbabilityRequest of_part,
-                     PartsLoop& loop) {
-  for (int asked = 1; asked < kMostAsked && !loop.isOut(); ++asked) {
-    const double half = 0.5 * toleranceOf(request, loop);
-    if (!(half > 0.0) || errorOf(loop) <= 2 * half) return;
-    of_part.relative_tolerance = 0.0;
-    of_part.absolute_tolerance = half;
-    loop.askEach([&](std::size_t part) -> std::optional<ProbabilityRequest> {
-      if (*loop.answers()[part]->standard_error <= half) return std::nullopt;
-      return of_part;
-    });
+/// What either may leave open for the request to be satisfied, as far as the answers tell; 0 where
+/// nothing more is wanted.
+double mayBeOpen(const ProbabilityRequest& request, const Bounds& now, const PartsLoop& loop) {
+  if (request.method == ProbabilityMethod::estimate) {
+    const double allowed = toleranceOf(request, loop);
+    return errorOf(loop) <= allowed ? 0.0 : 0.5 * allowed;
   }
-}
-
-/// What either may leave open for the request to be satisfied, as far as their difference tells.
-double openFor(const ProbabilityRequest& request, const Bounds& now) {
+  if (satisfied(now, request)) return 0.0;
   if (request.threshold) return kShareOfWidth * now.width();
   return kShareOfTolerance * request.toleranceAt(now.upper);
 }
@@ -178,20 +183,30 @@ double openFor(const ProbabilityRequest& request, const Bounds& now) {
 void narrow(const ProbabilityRequest& request, const PartsLoop::Combine& combine, PartsLoop& loop) {
   ProbabilityRequest of_part = request;
   of_part.threshold.reset();
+  const bool estimates = request.method == ProbabilityMethod::estimate;
+  if (!estimates) {
+    of_part.relative_tolerance = std::max(of_part.relative_tolerance, kFirstTolerance);
+  }
+  loop.askEach([&](std::size_t) { return std::optional(of_part); });
   of_part.relative_tolerance = 0.0;
-  for (int asked = 1; asked < kMostAsked; ++asked) {
-    const Bounds now = combine(loop.bounds());
-    if (satisfied(now, request) || loop.isOut()) return;
-    of_part.absolute_tolerance = openFor(request, now);
+  for (int asked = 1; asked < kMostAsked && !loop.isOut(); ++asked) {
+    const double most = mayBeOpen(request, combine(loop.bounds()), loop);
+    if (!(most > 0.0)) return;
+    of_part.absolute_tolerance = most;
     loop.askEach([&](std::size_t part) -> std::optional<ProbabilityRequest> {
-      if (loop.bounds()[part].width() <= of_part.absolute_tolerance) return std::nullopt;
+      const auto& answer = loop.answers()[part];
+      const double open = estimates ? *answer->standard_error : loop.bounds()[part].width();
+      if (open <= most) return std::nullopt;
       return of_part;
     });
   }
+  if (estimates) return;
   while (!satisfied(combine(loop.bounds()), request) && loop.narrowWidest(of_part)) continue;
 }
 
-ProbabilityResult told(const ProbabilityRequest& request, const Bounds& interval, PartsLoop& loop) {
+/// \param is_difference  else P is only known to be no more than that: nothing is estimated
+ProbabilityResult told(const ProbabilityRequest& request, const Bounds& interval,
+                       bool is_difference, PartsLoop& loop) {
   ProbabilityResult result;
   const bool estimates = request.method == ProbabilityMethod::estimate;
   result.method = estimates ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
@@ -200,11 +215,11 @@ ProbabilityResult told(const ProbabilityRequest& request, const Bounds& interval
   result.decision = decisionOf(interval, request);
   const auto limit = loop.isOut() ? loop.out() : ProbabilityStatus::resolution_limit;
   const auto& [overlap, touch] = std::tie(loop.answers()[0], loop.answers()[1]);
-  if (overlap && touch) {
+  if (is_difference && overlap && touch) {
     takeEstimates(*overlap, *touch, result);
     takeGradients(*overlap, *touch, result);
   }
-  const bool is_estimated = estimates && errorOf(loop) <= toleranceOf(request, loop);
+  const bool is_estimated = result.estimate && errorOf(loop) <= toleranceOf(request, loop);
   result.status =
       is_estimated ? ProbabilityStatus::converged : satisfied(interval, request).value_or(*limit);
   for (const auto& answer : loop.answers()) {
@@ -228,8 +243,9 @@ ContainedPair::ContainedPair(Prepared a, const fcl::Transform3d& pose_a, Prepare
   }
   requireOnePiece(*a_, "A");
   requireOnePiece(*b_, "B");
-  is_too_large_ = isWider(*a_, pose_a, *b_, pose_b);
-  holds_no_other_ = isWider(*b_, pose_b, *a_, pose_a);
+  const Widths of_a = widthsOf(*a_, pose_a), of_b = widthsOf(*b_, pose_b);
+  is_too_large_ = isWider(of_a, of_b);
+  holds_no_other_ = isWider(of_b, of_a);
 }
 
 /// Of overlap less touch, rounded outwards: a difference by no more than half an ulp of itself, and
@@ -255,19 +271,8 @@ ProbabilityResult ContainedPair::answer(const ProbabilityRequest& request, const
     return difference(parts[0], parts[1]);
   };
   PartsLoop loop(request, ask_part, combine, {{0.0, 1.0}, {0.0, 1.0}});
-  ProbabilityRequest of_part = request;
-  of_part.threshold.reset();
-  const bool estimates = request.method == ProbabilityMethod::estimate;
-  if (!estimates) {
-    of_part.relative_tolerance = std::max(of_part.relative_tolerance, kFirstTolerance);
-  }
-  loop.askEach([&](std::size_t) { return std::optional(of_part); });
-  if (estimates) {
-    narrowEstimates(request, of_part, loop);
-  } else {
-    narrow(request, combine, loop);
-  }
-  return told(request, combine(loop.bounds()), loop);
+  narrow(request, combine, loop);
+  return told(request, combine(loop.bounds()), holds_no_other_, loop);
 }
 
 ProbabilityResult PairQuery::answerContained(const fcl::Transform3d& pose_a,

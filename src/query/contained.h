@@ -9,9 +9,10 @@
 
 namespace fcl_prob::detail {
 
-/// Where neither object is in several pieces, A is within B, which is not within A, if and only if
-/// the solids overlap and their surfaces do not meet: P is the difference of two probabilities of
-/// contact, and one of them alone where no more is known.
+/// Where neither object is in several pieces and B is wider than A along some axis, so that it is
+/// never within A, A is within B if and only if the solids overlap and their surfaces do not meet:
+/// P is the difference of two probabilities of contact. Where they are equally wide along all axes,
+/// to rounding, P is no more than that.
 class ContainedPair {
  public:
   using Prepared = std::shared_ptr<const PreparedGeometry>;
