@@ -184,7 +184,6 @@ class PairFamily {
     note("Monte Carlo, 10,000", methods.counted(seed), truth);
     note("half-space, no rotation", methods.halfSpace(), truth);
     note("enlarged by 95 %, no rotation", methods.enlarged(0.95), truth);
-    note("enlarged by 99 %, no rotation", methods.enlarged(0.99), truth);
   }
 
   const std::vector<std::string>& methods() const { return order_; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench table1: the paper's Table I with all of its rows, and what it compares with.
-#include <algorithm>
 
 #include "bench/bench_scenes.h"
 #include "bench/benchmark.h"
@@ -51,15 +50,10 @@ mean over 10,000 turns as in the paper, the bounds are means over as many as the
 and once for the pairs of nodes of two trees of spheres. `enlargement` tests A, swept by the ellipsoid
 that holds the displacement with 95 %, against B: if it is free, P is at most 5 %, else nothing is
 known.
-)";
 
-constexpr const char* kOrderNotes = R"(
-**The order by BVE**, from the loosest to the tightest. The paper's (spheres, AABBs, OBBs, 26-DOPs,
-convex hulls) holds on all three models for its AABBs, which are those of random frames. The AABBs of
-the models as they stand are smaller, and on the dragon and the buddha smaller than the OBBs: FCL fits
-those to the covariance of the triangles, which is not the smallest box. An OBBRSS counts with its OBB,
-a kIOS with the lesser of its OBB and spheres.
-
+The paper's order by BVE (spheres, AABBs, OBBs, 26-DOPs, convex hulls) holds on all three models for its
+AABBs, which are those of random frames. The AABBs of the models as they stand are smaller: FCL fits OBBs
+to the covariance of the triangles, which is not the smallest box.
 )";
 
 std::string textOf(const std::optional<double>& value) {
@@ -148,33 +142,15 @@ class Table1 {
                                {"published_cp_percent", orNull(cp)},
                                {"published_cp_over_p", orNull(ratio)},
                                {"published_time_ms", orNull(time)}});
-    if (row.root_error) errors_.emplace_back(*row.root_error, row.method);
-  }
-
-  /// Notes the order of the rows since the last call by their BVE, once a model.
-  void closeScene(const std::string& scene) {
-    const std::string model = scene.substr(0, scene.find('_'));
-    if (order_.find(model) == std::string::npos) {
-      std::sort(errors_.begin(), errors_.end(), std::greater<>());
-      order_ += "- " + model + ":";
-      for (const auto& [error, row] : errors_) {
-        order_ +=
-            " " + row + " " + numberText(error, 3) + (row == errors_.back().second ? "\n" : ";");
-      }
-    }
-    errors_.clear();
   }
 
   BenchReport take() {
     report_.notes = kTable1Notes;
-    if (!order_.empty()) report_.notes += kOrderNotes + order_;
     return std::move(report_);
   }
 
  private:
   BenchReport report_;
-  std::vector<std::pair<double, std::string>> errors_;
-  std::string order_;
 };
 
 Bounds certifiedReference(const PreparedScene& scene) {
@@ -200,7 +176,6 @@ void addScene(const BenchScene& scene, const BenchOptions& options, Table1& tabl
   }
   if (!proceed("aabb in random frames")) return;
   add(rows.frameRow(options.frames, options.seed));
-  table.closeScene(scene.name);
   if (!proceed("convex parts")) return;
   for (const Table1Row& row : rows.partsRows()) add(row);
   if (!proceed("prior methods")) return;

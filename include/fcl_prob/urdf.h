@@ -177,9 +177,9 @@ inline std::string urdfText(const urdf::ModelInterface& model) {
   return detail::UrdfWriter(model).text();
 }
 
-/// The robot that a model is of (`*urdf::parseURDF(…)`). Where its URDF is at hand, Robot(file) and
-/// Robot::fromText() are better: urdfdom leaves out what it does not know, capsules and misspelt
-/// elements for example, which these read or refuse, and their messages have the lines of the URDF.
+/// The robot that a model of urdfdom, as its parser gives it, is of. Where its URDF is at hand,
+/// Robot(file) and Robot::fromText() are better: urdfdom leaves out what it does not know, capsules
+/// and misspelt elements for example, which these read or refuse, and they name its lines.
 /// \throws as Robot::fromText(), with lines of urdfText()
 inline Robot robotFromModel(const urdf::ModelInterface& model, const RobotOptions& options = {},
                             const std::string& folder = {}) {

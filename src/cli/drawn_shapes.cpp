@@ -3,6 +3,7 @@
 #include "cli/drawn_shapes.h"
 
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -31,6 +32,22 @@ TriangleMesh capsuleMesh(const fcl::Capsuled& capsule) {
   return mesh;
 }
 
+/// The cubes of the occupied cells.
+TriangleMesh octreeMesh(const fcl::OcTreed& octree) {
+  TriangleMesh mesh;
+  for (const auto& [x, y, z, size, cost, threshold] : octree.toBoxes()) {
+    Model cube;
+    const fcl::Transform3d pose(Eigen::Translation3d(x, y, z));
+    fcl::generateBVHModel(cube, fcl::Boxd(size, size, size), pose);
+    const std::size_t first = mesh.vertices.size();
+    for (const fcl::Triangle& triangle : meshOf(cube).triangles) {
+      mesh.triangles.emplace_back(first + triangle[0], first + triangle[1], first + triangle[2]);
+    }
+    mesh.vertices.insert(mesh.vertices.end(), cube.vertices, cube.vertices + cube.num_vertices);
+  }
+  return mesh;
+}
+
 TriangleMesh primitiveMesh(const fcl::CollisionGeometryd& geometry) {
   const fcl::Transform3d identity = fcl::Transform3d::Identity();
   Model model;
@@ -46,6 +63,8 @@ TriangleMesh primitiveMesh(const fcl::CollisionGeometryd& geometry) {
     fcl::generateBVHModel(model, *cone, identity, kSegments, kRings);
   } else if (const auto* capsule = dynamic_cast<const fcl::Capsuled*>(&geometry)) {
     return capsuleMesh(*capsule);
+  } else if (const auto* octree = dynamic_cast<const fcl::OcTreed*>(&geometry)) {
+    return octreeMesh(*octree);
   } else {
     throw UnsupportedGeometry("an unbounded shape cannot be drawn");
   }

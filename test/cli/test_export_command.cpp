@@ -50,6 +50,23 @@ TEST_CASE("every bounded primitive can be drawn", "[cli]") {
   }
 }
 
+TEST_CASE("an octree is drawn as the cubes of its occupied cells", "[cli]") {
+  const TemporaryFolder folder;
+  folder.write("s.json", R"({"a": {"sphere": 0.05, "pose": [0.1, 0.4, 0.2]}, "b": {"octomap": ")" +
+                             dataFile("shelf.bt") +
+                             R"("}, "displacement": {"sigma": [0.03, 0.03, 0.03]}})");
+  const CommandResult result =
+      runCommand({"export", "--scene", "s.json", "--samples", "100", "--output", "s.glb"}, folder);
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const TriangleMesh all = loadMesh(folder.path("s.glb"));
+  Eigen::AlignedBox3d box;
+  for (const fcl::Vector3d& v : all.vertices) box.extend(v);
+  CHECK(box.min().norm() < 1e-6);
+  CHECK(box.max().isApprox(Eigen::Vector3d(0.3, 0.8, 0.725), 1e-6));
+  CHECK(all.triangles.size() > 12 * 1000);
+}
+
 TEST_CASE("the touched part is the part that faces the other mesh", "[cli]") {
   const TriangleMesh finger = loadMesh(dataFile("gripper_finger.off"));
   TriangleMesh wall;  // at x = 18 mm, the pad of the finger reaches to 13.5 mm

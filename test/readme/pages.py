@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the fcl_prob authors
+"""Runs the commands of pages, as a reader would, and compares the answers with what stands there.
+
+Lines of `sh` blocks that begin with `fcl_prob` are run, one after the other. Where the text right above a block says
+"P = x", the answer of `--json` has to agree with it to the digits given, or to four standard errors.
+"""
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+SOURCE_DIR = pathlib.Path(__file__).resolve().parents[2]
+PAGES = ["data/README.md", "docs/start.md"]
+BLOCK = re.compile(r"(?:P = (?P<said>[\d.]+)\.)?\n+```sh\n(?P<lines>.*?)^```", re.DOTALL | re.MULTILINE)
+
+
+def answer(record):
+    """The probability of a result, and how far it may be off."""
+    whole = record.get("persistent", record)
+    if whole["estimate"] is not None and whole["standard_error"]:
+        return whole["estimate"], 4 * whole["standard_error"]
+    return 0.5 * (whole["lower"] + whole["upper"]), 0.5 * (whole["upper"] - whole["lower"])
+
+
+def fault_of(command, line, said, folder):
+    words = [command, *shlex.split(line, comments=True)[1:]]
+    if said:
+        words.append("--json")
+    run = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        return f"exit code {run.returncode}: {run.stderr.strip()}"
+    if said:
+        value, error = answer(json.loads(run.stdout))
+        error += 0.5 * 10.0 ** -len(said.partition(".")[2])
+        if abs(value - float(said)) > error:
+            return f"P is {value}, the page says {said}"
+    return None
+
+
+def main(command, without):
+    checks = faults = 0
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "data").symlink_to(SOURCE_DIR / "data")
+        for page in PAGES:
+            for block in BLOCK.finditer((SOURCE_DIR / page).read_text()):
+                for line in block["lines"].splitlines():
+                    if not line.startswith("fcl_prob ") or any(word in line for word in without):
+                        continue
+                    checks += 1
+                    fault = fault_of(command, line, block["said"], folder)
+                    if fault:
+                        faults += 1
+                        print(f"{page}: {line}: {fault}")
+    print(f"{checks} commands, {faults} failed")
+    return 1 if faults or not checks else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(str(pathlib.Path(sys.argv[1]).resolve()), sys.argv[2:]))
