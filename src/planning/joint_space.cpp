@@ -4,6 +4,7 @@
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/util/ProlateHyperspheroid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,30 @@ constexpr double kHalfTurn = 3.14159265358979323846;
 /// From 0 to a limit of a joint.
 constexpr double kMostSteps = 1e12;
 
+/// Draws in an ellipsoid until one is within the limits of the joints, before it takes any.
+constexpr int kMostDraws = 1000;
+
 /// OMPL seeds the generators of a process one after the other; this one depends on its own seed.
 class SeededSampler : public ob::RealVectorStateSampler {
  public:
-  SeededSampler(const ob::StateSpace* space, std::uint64_t seed)
-      : ob::RealVectorStateSampler(space) {
+  /// \param ellipsoid  null: all values within the limits are drawn from
+  SeededSampler(const ob::StateSpace* space, std::uint64_t seed,
+                ompl::ProlateHyperspheroidPtr ellipsoid = nullptr)
+      : ob::RealVectorStateSampler(space), ellipsoid_(std::move(ellipsoid)) {
     rng_.setLocalSeed(static_cast<std::uint_fast32_t>(seed));
   }
+
+  void sampleUniform(ob::State* state) override {
+    double* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
+    for (int draw = 0; ellipsoid_ && draw < kMostDraws; ++draw) {
+      rng_.uniformProlateHyperspheroid(ellipsoid_, values);
+      if (space_->satisfiesBounds(state)) return;
+    }
+    ob::RealVectorStateSampler::sampleUniform(state);
+  }
+
+ private:
+  ompl::ProlateHyperspheroidPtr ellipsoid_;
 };
 
 class EdgeTest : public ob::MotionValidator {
@@ -109,10 +127,10 @@ void requireReachable(const Robot& robot, const Eigen::VectorXd& start, const Ei
 
 JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
                        const Eigen::VectorXd& goal, PlanningRun& run)
-    : request_(run.request()), start_(start) {
+    : request_(run.request()), start_(start), goal_(goal) {
   requireReachable(robot, start, goal, request_.joints);
   indices_ = movingJoints(robot, request_.joints);
-  const ob::StateSpacePtr space = makeSpace(robot, goal);
+  const ob::StateSpacePtr space = makeSpace(robot);
   information_ = std::make_shared<ob::SpaceInformation>(space);
   information_->setStateValidityChecker(
       [this, &run](const ob::State* state) { return run.isAllowed(valuesOf(state)); });
@@ -120,13 +138,14 @@ JointSpace::JointSpace(const Robot& robot, const Eigen::VectorXd& start,
   information_->setup();
 }
 
-ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot, const Eigen::VectorXd& goal) const {
+ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot) const {
   ob::RealVectorBounds bounds(static_cast<unsigned>(dimension()));
   for (std::size_t i = 0; i < dimension(); ++i) {
     const Eigen::Index index = indices_[i];
     const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(index)];
     const auto at = static_cast<unsigned>(i);
-    const auto [low, high] = sampledRange(joint, start_[index], goal[index], request_.largest_step);
+    const auto [low, high] =
+        sampledRange(joint, start_[index], goal_[index], request_.largest_step);
     bounds.setLow(at, low);
     bounds.setHigh(at, high);
   }
@@ -136,6 +155,23 @@ ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot, const Eigen::VectorX
     return std::make_shared<SeededSampler>(of, seed);
   });
   return space;
+}
+
+void JointSpace::drawWithin(double longest, std::uint64_t seed) {
+  const std::vector<double> from = moving(start_), to = moving(goal_);
+  const auto ellipsoid = std::make_shared<ompl::ProlateHyperspheroid>(
+      static_cast<unsigned>(dimension()), from.data(), to.data());
+  ellipsoid->setTransverseDiameter(std::max(longest, ellipsoid->getMinTransverseDiameter()));
+  information_->getStateSpace()->setStateSamplerAllocator(
+      [seed, ellipsoid](const ob::StateSpace* of) {
+        return std::make_shared<SeededSampler>(of, seed, ellipsoid);
+      });
+}
+
+std::vector<double> JointSpace::moving(const Eigen::VectorXd& values) const {
+  std::vector<double> result;
+  for (const Eigen::Index index : indices_) result.push_back(values[index]);
+  return result;
 }
 
 Eigen::VectorXd JointSpace::valuesOf(const ob::State* state) const {

@@ -33,6 +33,11 @@ class JointSpace {
   /// Of OMPL, with its tests of states and edges; samples depend on the seed only.
   const ompl::base::SpaceInformationPtr& information() const { return information_; }
 
+  /// From now on samples are of another seed, and only from where paths from start to goal pass
+  /// that are shorter than `longest`: an ellipsoid with these two as foci (Gammell, Srinivasa,
+  /// Barfoot 2014).
+  void drawWithin(double longest, std::uint64_t seed);
+
   /// Number of joints that move.
   std::size_t dimension() const { return indices_.size(); }
 
@@ -42,10 +47,12 @@ class JointSpace {
   std::vector<Eigen::VectorXd> waypointsOf(const ompl::geometric::PathGeometric& path) const;
 
  private:
-  ompl::base::StateSpacePtr makeSpace(const Robot& robot, const Eigen::VectorXd& goal) const;
+  ompl::base::StateSpacePtr makeSpace(const Robot& robot) const;
+  std::vector<double> moving(const Eigen::VectorXd& values) const;
 
   const PlanningRequest& request_;
   Eigen::VectorXd start_;
+  Eigen::VectorXd goal_;
   std::vector<Eigen::Index> indices_;  ///< of the joints that move
   ompl::base::SpaceInformationPtr information_;
 };

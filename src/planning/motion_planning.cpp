@@ -19,6 +19,15 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
+/// Trees that are grown in vain, one after the other, before a path is taken for the shortest.
+constexpr int kMostInVain = 3;
+
+/// A path counts as shorter if it is by this factor: each try costs as many states as the first.
+constexpr double kShorter = 0.95;
+
+/// Samples for each state that a tree may ask for: beside refused edges it draws without asking.
+constexpr std::size_t kSamplesPerState = 10;
+
 std::mutex& quietMutex() {
   static std::mutex mutex;
   return mutex;
@@ -46,9 +55,10 @@ class QuietOmpl {
 };
 
 /// By RRT-Connect; nothing if a limit ended it.
+/// \param most_states  that may be asked for
 std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
                                            detail::PlanningRun& run, const Eigen::VectorXd& start,
-                                           const Eigen::VectorXd& goal) {
+                                           const Eigen::VectorXd& goal, std::size_t most_states) {
   const auto problem = std::make_shared<ob::ProblemDefinition>(space.information());
   ob::ScopedState<> from(space.information()), to(space.information());
   space.write(start, from.get());
@@ -59,8 +69,15 @@ std::shared_ptr<og::PathGeometric> connect(const detail::JointSpace& space,
   planner.setProblemDefinition(problem);
   planner.setup();
   // OMPL may go on for long without a state, where no nearer one is left.
-  const ob::PlannerTerminationCondition stop([&run] { return run.isStoppedNow(); });
-  if (planner.solve(stop) != ob::PlannerStatus::EXACT_SOLUTION) return nullptr;
+  std::size_t samples = 0;
+  const ob::PlannerTerminationCondition stop([&] {
+    return run.isStoppedNow() || run.hasNoStatesLeft() ||
+           ++samples / kSamplesPerState > most_states;
+  });
+  run.limitStates(most_states);
+  const ob::PlannerStatus status = planner.solve(stop);
+  run.limitStates(detail::kAll);
+  if (status != ob::PlannerStatus::EXACT_SOLUTION) return nullptr;
   return std::static_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
 }
 
@@ -87,16 +104,41 @@ class MotionPlan {
       return PlanningStatus::solved;
     }
     const QuietOmpl quiet;
-    const auto path = connect(space_, run_, start_, goal_);
-    if (!path) return run_.stopped().value_or(PlanningStatus::state_limit);
-    result.waypoints = space_.waypointsOf(*path);
-    result.planned_length = jointLength(result.waypoints);
-    if (run_.request().shorten) {
-      result.waypoints = detail::shortened(std::move(result.waypoints), run_);
-      result.shortened = !run_.isStopped();
+    const std::size_t states = run_.states();
+    if (!connectShorter(result, detail::kAll)) {
+      return run_.stopped().value_or(PlanningStatus::state_limit);
     }
-    result.length = jointLength(result.waypoints);
+    if (run_.request().shorten) lookForShorter(result, run_.states() - states);
     return PlanningStatus::solved;
+  }
+
+  /// The path of two trees, where it is shorter than the one that is known.
+  bool connectShorter(PlanningResult& result, std::size_t most_states) {
+    const auto path = connect(space_, run_, start_, goal_, most_states);
+    if (!path) return false;
+    std::vector<Eigen::VectorXd> waypoints = space_.waypointsOf(*path);
+    const double planned_length = jointLength(waypoints);
+    if (run_.request().shorten) waypoints = detail::shortened(std::move(waypoints), run_);
+    const double length = jointLength(waypoints);
+    if (!result.waypoints.empty() && length > kShorter * result.length) return false;
+    result.waypoints = std::move(waypoints);
+    result.planned_length = planned_length;
+    result.length = length;
+    return true;
+  }
+
+  /// The first path may pass an obstacle on its far side, which no short cut mends: further trees
+  /// grow where shorter ones pass, as long as they find some.
+  void lookForShorter(PlanningResult& result, std::size_t states) {
+    const double straight = (goal_ - start_).norm();
+    std::uint64_t seed = run_.request().seed;
+    for (int in_vain = 0; in_vain < kMostInVain && !run_.isStopped(); ++in_vain) {
+      const double longest = kShorter * result.length;
+      if (longest <= straight || space_.dimension() < 2) break;
+      space_.drawWithin(longest, ++seed);
+      if (connectShorter(result, states)) in_vain = -1;
+    }
+    result.shortened = !run_.isStopped();
   }
 
   detail::PlanningRun run_;

@@ -31,7 +31,7 @@ PlanningRun::PlanningRun(StateTest allowed, const PlanningRequest& request, Edge
 
 bool PlanningRun::isAllowed(const Eigen::VectorXd& values) {
   lookForLimits();
-  if (stopped_) return false;
+  if (stopped_ || hasNoStatesLeft()) return false;
   ++states_;
   return allowed_(values);
 }

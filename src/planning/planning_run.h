@@ -3,7 +3,9 @@
 // What one plan may ask, and has asked.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "fcl_prob/motion_planning.h"
 
@@ -12,6 +14,9 @@ namespace fcl_prob::detail {
 /// How far the trees of RRT-Connect grow at once, in joint space (and the unit of time). An edge is
 /// taken whole or not at all: long ones are refused more often.
 inline constexpr double kTreeRange = 0.5;
+
+/// A number of states that is no limit.
+inline constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 /// Whether an edge may be at all, whatever its states are.
 using EdgeRule = std::function<bool(const Eigen::VectorXd& from, const Eigen::VectorXd& to)>;
@@ -32,6 +37,10 @@ class PlanningRun {
   /// Looks at the clock and asks the caller. For what asks for no states for long.
   bool isStoppedNow();
 
+  /// No more than `most` further states are allowed, until this is called anew.
+  void limitStates(std::size_t most) { last_state_ = states_ + std::min(most, kAll - states_); }
+  bool hasNoStatesLeft() const { return states_ >= last_state_; }
+
   bool isStopped() const { return stopped_.has_value(); }
   std::optional<PlanningStatus> stopped() const { return stopped_; }
 
@@ -48,6 +57,7 @@ class PlanningRun {
   const EdgeRule rule_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::size_t states_ = 0;
+  std::size_t last_state_ = kAll;
   bool shortening_ = false;
   std::optional<PlanningStatus> stopped_;
 };
