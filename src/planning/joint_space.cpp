@@ -4,10 +4,10 @@
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/util/ProlateHyperspheroid.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
@@ -27,27 +27,45 @@ constexpr double kMostSteps = 1e12;
 /// Draws in an ellipsoid until one is within the limits of the joints, before it takes any.
 constexpr int kMostDraws = 1000;
 
+/// Where paths from one point to another pass that are no longer than a length: an ellipsoid with
+/// the two as foci. (OMPL's own, ProlateHyperspheroid, crashes in Debian's package.)
+struct ShortPaths {
+  Eigen::VectorXd middle;
+  Eigen::VectorXd axis;  ///< unit
+  double along;          ///< half the length of the ellipsoid
+  double across;         ///< half its width
+};
+
 /// OMPL seeds the generators of a process one after the other; this one depends on its own seed.
 class SeededSampler : public ob::RealVectorStateSampler {
  public:
-  /// \param ellipsoid  null: all values within the limits are drawn from
+  /// \param within  not set: all values within the limits are drawn from
   SeededSampler(const ob::StateSpace* space, std::uint64_t seed,
-                ompl::ProlateHyperspheroidPtr ellipsoid = nullptr)
-      : ob::RealVectorStateSampler(space), ellipsoid_(std::move(ellipsoid)) {
+                std::optional<ShortPaths> within = std::nullopt)
+      : ob::RealVectorStateSampler(space), within_(std::move(within)) {
     rng_.setLocalSeed(static_cast<std::uint_fast32_t>(seed));
   }
 
   void sampleUniform(ob::State* state) override {
     double* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
-    for (int draw = 0; ellipsoid_ && draw < kMostDraws; ++draw) {
-      rng_.uniformProlateHyperspheroid(ellipsoid_, values);
+    for (int draw = 0; within_ && draw < kMostDraws; ++draw) {
+      const Eigen::VectorXd point = drawWithin(*within_);
+      std::copy(point.begin(), point.end(), values);
       if (space_->satisfiesBounds(state)) return;
     }
     ob::RealVectorStateSampler::sampleUniform(state);
   }
 
  private:
-  ompl::ProlateHyperspheroidPtr ellipsoid_;
+  Eigen::VectorXd drawWithin(const ShortPaths& paths) {
+    Eigen::VectorXd ball(paths.middle.size());
+    for (double& x : ball) x = rng_.gaussian01();
+    ball *= std::pow(rng_.uniform01(), 1.0 / static_cast<double>(ball.size())) / ball.norm();
+    return paths.middle + paths.across * ball +
+           (paths.along - paths.across) * paths.axis.dot(ball) * paths.axis;
+  }
+
+  std::optional<ShortPaths> within_;
 };
 
 class EdgeTest : public ob::MotionValidator {
@@ -158,19 +176,19 @@ ob::StateSpacePtr JointSpace::makeSpace(const Robot& robot) const {
 }
 
 void JointSpace::drawWithin(double longest, std::uint64_t seed) {
-  const std::vector<double> from = moving(start_), to = moving(goal_);
-  const auto ellipsoid = std::make_shared<ompl::ProlateHyperspheroid>(
-      static_cast<unsigned>(dimension()), from.data(), to.data());
-  ellipsoid->setTransverseDiameter(std::max(longest, ellipsoid->getMinTransverseDiameter()));
-  information_->getStateSpace()->setStateSamplerAllocator(
-      [seed, ellipsoid](const ob::StateSpace* of) {
-        return std::make_shared<SeededSampler>(of, seed, ellipsoid);
-      });
+  const Eigen::VectorXd from = moving(start_), to = moving(goal_);
+  const double straight = (to - from).norm();
+  const double across = std::sqrt(std::max(0.0, longest * longest - straight * straight));
+  const ShortPaths paths{0.5 * (from + to), (to - from) / straight, 0.5 * longest, 0.5 * across};
+  information_->getStateSpace()->setStateSamplerAllocator([seed, paths](const ob::StateSpace* of) {
+    return std::make_shared<SeededSampler>(of, seed, paths);
+  });
 }
 
-std::vector<double> JointSpace::moving(const Eigen::VectorXd& values) const {
-  std::vector<double> result;
-  for (const Eigen::Index index : indices_) result.push_back(values[index]);
+Eigen::VectorXd JointSpace::moving(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(dimension()));
+  std::transform(indices_.begin(), indices_.end(), result.begin(),
+                 [&values](Eigen::Index index) { return values[index]; });
   return result;
 }
 

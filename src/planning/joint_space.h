@@ -34,8 +34,8 @@ class JointSpace {
   const ompl::base::SpaceInformationPtr& information() const { return information_; }
 
   /// From now on samples are of another seed, and only from where paths from start to goal pass
-  /// that are shorter than `longest`: an ellipsoid with these two as foci (Gammell, Srinivasa,
-  /// Barfoot 2014).
+  /// that are no longer than `longest` (Gammell, Srinivasa, Barfoot 2014), which is longer than the
+  /// straight one.
   void drawWithin(double longest, std::uint64_t seed);
 
   /// Number of joints that move.
@@ -48,7 +48,7 @@ class JointSpace {
 
  private:
   ompl::base::StateSpacePtr makeSpace(const Robot& robot) const;
-  std::vector<double> moving(const Eigen::VectorXd& values) const;
+  Eigen::VectorXd moving(const Eigen::VectorXd& values) const;
 
   const PlanningRequest& request_;
   Eigen::VectorXd start_;
