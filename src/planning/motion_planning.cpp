@@ -128,11 +128,14 @@ class MotionPlan {
   }
 
   /// The first path may pass an obstacle on its far side, which no short cut mends: further trees
-  /// grow where shorter ones pass, as long as they find some.
+  /// grow where shorter ones pass, as long as they find some. Half of the states that may be asked
+  /// for are left to those who have uses for the path.
   void lookForShorter(PlanningResult& result, std::size_t states) {
     const double straight = (goal_ - start_).norm();
+    const std::size_t most = run_.request().max_states / 2;
     std::uint64_t seed = run_.request().seed;
-    for (int in_vain = 0; in_vain < kMostInVain && !run_.isStopped(); ++in_vain) {
+    for (int in_vain = 0; in_vain < kMostInVain && run_.states() + states <= most; ++in_vain) {
+      if (run_.isStopped()) break;
       const double longest = kShorter * result.length;
       if (longest <= straight || space_.dimension() < 2) break;
       space_.drawWithin(longest, ++seed);
