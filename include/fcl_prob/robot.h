@@ -14,6 +14,11 @@
 
 namespace fcl_prob {
 
+namespace detail {
+struct PreparedRobot;
+}
+class RobotQuery;
+
 struct RobotOptions {
   /// The folder of each package or model: what stands for `package://NAME` and `model://NAME` in
   /// the names of meshes. One that is not named here is the folder of that name in which the URDF
@@ -188,7 +193,13 @@ class Robot {
   fcl::Transform3d linkPose(const std::string& link, const Eigen::VectorXd& values) const;
 
  private:
+  friend class RobotQuery;
+
   struct Implementation;
+
+  /// What queries keep of the bodies: made by the first of them.
+  std::shared_ptr<const detail::PreparedRobot> prepared() const;
+
   explicit Robot(std::shared_ptr<const Implementation> implementation);
   std::shared_ptr<const Implementation> implementation_;
 };

@@ -49,12 +49,19 @@ Ball ballOf(const ConvexBody& body) {
   return {box.center(), 0.5 * box.sizes().norm()};
 }
 
+/// Hulls are made of the vertices of the hulls below them, so that what reaches out of one adds up.
 void measure(NodeHulls& tree) {
-  for (const NodeHulls::Node& node : tree.nodes) {
+  std::vector<double> slack(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const NodeHulls::Node& node = tree.nodes[i];
+    if (!node.isLeaf()) slack[i] = std::max(slack[node.left], slack[node.right]);
+    slack[i] += node.hull.set().slack();
     tree.size = std::max(tree.size, node.hull.set().size());
-    tree.slack = std::max(tree.slack, node.hull.set().slack());
+    tree.slack = std::max(tree.slack, slack[i]);
   }
 }
+
+using Points = std::vector<Eigen::Vector3d>;
 
 template <typename BV>
 class HullsOfModel {
@@ -70,31 +77,50 @@ class HullsOfModel {
     }
   }
 
-  void divide(std::size_t place, int node) {
-    if (counts_[node] <= of_leaf_) return;
-    const int children[] = {model_.getBV(node).leftChild(), model_.getBV(node).rightChild()};
-    tree_.nodes[place].left = add(children[0]);
-    tree_.nodes[place].right = add(children[1]);
-    divide(tree_.nodes[place].left, children[0]);
-    divide(tree_.nodes[place].right, children[1]);
+  void divide(int place, int node) {
+    const int left = add(model_.getBV(node).leftChild());
+    const int right = add(model_.getBV(node).rightChild());
+    tree_.nodes[place].left = left;
+    tree_.nodes[place].right = right;
   }
+
+  bool isLeaf(int node) const { return counts_[node] <= of_leaf_; }
 
  private:
+  /// Children first: their hulls have fewer vertices than their triangles.
   int add(int node) {
-    const ConvexBody hull = hullOf(node);
-    tree_.nodes.push_back({hull, ballOf(hull)});
-    return static_cast<int>(tree_.nodes.size()) - 1;
+    const int place = static_cast<int>(tree_.nodes.size());
+    tree_.nodes.push_back(tree_.nodes[0]);
+    tree_.nodes[place].left = -1;
+    if (!isLeaf(node)) divide(place, node);
+    const ConvexBody hull = hullOf(place, node);
+    tree_.nodes[place].hull = hull;
+    tree_.nodes[place].ball = ballOf(hull);
+    return place;
   }
 
-  ConvexBody hullOf(int node) const {
+  ConvexBody hullOf(int place, int node) const {
+    const Points points = isLeaf(node) ? pointsOfTriangles(node) : pointsOfChildren(place);
+    return points.size() > kLargestHull ? ConvexBody(model_.getBV(node).bv) : ConvexBody(points);
+  }
+
+  Points pointsOfChildren(int place) const {
+    Points points;
+    for (const int child : {tree_.nodes[place].left, tree_.nodes[place].right}) {
+      const Points& of_child = tree_.nodes[child].hull.set().outerMesh().vertices;
+      points.insert(points.end(), of_child.begin(), of_child.end());
+    }
+    return points;
+  }
+
+  Points pointsOfTriangles(int node) const {
     std::vector<std::size_t> vertices;
     gather(node, vertices);
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    if (vertices.size() > kLargestHull) return ConvexBody(model_.getBV(node).bv);
-    std::vector<Eigen::Vector3d> points;
+    Points points;
     for (const std::size_t v : vertices) points.push_back(model_.vertices[v]);
-    return ConvexBody(points);
+    return points;
   }
 
   void gather(int node, std::vector<std::size_t>& vertices) const {
@@ -122,7 +148,7 @@ NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody&
   if (kindOf(geometry) == GeometryKind::mesh && !isAboutConvex(meshView(geometry), whole)) {
     visitMesh(geometry, [&tree](const auto& model) {
       HullsOfModel hulls(model, tree);
-      hulls.divide(0, 0);
+      if (!hulls.isLeaf(0)) hulls.divide(0, 0);
       return 0;
     });
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// What queries keep of a robot, whatever its state and whatever is around it.
+// What queries keep of a robot's bodies, whatever their state and whatever is around them.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@
 
 namespace fcl_prob::detail {
 
+/// Kept by the robot, and shared by its queries. Const calls are safe on several threads.
 struct PreparedRobot {
   /// \throws InvalidGeometry, UnsupportedGeometry
-  explicit PreparedRobot(const Robot& of);
+  explicit PreparedRobot(const std::vector<RobotBody>& bodies);
 
-  Robot robot;
-  PreparedGeometries geometries;  ///< of its bodies
-  std::vector<Ball> balls;        ///< in the frames of the bodies
+  PreparedGeometries geometries;  ///< of the bodies
+  std::vector<Ball> balls;        ///< in their frames
   HullsOfBodies hulls;
 };
 

@@ -6,6 +6,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
@@ -14,6 +15,7 @@
 #include "io/import_notes.h"
 #include "robot/joint_indices.h"
 #include "robot/kinematics.h"
+#include "robot/prepared_robot.h"
 #include "robot/urdf_shapes.h"
 #include "robot/xml_elements.h"
 
@@ -30,6 +32,11 @@ constexpr double kBeyondLimits = 1e-6;
 }  // namespace
 
 struct Robot::Implementation {
+  struct Kept {
+    std::once_flag once;
+    std::shared_ptr<const detail::PreparedRobot> bodies;
+  };
+
   Implementation(detail::UrdfModel model, detail::UrdfSource of, const RobotOptions& given)
       : name(model.name),
         kinematics(model),
@@ -112,6 +119,7 @@ struct Robot::Implementation {
     }
     detail::validateGeometry(object.geometry.get(), what);
     detail::validatePose(object.in_link, what);
+    kept = std::make_shared<Kept>();
     bodies.push_back(
         {object.link, object.geometry, object.in_link, object.name, object.coordinate_error});
     links.push_back(link);
@@ -125,6 +133,7 @@ struct Robot::Implementation {
   std::vector<AttachedObject> attached;
   std::vector<int> links;     ///< of the bodies
   detail::UrdfSource source;  ///< with what is in it unless it is a file
+  std::shared_ptr<Kept> kept = std::make_shared<Kept>();
   RobotOptions options;
   std::vector<std::string> notes;
 };
@@ -141,6 +150,14 @@ Robot Robot::fromText(const std::string& urdf_text, const RobotOptions& options,
 
 Robot::Robot(std::shared_ptr<const Implementation> implementation)
     : implementation_(std::move(implementation)) {}
+
+std::shared_ptr<const detail::PreparedRobot> Robot::prepared() const {
+  Implementation::Kept& kept = *implementation_->kept;
+  std::call_once(kept.once, [&] {
+    kept.bodies = std::make_shared<const detail::PreparedRobot>(implementation_->bodies);
+  });
+  return kept.bodies;
+}
 
 Robot Robot::withAttached(AttachedObject object) const {
   auto more = std::make_shared<Implementation>(*implementation_);

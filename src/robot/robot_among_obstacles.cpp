@@ -34,9 +34,9 @@ void validatePoses(const Obstacle& obstacle) {
   }
 }
 
-PreparedGeometries bodiesOf(const Robot& robot) {
+PreparedGeometries geometriesOf(const std::vector<RobotBody>& bodies) {
   PreparedGeometries geometries;
-  for (const RobotBody& body : robot.bodies()) {
+  for (const RobotBody& body : bodies) {
     geometries.push_back(
         std::make_shared<const PreparedGeometry>(body.geometry, "a body of " + body.name()));
   }
@@ -45,16 +45,20 @@ PreparedGeometries bodiesOf(const Robot& robot) {
 
 }  // namespace
 
-PreparedRobot::PreparedRobot(const Robot& of)
-    : robot(of), geometries(bodiesOf(of)), hulls(geometries) {
+PreparedRobot::PreparedRobot(const std::vector<RobotBody>& bodies)
+    : geometries(geometriesOf(bodies)), hulls(geometries) {
   for (const auto& geometry : geometries) balls.push_back(ballAround(*geometry));
 }
 
-RobotAmongObstacles::RobotAmongObstacles(std::shared_ptr<const PreparedRobot> robot,
+RobotAmongObstacles::RobotAmongObstacles(const Robot& robot,
+                                         std::shared_ptr<const PreparedRobot> bodies,
                                          std::vector<Obstacle> obstacles,
                                          std::vector<AllowedContact> allowed,
                                          const RobotAmongObstacles* before)
-    : robot_(std::move(robot)), obstacles_(std::move(obstacles)), allowed_(std::move(allowed)) {
+    : robot_(robot),
+      bodies_(std::move(bodies)),
+      obstacles_(std::move(obstacles)),
+      allowed_(std::move(allowed)) {
   if (obstacles_.empty()) throw InvalidRequest("a robot query needs an obstacle");
   if (before == nullptr) {
     for (const AllowedContact& one : allowed_) requireKnown(one);

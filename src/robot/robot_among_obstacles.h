@@ -18,13 +18,14 @@ namespace fcl_prob::detail {
 class RobotAmongObstacles {
  public:
   /// \throws as RobotQuery
-  RobotAmongObstacles(std::shared_ptr<const PreparedRobot> robot, std::vector<Obstacle> obstacles,
-                      std::vector<AllowedContact> allowed, const RobotAmongObstacles* before);
+  RobotAmongObstacles(const Robot& robot, std::shared_ptr<const PreparedRobot> bodies,
+                      std::vector<Obstacle> obstacles, std::vector<AllowedContact> allowed,
+                      const RobotAmongObstacles* before);
 
-  const Robot& robot() const { return robot_->robot; }
-  const std::shared_ptr<const PreparedRobot>& prepared() const { return robot_; }
-  const PreparedGeometries& geometries() const { return robot_->geometries; }
-  const std::vector<Ball>& balls() const { return robot_->balls; }
+  const Robot& robot() const { return robot_; }
+  const std::shared_ptr<const PreparedRobot>& prepared() const { return bodies_; }
+  const PreparedGeometries& geometries() const { return bodies_->geometries; }
+  const std::vector<Ball>& balls() const { return bodies_->balls; }
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   const std::vector<AllowedContact>& allowed() const { return allowed_; }
   const PreparedObstacle& preparedObstacle(std::size_t i) const { return *prepared_[i]; }
@@ -38,7 +39,7 @@ class RobotAmongObstacles {
   const std::vector<std::string>& notes() const { return notes_; }
 
   ObstacleAmongBodies sceneOf(std::size_t obstacle) const {
-    return {*robot_, *prepared_[obstacle]};
+    return {*bodies_, *prepared_[obstacle]};
   }
 
   /// The bodies that count for an obstacle, of all in a state.
@@ -64,7 +65,8 @@ class RobotAmongObstacles {
   void requireKnown(const AllowedContact& allowed) const;
   std::vector<std::size_t> meeting(const Obstacle& obstacle, const PreparedObstacle& body) const;
 
-  std::shared_ptr<const PreparedRobot> robot_;
+  Robot robot_;
+  std::shared_ptr<const PreparedRobot> bodies_;
   std::vector<Obstacle> obstacles_;
   std::vector<AllowedContact> allowed_;
   std::vector<std::shared_ptr<const PreparedObstacle>> prepared_;

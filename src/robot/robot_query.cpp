@@ -341,9 +341,8 @@ struct RobotQuery::Implementation {
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
                        std::vector<AllowedContact> allowed)
-    : implementation_(std::make_unique<const Implementation>(
-          detail::RobotAmongObstacles(std::make_shared<const detail::PreparedRobot>(robot),
-                                      std::move(obstacles), std::move(allowed), nullptr))) {}
+    : implementation_(std::make_unique<const Implementation>(detail::RobotAmongObstacles(
+          robot, robot.prepared(), std::move(obstacles), std::move(allowed), nullptr))) {}
 RobotQuery::RobotQuery(std::unique_ptr<const Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 RobotQuery::~RobotQuery() = default;
@@ -361,7 +360,7 @@ const detail::RobotAmongObstacles& RobotQuery::among() const { return implementa
 RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
   const detail::RobotAmongObstacles& among = implementation_->among;
   return RobotQuery(std::make_unique<const Implementation>(detail::RobotAmongObstacles(
-      among.prepared(), std::move(obstacles), among.allowed(), &among)));
+      among.robot(), among.prepared(), std::move(obstacles), among.allowed(), &among)));
 }
 
 RobotQuery RobotQuery::at(double time) const {
