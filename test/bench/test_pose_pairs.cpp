@@ -31,7 +31,7 @@ TEST_CASE("bounds of pose_pairs are not below what counting finds", "[cli][slow]
   options.quick = true;
   const BenchReport report =
       benchPosePairs(options, [](double, const std::string&) { return true; });
-  REQUIRE(report.records.size() == 2 * 4 * 6);
+  REQUIRE(report.records.size() == 2 * 4 * 5);
   for (const auto& record : report.records) {
     const std::string method = record["method"];
     CAPTURE(record.dump());

@@ -56,10 +56,11 @@ std::vector<double> numbersOf(const Eigen::VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
-/// From (-d, 0) to (d, 0): two tangents and the arc between them.
-double shortestAround(double d) {
+/// From one point to another, both `d` from the middle: two tangents and the arc between them.
+/// \param angle  between the points, seen from the middle, on the side of the path
+double shortestAround(double d, double angle = kPi) {
   const double tangent = std::sqrt(d * d - kRadius * kRadius);
-  const double arc = kRadius * (kPi - 2.0 * std::acos(kRadius / d));
+  const double arc = kRadius * (angle - 2.0 * std::acos(kRadius / d));
   return 2.0 * tangent + arc;
 }
 
@@ -147,6 +148,26 @@ TEST_CASE("the same seed gives the same path, also beside other plans") {
   CHECK(again[3] == other);
 }
 
+TEST_CASE("a path passes on the side that is shorter, wherever the first tree went") {
+  const Robot robot = arm();
+  const DiscTest disc(robot);
+  const auto test = [&](const Eigen::VectorXd& values) { return disc.isOutside(values); };
+  const double above = 0.4, far = 1.2;
+  const double turn = far * std::cos(above), elbow = far * std::sin(above);
+  const Eigen::VectorXd start = at(robot, -turn, elbow), goal = at(robot, turn, elbow);
+  const double shortest = shortestAround(far, kPi - 2.0 * above);
+  const double other_side = shortestAround(far, kPi + 2.0 * above);
+  int went_far = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    PlanningRequest request = discRequest(seed);
+    CHECK(planMotion(robot, test, start, goal, request).length < 1.1 * shortest);
+    request.max_states = 60;  // too few for a second tree
+    went_far += planMotion(robot, test, start, goal, request).length > 0.99 * other_side;
+  }
+  CHECK(went_far > 0);
+}
+
 TEST_CASE("a plan ends at its limits, and gives no half of a path") {
   const Robot robot = arm();
   const DiscTest disc(robot);
@@ -171,7 +192,7 @@ TEST_CASE("a plan ends at its limits, and gives no half of a path") {
   CHECK(asked == request.max_states);
   CHECK(result.states == asked);
 
-  request.max_states = (without + all) / 2;
+  request.max_states = without + 10;  // ends amidst the first short cuts
   result = planMotion(robot, test, start, goal, request);
   CHECK(result.status == PlanningStatus::solved);
   CHECK_FALSE(result.shortened);
