@@ -42,7 +42,8 @@ struct PlanningRequest {
   /// Seconds; not set means no limit, so that results repeat.
   std::optional<double> time_limit;
 
-  /// Shorten the path that the planner finds.
+  /// Shorten the path that the planner finds, and look for shorter ones with up to half of the
+  /// states and of the time.
   bool shorten = true;
 
   /// Told from time to time; returns false to stop. Empty: nobody is told.
@@ -82,7 +83,8 @@ double jointLength(const std::vector<Eigen::VectorXd>& waypoints);
 
 /// A path from start to goal of which the test allows every state that it was asked for: those of
 /// interpolated(waypoints, largest_step). By OMPL's RRT-Connect; then by short cuts, and
-/// waypoints pulled towards the straight line between their neighbours as far as the test allows.
+/// waypoints pulled towards the straight line between their neighbours as far as the test allows;
+/// then by further trees where shorter paths pass, as long as they find some.
 ///
 /// Joints stay within their limits; continuous ones within half a turn of what is between start and
 /// goal, whose values are taken as they are (no whole turns are left out). What cannot be reached

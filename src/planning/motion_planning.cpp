@@ -104,11 +104,10 @@ class MotionPlan {
       return PlanningStatus::solved;
     }
     const QuietOmpl quiet;
-    const std::size_t states = run_.states();
     if (!connectShorter(result, detail::kAll)) {
       return run_.stopped().value_or(PlanningStatus::state_limit);
     }
-    if (run_.request().shorten) lookForShorter(result, run_.states() - states);
+    if (run_.request().shorten) lookForShorter(result);
     return PlanningStatus::solved;
   }
 
@@ -128,20 +127,26 @@ class MotionPlan {
   }
 
   /// The first path may pass an obstacle on its far side, which no short cut mends: further trees
-  /// grow where shorter ones pass, as long as they find some. Half of the states that may be asked
-  /// for are left to those who have uses for the path.
-  void lookForShorter(PlanningResult& result, std::size_t states) {
+  /// grow where shorter ones pass, as long as they find some. Half of the states and of the time
+  /// are left to those who have uses for the path.
+  void lookForShorter(PlanningResult& result) {
     const double straight = (goal_ - start_).norm();
-    const std::size_t most = run_.request().max_states / 2;
+    const std::size_t states = run_.states();
+    const double seconds = run_.seconds();
     std::uint64_t seed = run_.request().seed;
-    for (int in_vain = 0; in_vain < kMostInVain && run_.states() + states <= most; ++in_vain) {
-      if (run_.isStopped()) break;
+    for (int in_vain = 0; in_vain < kMostInVain && mayCostAgain(states, seconds); ++in_vain) {
       const double longest = kShorter * result.length;
       if (longest <= straight || space_.dimension() < 2) break;
       space_.drawWithin(longest, ++seed);
       if (connectShorter(result, states)) in_vain = -1;
     }
     result.shortened = !run_.isStopped();
+  }
+
+  bool mayCostAgain(std::size_t states, double seconds) const {
+    const auto& limit = run_.request().time_limit;
+    return !run_.isStopped() && run_.states() + states <= run_.request().max_states / 2 &&
+           !(limit && run_.seconds() + seconds > 0.5 * *limit);
   }
 
   detail::PlanningRun run_;

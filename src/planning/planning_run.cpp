@@ -51,11 +51,10 @@ bool PlanningRun::isStoppedNow() {
 }
 
 void PlanningRun::lookAtClock() {
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-  if (request_.time_limit && passed.count() >= *request_.time_limit) {
+  const double passed = seconds();
+  if (request_.time_limit && passed >= *request_.time_limit) {
     stopped_ = PlanningStatus::time_limit;
-  } else if (request_.on_progress &&
-             !request_.on_progress({states_, passed.count(), shortening_})) {
+  } else if (request_.on_progress && !request_.on_progress({states_, passed, shortening_})) {
     stopped_ = PlanningStatus::cancelled;
   }
 }

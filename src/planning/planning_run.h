@@ -45,6 +45,9 @@ class PlanningRun {
   std::optional<PlanningStatus> stopped() const { return stopped_; }
 
   std::size_t states() const { return states_; }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
   void beginShortening() { shortening_ = true; }
   const PlanningRequest& request() const { return request_; }
 
