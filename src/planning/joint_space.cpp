@@ -185,13 +185,6 @@ void JointSpace::drawWithin(double longest, std::uint64_t seed) {
   });
 }
 
-Eigen::VectorXd JointSpace::moving(const Eigen::VectorXd& values) const {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(dimension()));
-  std::transform(indices_.begin(), indices_.end(), result.begin(),
-                 [&values](Eigen::Index index) { return values[index]; });
-  return result;
-}
-
 Eigen::VectorXd JointSpace::valuesOf(const ob::State* state) const {
   const double* numbers = state->as<ob::RealVectorStateSpace::StateType>()->values;
   Eigen::VectorXd values = start_;

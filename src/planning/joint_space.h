@@ -48,7 +48,7 @@ class JointSpace {
 
  private:
   ompl::base::StateSpacePtr makeSpace(const Robot& robot) const;
-  Eigen::VectorXd moving(const Eigen::VectorXd& values) const;
+  Eigen::VectorXd moving(const Eigen::VectorXd& values) const { return values(indices_); }
 
   const PlanningRequest& request_;
   Eigen::VectorXd start_;
