@@ -16,8 +16,8 @@ namespace fcl_prob {
 
 namespace detail {
 struct PreparedRobot;
-}
-class RobotQuery;
+class RobotAmongObstacles;
+}  // namespace detail
 
 struct RobotOptions {
   /// The folder of each package or model: what stands for `package://NAME` and `model://NAME` in
@@ -193,7 +193,7 @@ class Robot {
   fcl::Transform3d linkPose(const std::string& link, const Eigen::VectorXd& values) const;
 
  private:
-  friend class RobotQuery;
+  friend class detail::RobotAmongObstacles;
 
   struct Implementation;
 

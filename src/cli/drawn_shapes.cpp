@@ -34,18 +34,13 @@ TriangleMesh capsuleMesh(const fcl::Capsuled& capsule) {
 
 /// The cubes of the occupied cells.
 TriangleMesh octreeMesh(const fcl::OcTreed& octree) {
-  TriangleMesh mesh;
+  TriangleMesh cubes;
   for (const auto& [x, y, z, size, cost, threshold] : octree.toBoxes()) {
     Model cube;
-    const fcl::Transform3d pose(Eigen::Translation3d(x, y, z));
-    fcl::generateBVHModel(cube, fcl::Boxd(size, size, size), pose);
-    const std::size_t first = mesh.vertices.size();
-    for (const fcl::Triangle& triangle : meshOf(cube).triangles) {
-      mesh.triangles.emplace_back(first + triangle[0], first + triangle[1], first + triangle[2]);
-    }
-    mesh.vertices.insert(mesh.vertices.end(), cube.vertices, cube.vertices + cube.num_vertices);
+    fcl::generateBVHModel(cube, fcl::Boxd(size, size, size), fcl::Transform3d::Identity());
+    append(meshOf(cube), fcl::Transform3d(Eigen::Translation3d(x, y, z)), cubes);
   }
-  return mesh;
+  return cubes;
 }
 
 TriangleMesh primitiveMesh(const fcl::CollisionGeometryd& geometry) {
@@ -76,6 +71,14 @@ TriangleMesh primitiveMesh(const fcl::CollisionGeometryd& geometry) {
 TriangleMesh moved(TriangleMesh mesh, const fcl::Transform3d& pose) {
   for (fcl::Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
   return mesh;
+}
+
+void append(const TriangleMesh& mesh, const fcl::Transform3d& pose, TriangleMesh& all) {
+  const std::size_t first = all.vertices.size();
+  for (const fcl::Vector3d& vertex : mesh.vertices) all.vertices.push_back(pose * vertex);
+  for (const fcl::Triangle& t : mesh.triangles) {
+    all.triangles.emplace_back(first + t[0], first + t[1], first + t[2]);
+  }
 }
 
 TriangleMesh drawnGeometry(const fcl::CollisionGeometryd& geometry) {

@@ -10,8 +10,11 @@ namespace fcl_prob::cli {
 
 TriangleMesh moved(TriangleMesh mesh, const fcl::Transform3d& pose);
 
-/// The triangles of a tree of OBBRSS, or the tessellation of a primitive, in its own frame.
-/// \throws UnsupportedGeometry for anything else, unbounded primitives among it
+/// Adds a moved mesh to others.
+void append(const TriangleMesh& mesh, const fcl::Transform3d& pose, TriangleMesh& all);
+
+/// The triangles of a tree of OBBRSS, the cubes of an octree, or the tessellation of a primitive,
+/// in its own frame. \throws UnsupportedGeometry for anything else, unbounded primitives among it
 TriangleMesh drawnGeometry(const fcl::CollisionGeometryd& geometry);
 
 /// The object's own mesh, or a tessellation of the primitive, in the world frame.

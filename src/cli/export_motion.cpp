@@ -67,14 +67,6 @@ std::vector<std::size_t> byLikelihood(const std::vector<MotionState>& states) {
   return order;
 }
 
-void append(const TriangleMesh& mesh, const fcl::Transform3d& pose, TriangleMesh& all) {
-  const std::size_t first = all.vertices.size();
-  for (const fcl::Vector3d& vertex : mesh.vertices) all.vertices.push_back(pose * vertex);
-  for (const fcl::Triangle& t : mesh.triangles) {
-    all.triangles.emplace_back(first + t[0], first + t[1], first + t[2]);
-  }
-}
-
 /// All bodies of an obstacle that have an end; null if none has.
 MeshPointer drawnObstacle(const Obstacle& obstacle) {
   TriangleMesh all;

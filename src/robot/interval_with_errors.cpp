@@ -105,7 +105,7 @@ double upperWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& 
     upper = sumAbove(upper, leaveOutFar(balls, prepared.around(), state, chance, bodies));
     if (bodies.empty()) continue;
     const auto& displacement = std::get<GaussianDisplacement>(state.displacement);
-    upper = sumAbove(upper, upperTogether(*among.prepared(), bodies, &errors, prepared, state.pose,
+    upper = sumAbove(upper, upperTogether(among.prepared(), bodies, &errors, prepared, state.pose,
                                           displacement.reversed(), enough - upper));
   }
   return std::min(1.0, upper);

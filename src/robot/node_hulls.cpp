@@ -90,8 +90,7 @@ class HullsOfModel {
   /// Children first: their hulls have fewer vertices than their triangles.
   int add(int node) {
     const int place = static_cast<int>(tree_.nodes.size());
-    tree_.nodes.push_back(tree_.nodes[0]);
-    tree_.nodes[place].left = -1;
+    tree_.nodes.push_back(tree_.nodes[0]);  // has no children until all are made
     if (!isLeaf(node)) divide(place, node);
     const ConvexBody hull = hullOf(place, node);
     tree_.nodes[place].hull = hull;

@@ -50,13 +50,11 @@ PreparedRobot::PreparedRobot(const std::vector<RobotBody>& bodies)
   for (const auto& geometry : geometries) balls.push_back(ballAround(*geometry));
 }
 
-RobotAmongObstacles::RobotAmongObstacles(const Robot& robot,
-                                         std::shared_ptr<const PreparedRobot> bodies,
-                                         std::vector<Obstacle> obstacles,
+RobotAmongObstacles::RobotAmongObstacles(const Robot& robot, std::vector<Obstacle> obstacles,
                                          std::vector<AllowedContact> allowed,
                                          const RobotAmongObstacles* before)
     : robot_(robot),
-      bodies_(std::move(bodies)),
+      bodies_(robot.prepared()),
       obstacles_(std::move(obstacles)),
       allowed_(std::move(allowed)) {
   if (obstacles_.empty()) throw InvalidRequest("a robot query needs an obstacle");

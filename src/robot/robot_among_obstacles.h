@@ -18,12 +18,11 @@ namespace fcl_prob::detail {
 class RobotAmongObstacles {
  public:
   /// \throws as RobotQuery
-  RobotAmongObstacles(const Robot& robot, std::shared_ptr<const PreparedRobot> bodies,
-                      std::vector<Obstacle> obstacles, std::vector<AllowedContact> allowed,
-                      const RobotAmongObstacles* before);
+  RobotAmongObstacles(const Robot& robot, std::vector<Obstacle> obstacles,
+                      std::vector<AllowedContact> allowed, const RobotAmongObstacles* before);
 
   const Robot& robot() const { return robot_; }
-  const std::shared_ptr<const PreparedRobot>& prepared() const { return bodies_; }
+  const PreparedRobot& prepared() const { return *bodies_; }
   const PreparedGeometries& geometries() const { return bodies_->geometries; }
   const std::vector<Ball>& balls() const { return bodies_->balls; }
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }

@@ -230,7 +230,7 @@ struct RobotQuery::Implementation {
       return certainly(ofUnion(waypoints, -1, withThreshold(part, threshold)));
     };
     if (scenes.empty()) return prove(request);
-    return detail::probablyAny(scenes, *among.prepared(), threshold, chance, prove, request);
+    return detail::probablyAny(scenes, among.prepared(), threshold, chance, prove, request);
   }
 
   JointGradient gradient(const std::vector<Eigen::VectorXd>& waypoints,
@@ -341,8 +341,8 @@ struct RobotQuery::Implementation {
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
                        std::vector<AllowedContact> allowed)
-    : implementation_(std::make_unique<const Implementation>(detail::RobotAmongObstacles(
-          robot, robot.prepared(), std::move(obstacles), std::move(allowed), nullptr))) {}
+    : implementation_(std::make_unique<const Implementation>(
+          detail::RobotAmongObstacles(robot, std::move(obstacles), std::move(allowed), nullptr))) {}
 RobotQuery::RobotQuery(std::unique_ptr<const Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 RobotQuery::~RobotQuery() = default;
@@ -359,8 +359,8 @@ const detail::RobotAmongObstacles& RobotQuery::among() const { return implementa
 
 RobotQuery RobotQuery::withObstacles(std::vector<Obstacle> obstacles) const {
   const detail::RobotAmongObstacles& among = implementation_->among;
-  return RobotQuery(std::make_unique<const Implementation>(detail::RobotAmongObstacles(
-      among.robot(), among.prepared(), std::move(obstacles), among.allowed(), &among)));
+  return RobotQuery(std::make_unique<const Implementation>(
+      detail::RobotAmongObstacles(among.robot(), std::move(obstacles), among.allowed(), &among)));
 }
 
 RobotQuery RobotQuery::at(double time) const {

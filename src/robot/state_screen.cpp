@@ -125,7 +125,7 @@ StateScreen::Near StateScreen::nearOf(const Eigen::VectorXd& values, double negl
         near.far = sumAbove(near.far, upper);
       }
     }
-    near.of_obstacles.emplace_back(*among_.prepared(), bodies, prepared, obstacle.pose,
+    near.of_obstacles.emplace_back(among_.prepared(), bodies, prepared, obstacle.pose,
                                    of_bodies_[j]);
   }
   return near;
