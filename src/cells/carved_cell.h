@@ -54,8 +54,6 @@ struct CarvedCell {
   FatObstacle outside_of;
 
   std::shared_ptr<const CarvedLayer> layers;
-  /// Of the list's obstacles of hulls those of what is in the hulls are to be taken instead.
-  bool opens_hulls = false;
 
   /// It may also meet such obstacles elsewhere, no farther than this from its surface.
   double rim = 0.0;
@@ -70,12 +68,6 @@ struct Carving {
   Bounds settled{0.0, 0.0};
   double slivers = 0.0;  ///< what may lie between cells or belong to two
   std::vector<std::unique_ptr<CarvedCell>> cells;
-};
-
-/// What is known before a cell is looked at. Steers; no bound depends on it.
-struct CarvedSoFar {
-  double certain;     ///< mass that is settled, besides what is in the Carving that is added to
-  std::size_t cells;  ///< that were looked at
 };
 
 }  // namespace fcl_prob::detail

@@ -14,9 +14,6 @@ namespace {
 // Masses of cells are not computed to more digits than a tolerance of this needs.
 constexpr double kLeastTolerance = 1e-4;
 
-// Pieces of nearly convex meshes may take one part in so many of the memory.
-constexpr std::size_t kShareOfPieces = 8;
-
 // Planes of polygons may be off by this share of a tolerance, and of one for decisions, in standard
 // deviations.
 constexpr double kShareOfTolerance = 0.05;
@@ -52,8 +49,8 @@ std::string convexNote(const PartitionObject& body, const FatMembers& obstacles,
                                     [](const PieceTree::Part& part) { return !part.fan; });
   if (nearly > 0) {
     return std::to_string(nearly) + " of " + std::to_string(parts.size()) + " members of " + name +
-           " nearly convex, the others convex: taken between two polytopes, or as one, of " +
-           faces + " faces together" + left_out;
+           " nearly convex, the others convex: taken between two polytopes, of " + faces +
+           " faces together" + left_out;
   }
   if (alone) return "object " + name + " is convex: one piece of " + faces + " faces" + left_out;
   return "the " + std::to_string(obstacles.count()) + " members of " + name +
@@ -77,9 +74,6 @@ bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& b
   FatMembers obstacles(scene.pair(), body, mesh, fan_is_a, scene.whitening().matrix(),
                        mostLossOf(request));
   if (!obstacles.usable()) return false;
-  if (FatMembers::memoryOfPieces(body, mesh) > request.max_memory / kShareOfPieces) {
-    obstacles.keepHullsClosed();
-  }
   for (int member = 0; member < obstacles.count(); ++member) {
     if (mayHoldPart(whole, obstacles.partOf(member), obstacles.of(member))) return false;
   }

@@ -65,7 +65,7 @@ CarvingEngine::Enough CarvingEngine::enough() const { return {missingWidth(inter
 // A single cell adds to the totals itself.
 void CarvingEngine::beginRound(std::vector<Queue::InRound>& round, std::size_t count) {
   const bool is_single = count == 1;
-  so_far_ = {is_single ? 0.0 : settled_.lower, statistics_.cells + count};
+  certain_ = is_single ? 0.0 : settled_.lower;
   for (std::size_t i = 0; i < count; ++i) {
     round[i].parts.settled = is_single ? std::exchange(settled_, {0.0, 0.0}) : Bounds{0.0, 0.0};
     round[i].parts.slivers = is_single ? std::exchange(slivers_, 0.0) : 0.0;
@@ -73,7 +73,7 @@ void CarvingEngine::beginRound(std::vector<Queue::InRound>& round, std::size_t c
 }
 
 void CarvingEngine::divide(Worker& worker, Queued& queued, Carving& carving) const {
-  worker.carver.divide(std::move(*queued.cell), so_far_, carving);
+  worker.carver.divide(std::move(*queued.cell), certain_, carving);
   queued.cell.reset();
 }
 

@@ -92,7 +92,7 @@ class CarvingEngine {
   std::atomic<std::size_t> list_memory_{0};  // before the cells that refer to it
   Bounds settled_;
   double slivers_ = 0.0;  ///< what may lie between cells or belong to two
-  CarvedSoFar so_far_{};  ///< before the round
+  double certain_ = 0.0;  ///< mass that was settled before the round
   Queue queue_;
 };
 

@@ -29,10 +29,6 @@ constexpr double kLazyShare = 0.02;
 // Obstacles that are tried as the best one of a cell.
 constexpr int kMostCandidates = 6;
 
-// What is in hulls and in none of their cores is looked at as long as there are no more cells:
-// where the pieces of what is between are many, boxes of triangles come to an end sooner.
-constexpr std::size_t kMostCellsOfPieces = 100'000;
-
 // Less of a cell than this along a plane's normal is not worth cutting off.
 constexpr double kLeastTrimmed = 0.3;
 
@@ -61,10 +57,9 @@ CellCarver::CellCarver(FatMembers& obstacles, const SolidContact* solids,
       chooser_(obstacles),
       settler_(solids, request) {}
 
-void CellCarver::divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into) {
-  cells_so_far_ = so_far.cells;
+void CellCarver::divide(CarvedCell&& cell, double certain, Carving& into) {
   carving_ = &into;
-  settler_.begin(so_far.certain, into);
+  settler_.begin(certain, into);
   ++statistics_.cells;
   if (cell.box && isTooLarge(*cell.box)) {
     divideBox(std::move(cell));
@@ -151,7 +146,7 @@ bool CellCarver::clip(const CellPolytope& body, const List& list, std::size_t en
 void CellCarver::trim(CarvedCell& cell, const List& list) {
   const Eigen::Vector3d& n = cell.behind;
   if (n.isZero()) return;
-  supports_.assign(static_cast<std::size_t>(obstacles_.memberCount()), std::nan(""));
+  supports_.assign(static_cast<std::size_t>(obstacles_.count()), std::nan(""));
   double top = -kInfinity;
   for (const List::Entry& entry : list.entries) {
     const auto& [member, piece] = entry.obstacle;
@@ -175,14 +170,6 @@ void CellCarver::trim(CarvedCell& cell, const List& list) {
 void CellCarver::carve(CarvedCell& cell, const std::shared_ptr<List>& list) {
   CellPolytope inside;
   for (int tried = 0; tried < kMostCandidates; ++tried) {
-    // Pieces within hulls end in few places of the cell, hulls in many: nothing is cut along hulls.
-    if (mayOpenHulls(*list)) {
-      CarvedCell open = partOf(cell, list);
-      open.mass = {0.0, cell.mass.upper};
-      open.body = std::move(cell.body);
-      open.opens_hulls = true;
-      return push(std::move(open));
-    }
     const std::size_t best = chooser_.best(cell.body, *list);
     if (clip(cell.body, *list, best, inside)) {
       carveBy(cell, list, best, inside);
@@ -284,15 +271,6 @@ void CellCarver::carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, st
     return;
   }
   settler_.settleInside(inside);
-}
-
-// Whether there are but hulls, and what is in them can be looked at instead.
-bool CellCarver::mayOpenHulls(const List& list) const {
-  if (cells_so_far_ >= kMostCellsOfPieces) return false;
-  return std::all_of(list.entries.begin(), list.entries.end(), [this](const List::Entry& entry) {
-    const int member = entry.obstacle.member;
-    return obstacles_.encloses(member) && !obstacles_.piecesWithin(member).empty();
-  });
 }
 
 // The plane that cuts off most, which is taken from the list; those that cut nothing are dropped.

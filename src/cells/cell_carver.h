@@ -26,7 +26,8 @@ class CellCarver {
              std::atomic<std::size_t>& list_memory, ProbabilityStatistics& statistics);
 
   /// Adds what comes of a cell. Where obstacles turn out to have failed nothing does.
-  void divide(CarvedCell&& cell, const CarvedSoFar& so_far, Carving& into);
+  /// \param certain  mass that is settled, besides that in `into`: steers, no bound depends on it
+  void divide(CarvedCell&& cell, double certain, Carving& into);
 
  private:
   using List = ObstacleList;
@@ -48,7 +49,6 @@ class CellCarver {
   void carve(CarvedCell& cell, const std::shared_ptr<List>& list);
   void carveBy(CarvedCell& cell, const std::shared_ptr<List>& list, std::size_t best,
                const CellPolytope& inside);
-  bool mayOpenHulls(const List& list) const;
   static std::optional<ObstaclePlane> nextPlane(Rest& rest);
   void cutOff(const CarvedCell& cell, const std::shared_ptr<List>& list, const ObstaclePlane& plane,
               Rest& rest);
@@ -68,7 +68,6 @@ class CellCarver {
   ObstacleLister lister_;
   ObstacleChooser chooser_;
   CellSettler settler_;
-  std::size_t cells_so_far_ = 0;
   Carving* carving_ = nullptr;
 
   PolytopeCutter cutter_;

@@ -5,8 +5,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <memory>
-#include <mutex>
 #include <vector>
 
 #include "cells/fat_obstacles.h"
@@ -44,24 +42,16 @@ class FatMembers {
   /// Of one that has not been asked for anything.
   static std::size_t leastMemory(const PartitionObject& body, const PartitionObject& mesh);
 
-  /// What all piecesWithin() take in addition.
-  static std::size_t memoryOfPieces(const PartitionObject& body, const PartitionObject& mesh);
-
-  /// From here on there are no pieces.
-  void keepHullsClosed() { hulls_stay_closed_ = true; }
-
-  FatObstacles& of(int member) { return *members_[member]; }
-  const FatObstacles& of(int member) const { return *members_[member]; }
+  FatObstacles& of(int member) { return members_[member]; }
+  const FatObstacles& of(int member) const { return members_[member]; }
 
   FatObstacles::Planes planesOf(FatObstacle obstacle) const {
     return of(obstacle.member).planesOf(obstacle.piece);
   }
 
-  /// Of a member below count().
   const NodeReach& reachOf(int member) const { return reaches_[member]; }
 
-  /// Without those within hulls, which come behind them.
-  int count() const { return count_; }
+  int count() const { return static_cast<int>(members_.size()); }
 
   /// The part that it is, or is in, or is around.
   std::size_t partOf(int member) const { return parts_[member].index; }
@@ -70,19 +60,11 @@ class FatMembers {
   /// What touches any other member touches the body.
   bool encloses(int member) const { return parts_[member].encloses; }
 
-  /// The members beside its core that a hull is around: what touches none of all these does not
-  /// touch the part. They are made when they are first asked for, by any of several threads; empty
-  /// if there are none.
-  const std::vector<int>& piecesWithin(int hull);
-
   const WhitenedPolygons& pieces() const { return pieces_; }
 
   /// Where the faces of a member begin among those of all.
   int firstFace(int member) const { return first_faces_[member]; }
-  /// Of the members below count().
-  int faceCount() const { return first_faces_[count_]; }
-  int memberCount() const { return static_cast<int>(members_.size()); }
-  int faceCountOfAll() const { return first_faces_.back(); }
+  int faceCount() const { return first_faces_.back(); }
 
   bool usable() const;
   bool failed() const;
@@ -95,33 +77,11 @@ class FatMembers {
     bool encloses;
   };
 
-  /// The members within a hull.
-  struct Within {
-    int first;  ///< of them
-    std::once_flag made;
-    std::vector<int> members;
-  };
-
-  void add(std::size_t part, const ConvexFan& fan, bool encloses);
-  void reserveWithin(int hull);
-  void makeWithin(int hull, Within& within);
-  std::unique_ptr<FatObstacles> obstaclesOf(std::size_t part, const ConvexFan& fan) const;
-  template <typename Function>
-  void visit(const Function& function) const;
-
-  const WhitenedPair& pair_;
-  const PartitionObject& body_;
-  const bool fan_is_a_;
-  const Eigen::Matrix3d matrix_;
   const WhitenedPolygons pieces_;
-  bool hulls_stay_closed_ = false;
-  std::vector<std::unique_ptr<FatObstacles>> members_;  ///< null: not made yet
-  std::vector<OfPart> parts_;                           ///< by member
-  std::vector<NodeReach> reaches_;                      ///< by member below count()
-  int count_ = 0;
+  std::deque<FatObstacles> members_;  ///< in places that do not move
+  std::vector<OfPart> parts_;         ///< by member
+  std::vector<NodeReach> reaches_;    ///< by member
   std::vector<int> first_faces_;
-  std::deque<Within> within_;
-  std::vector<Within*> within_of_;  ///< by member below count(), null for those that are no hulls
 };
 
 }  // namespace fcl_prob::detail

@@ -38,7 +38,7 @@ ObstacleLister::ObstacleLister(FatMembers& obstacles, ProbabilityStatistics& sta
       statistics_(statistics),
       face_lo_(static_cast<std::size_t>(obstacles.faceCount())),
       face_hi_(static_cast<std::size_t>(obstacles.faceCount())),
-      face_extents_(static_cast<std::size_t>(obstacles.faceCountOfAll())) {}
+      face_extents_(static_cast<std::size_t>(obstacles.faceCount())) {}
 
 const std::vector<FatNode>& ObstacleLister::nodesIn(const Cell& box,
                                                     const std::vector<FatNode>& from) {
@@ -154,7 +154,6 @@ bool ObstacleLister::takesPiece(int member, int piece) const {
 
 ObstacleLister::Relation ObstacleLister::list(const CarvedCell& cell, List& into) {
   failed_ = false;
-  if (cell.opens_hulls) return listPieces(cell, into);
   return cell.box ? listBox(cell, into) : refine(cell, into);
 }
 
@@ -291,21 +290,6 @@ ObstacleLister::Relation ObstacleLister::refine(const CarvedCell& cell, List& in
       continue;
     }
     if (addEntry(entry.obstacle, first, into) == Relation::covered) return Relation::covered;
-  }
-  return into.entries.empty() ? Relation::free : Relation::cut;
-}
-
-// All obstacles of the list are hulls: no core meets the cell.
-ObstacleLister::Relation ObstacleLister::listPieces(const CarvedCell& cell, List& into) {
-  ++bodies_;
-  const Cell box = cell.body.box();
-  const auto add = [&](FatObstacle each) { return addFromBody(cell.body, box, each, into); };
-  for (const List::Entry& hull : cell.list->entries) {
-    for (const int piece : obstacles_.piecesWithin(hull.obstacle.member)) {
-      const FatObstacle obstacle{piece, hull.obstacle.piece};
-      if (isClear(obstacle, box)) continue;
-      if (add(obstacle) == Relation::covered) return Relation::covered;
-    }
   }
   return into.entries.empty() ? Relation::free : Relation::cut;
 }

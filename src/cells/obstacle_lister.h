@@ -45,7 +45,6 @@ class ObstacleLister {
   Relation addPieces(FatObstacle obstacle, const Add& add);
   Relation addEntry(FatObstacle obstacle, std::size_t first, List& into) const;
   Relation refine(const CarvedCell& cell, List& into);
-  Relation listPieces(const CarvedCell& cell, List& into);
   bool isClear(FatObstacle obstacle, const Cell& box) const;
   Relation addFromBody(const CellPolytope& body, const Cell& box, FatObstacle obstacle, List& into);
   bool addPlane(const CellPolytope& body, FatObstacle obstacle, int index,

@@ -148,7 +148,8 @@ class ColumnSampler {
   double massAt(const LineColumns::Node& node, const Eigen::Vector2d& x, PairsOfColumn& drawn) {
     const Eigen::Vector2d u = pointOf(node.column, x);
     const double mass = lines_.massOn(
-        u, node.met, {kLeftOutOfError * request_.relative_tolerance, kLeftOutOfBound * node.most});
+        u, node.met, {kLeftOutOfError * request_.relative_tolerance, kLeftOutOfBound * node.most},
+        Taken::cores);
     drawn.lowest = std::min(drawn.lowest, mass);
     drawn.highest = std::max(drawn.highest, mass);
     drawn.lines[drawn.count++] = {x, u};

@@ -74,9 +74,7 @@ void WholeBodyLines::addMember(const WholeBody& whole, std::size_t index, const 
                         static_cast<int>(index));
   Member& member = members_.back();
   member.hull = std::make_unique<FanLine>(member.fan);
-  member.shell = std::make_unique<ShellLines>(pair, part, is_a, linear, member.body());
   is_convex_ = false;
-  is_exact_ = is_exact_ && !part.nearly->pieces.empty();
 }
 
 double WholeBodyLines::rounding() const {
@@ -181,12 +179,7 @@ void WholeBodyLines::testKnown(const Eigen::Vector2d& u) {
     const auto span = place.member->nodes.around(place.node);
     if (!span) continue;
     Visit visit{place, *span};
-    if (isSettled(visit.span)) continue;
-    if (place.piece == kBody || taken_ != Taken::whole) {
-      testBody(visit, u);
-    } else {
-      testPiece(visit, place.piece, visit.span.hi, u);
-    }
+    if (!isSettled(visit.span)) test(visit, u);
   }
 }
 
@@ -253,65 +246,8 @@ bool WholeBodyLines::endsStretch(double s) const {
                      [s](const Stretch& known) { return known.span.hi == s; });
 }
 
-void WholeBodyLines::test(const Visit& visit, const Eigen::Vector2d& u) {
-  Member& member = *visit.place.member;
-  if (!member.hull || taken_ != Taken::whole) {
-    testBody(visit, u);
-    return;
-  }
-  const int triangle = triangleOf(visit.place);
-  Visit rest = visit;
-  const auto from = member.hull->first(triangle, u, 1.0, rest.span.hi);
-  if (!from) return;
-  rest.span.lo = std::max(rest.span.lo, *from);
-  if (isSettled(rest.span)) return;
-  if (const auto last = member.hull->first(triangle, u, -1.0, -*from)) {
-    rest.span.hi = std::min(rest.span.hi, -*last);
-  }
-  if (isSettled(rest.span)) return;
-  testBody(rest, u);
-  testShell(rest, u);
-}
-
-// Parts of a span that are in no known stretch.
-void WholeBodyLines::findGaps(const LineSpan& span) {
-  gaps_.clear();
-  double from = span.lo;
-  for (const Stretch& known : stretches_) {
-    if (known.span.hi <= from) continue;
-    if (known.span.lo >= span.hi) break;
-    if (from < known.span.lo) gaps_.push_back({from, known.span.lo});
-    from = known.span.hi;
-  }
-  if (from < span.hi) gaps_.push_back({from, span.hi});
-}
-
-// What the body does not meet before, the pieces of the shell may.
-void WholeBodyLines::testShell(const Visit& visit, const Eigen::Vector2d& u) {
-  findGaps(visit.span);
-  if (gaps_.empty()) return;
-  ShellLines& shell = *visit.place.member->shell;
-  for (const auto& [piece, span] : shell.near(triangleOf(visit.place), u, gaps_)) {
-    LineSpan open = span;
-    if (!isSettled(open)) testPiece(visit, piece, open.hi, u);
-  }
-}
-
-void WholeBodyLines::testPiece(const Visit& visit, int piece, double limit,
-                               const Eigen::Vector2d& u) {
-  ShellLines& shell = *visit.place.member->shell;
-  FanLine& line = shell.lineOf(piece);
-  const int triangle = triangleOf(visit.place);
-  const auto from = line.first(triangle, u, 1.0, limit);
-  if (!from) return;
-  const Eigen::Vector3d point = line.touchedPoint(u) + shell.shiftOf(piece);
-  const auto last = line.first(triangle, u, -1.0, -*from);
-  const Place place{visit.place.member, visit.place.node, piece};
-  if (last && *from < -*last) add({{*from, -*last}, place, place, point});
-}
-
 // Most of what is only open behind a known stretch does not stick out of it: that is asked first.
-void WholeBodyLines::testBody(const Visit& visit, const Eigen::Vector2d& u) {
+void WholeBodyLines::test(const Visit& visit, const Eigen::Vector2d& u) {
   FanLine& line = visit.place.member->lineOf(taken_);
   const int triangle = triangleOf(visit.place);
   std::optional<double> to;

@@ -12,7 +12,6 @@
 #include "lines/fan_line.h"
 #include "lines/inner_mass.h"
 #include "lines/node_spans.h"
-#include "lines/shell_lines.h"
 #include "scene/scene.h"
 
 namespace fcl_prob::detail {
@@ -29,13 +28,12 @@ struct Silhouette {
   double area;    ///< no less
 };
 
-/// What members that are nearly convex are taken for on a line: themselves, or their hulls, with
-/// which a line has no less, or their cores, with which it has no more, as of surfaces.
-enum class Taken { whole, hulls, cores };
+/// What members that are nearly convex are taken for on a line: their hulls, with which a line has
+/// no less, or their cores, with which it has no more, as of surfaces.
+enum class Taken { hulls, cores };
 
 class WholeBodyLines {
   struct Member;
-  static constexpr int kBody = -1;
 
  public:
   /// Null where no object can be taken whole. Keeps a reference.
@@ -53,10 +51,6 @@ class WholeBodyLines {
   /// Whether all members are convex: then it makes no difference what they are taken for.
   bool isConvex() const { return is_convex_; }
 
-  /// Whether members can be taken whole: not where no pieces make up for what the core of a nearly
-  /// convex mesh does not hold.
-  bool isExact() const { return is_exact_; }
-
   /// By so many deviations, about, rounding moves the ends of what lines have of members.
   double rounding() const;
 
@@ -64,10 +58,9 @@ class WholeBodyLines {
   struct Place {
     Member* member;
     int node;
-    int piece = kBody;  ///< of the shell
 
     bool operator==(const Place& other) const {
-      return member == other.member && node == other.node && piece == other.piece;
+      return member == other.member && node == other.node;
     }
   };
 
@@ -126,8 +119,7 @@ class WholeBodyLines {
   double mostMeanOn(const Column& column, const Met& met);
 
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
-  double massOn(const Eigen::Vector2d& u, const Met& met, const LeftOut& negligible,
-                Taken taken = Taken::whole);
+  double massOn(const Eigen::Vector2d& u, const Met& met, const LeftOut& negligible, Taken taken);
 
   /// Of what lines can meet of the smallest member in one place: nothing smaller sticks out of the
   /// C-obstacle.
@@ -154,8 +146,7 @@ class WholeBodyLines {
     std::unique_ptr<WhitenedFan> core;
     NodeSpans nodes;
     FanLine line;
-    std::unique_ptr<FanLine> hull;      ///< null where the body is all of it, ...
-    std::unique_ptr<ShellLines> shell;  ///< ... and so is this
+    std::unique_ptr<FanLine> hull;  ///< null where the body is all of it
     InnerMass inner;
     int index;
   };
@@ -194,10 +185,6 @@ class WholeBodyLines {
   void count(const Stretch& stretch);
   bool endsStretch(double s) const;
   void test(const Visit& visit, const Eigen::Vector2d& u);
-  void testBody(const Visit& visit, const Eigen::Vector2d& u);
-  void findGaps(const LineSpan& span);
-  void testPiece(const Visit& visit, int piece, double limit, const Eigen::Vector2d& u);
-  void testShell(const Visit& visit, const Eigen::Vector2d& u);
   std::optional<double> endOf(const Visit& visit, const Eigen::Vector2d& u);
   void add(Stretch stretch);
   void joinContained(const Eigen::Vector2d& u);
@@ -205,14 +192,12 @@ class WholeBodyLines {
   std::deque<Member> members_;
   const SolidContact* solids_ = nullptr;
   bool is_convex_ = true;
-  bool is_exact_ = true;
 
   // Of the line that is looked at.
-  Taken taken_ = Taken::whole;
+  Taken taken_ = Taken::cores;
   std::vector<Visit> stack_;
   std::vector<Stretch> stretches_;  ///< in order, none of which meet
   std::vector<Stretch> parts_;      ///< what they are made of, one triangle each
-  std::vector<LineSpan> gaps_;      ///< of one triangle, between them
   std::vector<Place> known_;        ///< leaves at the ends of those of the last lines
   double mass_ = 0.0;               ///< no more than that of the stretches until all are known
   LeftOut negligible_{0.0, 0.0};

@@ -145,7 +145,7 @@ bool PartitionQuery::isForLines() const {
 
 bool PartitionQuery::estimateByLines() {
   const auto lines = WholeBodyLines::of(scene_);
-  if (!lines || !lines->isExact()) return false;
+  if (!lines || !lines->isConvex()) return false;
   if (lines->rounding() > kMostRoundingOfLines * request_.relative_tolerance) return false;
   const auto estimate = lineEstimate(*lines, request_, budget_);
   if (!estimate) return false;

@@ -18,7 +18,6 @@
 #include "geometry/surface_caps.h"
 #include "scene/core_cuts.h"
 #include "scene/mesh_reach.h"
-#include "scene/shell_pieces.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -122,14 +121,13 @@ std::shared_ptr<const NearlyConvex> nearlyConvexOf(const MeshView& view,
   const auto hull_fan = convexFanOf(viewOf(around), around.vertices, Eigen::Vector3d::Zero());
   const auto core_fan = convexFanOf(viewOf(core), core.vertices, Eigen::Vector3d::Zero());
   if (!hull_fan || !core_fan) return nullptr;
-  auto found = std::make_shared<NearlyConvex>(NearlyConvex{*hull_fan, *core_fan, {}, share});
+  auto found = std::make_shared<NearlyConvex>(NearlyConvex{*hull_fan, *core_fan, share});
   holdAll(vertices, found->hull);
   std::vector<Eigen::Vector3d> normals;
   for (const ConvexPolytope::Face& face : hull.faces) normals.push_back(face.normal);
   for (const CoreCut& cut : *cuts) normals.push_back(cut.n);
   const SurroundingMesh surrounding(view, vertices, moved_by);
   if (!surrounding.surrounds(found->core, normals)) return nullptr;
-  found->pieces = shellPieces(view, vertices, surrounding, core, found->core.centre);
   return found;
 }
 

@@ -20,10 +20,6 @@ struct NearlyConvex {
   /// The mesh winds around P, and no triangle of it reaches farther into P than the depths tell.
   ConvexFan core;
 
-  /// Further bodies of which the same is told as of the core. With it they hold every triangle of
-  /// the mesh; empty where that was not reached.
-  std::vector<ConvexFan> pieces;
-
   /// The volume of the core as a share of that of the hull.
   double share = 0.0;
 };
