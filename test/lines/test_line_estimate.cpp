@@ -72,7 +72,7 @@ double meanOnLines(WholeBodyLines& lines, const Column& column) {
         column.lo + step.cwiseProduct(Eigen::Vector2d(i / kSteps, i % kSteps));
     const double of_step =
         normalIntervalMass(lo[0], lo[0] + step[0]) * normalIntervalMass(lo[1], lo[1] + step[1]);
-    sum += of_step * lines.massOn(lo + 0.5 * step, all, {0.0, 1e-12});
+    sum += of_step * lines.massOn(lo + 0.5 * step, all, {0.0, 1e-12}, Taken::cores);
     measure += of_step;
   }
   return sum / measure;
@@ -151,7 +151,7 @@ TEST_CASE("lines along faces of boxes have what the boxes tell", "[lines]") {
       const Eigen::Vector2d u(random.uniform(-4, 4), random.uniform(-4, 4));
       const double truth = massInBox(of_mesh + half, at, u) - massInBox(of_mesh - half, at, u);
       CAPTURE(scene, i, half.transpose(), of_mesh.transpose(), at.transpose(), u.transpose());
-      CHECK(std::fabs(lines->massOn(u, all, {0.0, 1e-12}) - truth) < 1e-6);
+      CHECK(std::fabs(lines->massOn(u, all, {0.0, 1e-12}, Taken::cores) - truth) < 1e-6);
       met += truth > 1e-3;
     }
   }
@@ -192,7 +192,7 @@ TEST_CASE("lines along faces of turned boxes have what the boxes tell", "[lines]
                                    Eigen::Vector2d(random.uniform(-1, 1), random.uniform(-1, 1)));
       const double hidden = may_hold ? massInBox(within, at, of_box) : 0.0;
       const double truth = massInBox(around, at, of_box) - hidden;
-      const double mass = lines->massOn(about_lines * of_box, all, {0.0, 1e-12});
+      const double mass = lines->massOn(about_lines * of_box, all, {0.0, 1e-12}, Taken::cores);
       wrong += std::fabs(mass - truth) > 1e-6;
       met += truth > 1e-3;
     }
@@ -223,13 +223,13 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
     for (int i = 0; i < 30; ++i) {
       const Eigen::Vector2d u(random.normal(), random.normal());
       constexpr int kSteps = 600;
-      const double mass = lines->massOn(u, all, {0.0, 1e-12});
+      const double mass = lines->massOn(u, all, {0.0, 1e-12}, Taken::cores);
       // At most some ends, each within half a step.
       CHECK(std::fabs(mass - massByPoints(meshes, u, kSteps)) < 4 * 0.4 * 6.0 / kSteps);
       const Eigen::Vector2d width(random.uniform(0, 1), random.uniform(0, 1));
       CHECK(lines->mostOn(lines->meet({u - width, u + width}, all)) >= mass);
       const Column around{u - 0.2 * width, u + 0.2 * width};
-      const auto middle = lines->contactsOn(u, all, Taken::whole);
+      const auto middle = lines->contactsOn(u, all, Taken::cores);
       CHECK(std::fabs(middle.mass - mass) <= 0.1 * mass + 2e-6);
       const double mean = meanOnLines(*lines, around);
       for (const auto& touch : middle.touches) {
@@ -241,7 +241,8 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       CHECK(of_chain <= mean + 1e-3);
       followed += of_chain > 0.8 * mean;
       CHECK(lines->mostMeanOn(around, lines->meet(around, all)) >= mean - 1e-3);
-      CHECK(std::fabs(lines->massOn(u, all, {1e-3, 1e-9}) - mass) <= 1e-3 * mass + 2e-9);
+      CHECK(std::fabs(lines->massOn(u, all, {1e-3, 1e-9}, Taken::cores) - mass) <=
+            1e-3 * mass + 2e-9);
       met += mass > 0.0;
     }
   }
@@ -273,7 +274,7 @@ TEST_CASE("bounds by columns hold at the rims of thin plates", "[lines]") {
       const Column column{u - half, u + half};
       const double mean = meanOnLines(*lines, column);
       const auto met = lines->meet(column, lines->everything());
-      const auto middle = lines->contactsOn(u, met, Taken::whole);
+      const auto middle = lines->contactsOn(u, met, Taken::cores);
       CAPTURE(scene, i, u.transpose(), half.transpose(), mean, middle.mass);
       // The mean is of 144 lines, some of which pass the rims.
       CHECK(lines->mostMeanOn(column, met) >= 0.7 * mean);
