@@ -93,7 +93,7 @@ std::vector<double> carved(FatMembers& obstacles, std::atomic<std::size_t>& list
     const std::unique_ptr<CarvedCell> cell = std::move(*largest);
     open.erase(largest);
     Carving carving;
-    carver.divide(std::move(*cell), {0.0, i}, carving);
+    carver.divide(std::move(*cell), 0.0, carving);
     numbers.push_back(carving.settled.lower);
     numbers.push_back(carving.settled.upper);
     for (auto& part : carving.cells) open.push_back(std::move(part));
