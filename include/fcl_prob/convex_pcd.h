@@ -45,13 +45,12 @@ ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, c
                           const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 
 /// The probability itself, certified. The bounds differ by a rounding margin only for two bodies
-/// with flat sides, for two balls, and, where the displacement has rank 2 or 3, for bodies rounded
-/// by a ball (spheres, capsules, RSS) beside each other or beside bodies with flat sides. There
-/// ellipsoids beside bodies with flat sides are as good; under rank 3 ellipsoids, cylinders and
-/// cones beside each other and any of these differ by about 1e-6 of themselves or less. For other
-/// curved bodies they are the masses of polytopes inside and around the C-obstacle, which get
-/// closer as the resolution of the bodies grows. \throws InvalidPose if a pose is not finite or not
-/// rigid
+/// with flat sides, for two balls, and, where the displacement has rank 3, for bodies rounded by a
+/// ball (spheres, capsules, RSS) or ellipsoids beside bodies with flat sides, and the former beside
+/// each other. Other curved bodies, and all of them under rank 2, differ by about 1e-6 of
+/// themselves or less where the C-obstacle is known, else they are the masses of polytopes inside
+/// and around it, which get closer as the resolution of the bodies grows. \throws InvalidPose if a
+/// pose is not finite or not rigid
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 

@@ -10,7 +10,6 @@
 
 #include "base/agreed_bounds.h"
 #include "base/constants.h"
-#include "base/left_out.h"
 #include "bounds/pair_bounds.h"
 #include "convex/pair_obstacle.h"
 #include "convex/resolved_part.h"
@@ -87,9 +86,8 @@ Bounds massNear(const MassOf& mass_of, const ResolvedPart& resolved, double step
 /// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
 constexpr double kSandwichWidth = 1e-4;
 
-/// What is aimed at by sections of flat displacements: of polytopes, of those swept by a ball, of
-/// others.
-constexpr double kRoundingWidth = 1e-10, kRoundedWidth = 1e-9, kCurvedWidth = 1e-6;
+/// What is aimed at by sections of flat displacements: of polytopes, of others.
+constexpr double kRoundingWidth = 1e-10, kCurvedWidth = 1e-6;
 
 /// How many of them: before quadrature over the boundary is tried, and instead of polytopes.
 constexpr int kFewSections = 10, kMostSections = 40;
@@ -161,16 +159,13 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
     known = ballMass(*ball, displacement);
     if (known.width() <= kSandwichWidth * known.upper) return known;
   }
-  const double layered_width =
-      isRoundedPair(a, b) || isEllipsoidWithPolytope(a, b) ? kRoundedWidth : kCurvedWidth;
-  if (is_flat && narrowByLayers(layered_width, kFewSections)) return known;
-  if (frame.rank >= 2 && isRoundedPair(a, b) &&
-      !(frame.rank == 2 && isLeftOut("rounded sections"))) {
+  if (is_flat && narrowByLayers(kCurvedWidth, kFewSections)) return known;
+  if (frame.rank == 3 && isRoundedPair(a, b)) {
     const RoundedEffort effort{false, interruption};
     known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
-  if (frame.rank >= 2 && isEllipsoidWithPolytope(a, b)) {
+  if (frame.rank == 3 && isEllipsoidWithPolytope(a, b)) {
     const RoundedEffort effort{false, interruption};
     known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, effort).mass);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
@@ -184,7 +179,7 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   if (is_flat && !isDue(interruption)) {
-    narrowByLayers(layered_width, kMostSections);
+    narrowByLayers(kCurvedWidth, kMostSections);
     if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;

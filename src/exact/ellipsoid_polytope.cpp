@@ -8,7 +8,6 @@
 #include "base/constants.h"
 #include "geometry/exact_sum.h"
 #include "mass/long_whitening.h"
-#include "mass/rounded_section_mass.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -52,7 +51,7 @@ PairMass ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose
                                const GaussianDisplacement& displacement,
                                const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 2) return {};
+  if (!frame.fits || frame.rank < 3) return {};
   const bool first = ellipsoidOf(a) != nullptr;
   const SupportShape& ellipsoid = first ? *ellipsoidOf(a) : *ellipsoidOf(b);
   const LongVector3 semi_axes = ellipsoid.semi_axes.diagonal().cast<long double>();
@@ -77,11 +76,6 @@ PairMass ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose
                mesh.slack * static_cast<double>(to_ball.norm()) * (1.0 + kEpsilon) +
                kPlaceRounding * static_cast<double>(body.origin.norm());
   const LongMatrix3 from_ball = rotation * LongMatrix3(semi_axes.asDiagonal());
-  if (frame.rank == 2) {
-    const LongVector3 deviations = displacement.standardDeviations().cast<long double>();
-    const MovingAxes axes{longInverseAxes(displacement) * from_ball, deviations};
-    return {roundedSectionMass(body, axes, effort.interruption), std::nullopt};
-  }
   const LongMatrix3 whitening = longWhitening(displacement);
   const RoundedMass mass = roundedPolytopeMass(body, whitening * from_ball, effort);
   PairMass result{mass.mass, std::nullopt};

@@ -12,10 +12,9 @@ namespace fcl_prob::detail {
 /// Whether one body is an ellipsoid and the other one a polytope.
 bool isEllipsoidWithPolytope(const ConvexBody& a, const ConvexBody& b);
 
-/// Mass of such a pair under a displacement of rank 2 or 3, under rank 3 with its gradient if the
-/// moment is asked for; as roundedSectionMass() and
-/// roundedPolytopeMass() have it, in the linear image of the world in which the ellipsoid is the
-/// unit ball. \throws as pairFrame() does
+/// Mass of such a pair under a displacement of rank 3, with its gradient if the moment is asked
+/// for; as roundedPolytopeMass() has it, in the linear image of the world in which the ellipsoid is
+/// the unit ball. \throws as pairFrame() does
 PairMass ellipsoidPolytopeMass(const ConvexBody& a, const fcl::Transform3d& pose_a,
                                const ConvexBody& b, const fcl::Transform3d& pose_b,
                                const GaussianDisplacement& displacement,

@@ -11,7 +11,6 @@
 #include "convex/minkowski_sum.h"
 #include "geometry/exact_sum.h"
 #include "mass/long_whitening.h"
-#include "mass/rounded_section_mass.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -103,7 +102,7 @@ PairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, co
                          const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                          const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (!frame.fits || frame.rank < 2) return {};
+  if (!frame.fits || frame.rank < 3) return {};
   const bool by_centre = a.set().rounded() && b.set().rounded();
   const double size = a.set().size() + b.set().size();
   auto core = by_centre
@@ -124,11 +123,6 @@ PairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, co
   body.error = core->error / unit +
                body.radius * (frame.ball_stretch + kShapeRoundings * kEpsilon) +
                kFarRounding * static_cast<double>(body.origin.norm());
-  if (frame.rank == 2) {
-    const LongVector3 deviations = displacement.standardDeviations().cast<long double>() / unit;
-    const MovingAxes axes{longInverseAxes(displacement), deviations};
-    return {roundedSectionMass(body, axes, effort.interruption), std::nullopt};
-  }
   const LongMatrix3 whitening = unit * longWhitening(displacement);
   const RoundedMass mass = roundedPolytopeMass(body, whitening, effort);
   PairMass result{mass.mass, std::nullopt};

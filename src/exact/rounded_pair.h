@@ -13,10 +13,9 @@ namespace fcl_prob::detail {
 /// Whether at least one body is rounded by a ball, and the other one is or is a polytope.
 bool isRoundedPair(const ConvexBody& a, const ConvexBody& b);
 
-/// Mass and, if the moment is asked for and the displacement is of rank 3, gradient of an
-/// isRoundedPair() under rank 2 or 3; [0, 1] if rounding spoils the faces. What rounding does to
-/// the shapes is counted next to their own size: where they are is known to 2⁻⁶², however far away.
-/// \throws as pairFrame() does
+/// Mass and, if the moment is asked for, gradient of an isRoundedPair() under rank 3; [0, 1] if
+/// rounding spoils the faces. What rounding does to the shapes is counted next to their own size:
+/// where they are is known to 2⁻⁶², however far away. \throws as pairFrame() does
 PairMass roundedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                          const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                          const RoundedEffort& effort);

@@ -11,7 +11,6 @@
 
 #include "catch.h"
 #include "convex/convex_set.h"
-#include "exact/rounded_pair.h"
 #include "exact/section_mass.h"
 #include "fcl_prob/convex_pcd.h"
 #include "plane_truth.h"
@@ -224,24 +223,6 @@ TEST_CASE("sections of curved shapes are between those of polytopes, and tight")
   }
   CHECK(asked > 200);
   CHECK(wide * 50 <= asked);
-}
-
-TEST_CASE("sections of rounded polytopes hold what quadrature over their boundary gives") {
-  RandomBodies random(504);
-  int asked = 0;
-  for (int k = 0; k < 200; ++k) {
-    const double size = random.logUniform(0.05, 50.0);
-    const RandomPair pair(random, size, 2, random.uniform(-1.0, 12.0));
-    if (!detail::isRoundedPair(pair.a, pair.b)) continue;
-    const Bounds exact =
-        detail::roundedPairMass(pair.a, pair.pose_a, pair.b, pair.pose_b, pair.error, {}).mass;
-    const Bounds mass = pair.mass();
-    INFO(mass.lower << " to " << mass.upper << ", exact " << exact.lower << " to " << exact.upper);
-    CHECK(mass.lower <= exact.upper);
-    CHECK(mass.upper >= exact.lower);
-    ++asked;
-  }
-  CHECK(asked > 30);
 }
 
 TEST_CASE("planes and lines that only touch a curved C-obstacle") {
