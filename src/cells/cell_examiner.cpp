@@ -356,14 +356,14 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   for (const CuttingPair& cutting : front_.cutting()) {
     const FrontPair& pair = cutting.pair;
     if (pair.obstacle == leader.pair.obstacle) continue;
-    double lowest = front_.lowestOfBox(pair, m);
-    if (lowest < enough) lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+    double lowest = front_.lowest().ofBox(pair, m);
+    if (lowest < enough) lowest = std::max(lowest, front_.lowest().ofSlabs(pair, m));
     if (lowest < open.possible_from && !pair.isLayer()) {
-      lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, m));
+      lowest = std::max(lowest, front_.lowest().ofVertices(pair.nodes, m));
     }
     keep(pair, lowest);
   }
-  front_.findBelow(front_.coarse(), {m, enough}, open.possible_from, kMostOpened, below_);
+  front_.lowest().findBelow(front_.coarse(), {m, enough}, open.possible_from, kMostOpened, below_);
   settled_from = std::min(settled_from, below_.lowest_of_others);
   for (const FrontPair& pair : below_.pairs) keep(pair, below_.lowest);
   if (open.front.size() > 1) box = layerBox(box, m, open.possible_from, leader.inner.s);

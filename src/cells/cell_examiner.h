@@ -104,7 +104,7 @@ class CellExaminer {
   CubeCutter cutter_;
   Examination result_;
   std::vector<FrontPair> near_;
-  CellFront::PartsBelow below_;
+  LowestInCell::PartsBelow below_;
 };
 
 }  // namespace fcl_prob::detail

@@ -72,10 +72,10 @@ double CellExaminer::lowestOfFront(const OpenCell& open, const CellPlane& level)
   double result = level.s;
   for (const FrontPair& pair : open.front) {
     if (result <= least) return result;
-    double lowest = front_.lowestOfBox(pair, m);
+    double lowest = front_.lowest().ofBox(pair, m);
     if (lowest < result && pair.hasObstacle()) {
-      if (!pair.isLayer()) lowest = std::max(lowest, front_.lowestOfVertices(pair.nodes, m));
-      if (lowest < result) lowest = std::max(lowest, front_.lowestOfSlabs(pair, m));
+      if (!pair.isLayer()) lowest = std::max(lowest, front_.lowest().ofVertices(pair.nodes, m));
+      if (lowest < result) lowest = std::max(lowest, front_.lowest().ofSlabs(pair, m));
     }
     result = std::min(result, lowest);
   }

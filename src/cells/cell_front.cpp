@@ -38,13 +38,8 @@ constexpr int kClipRounds = 2;
 // The planes of a curved obstacle closer than this count as one.
 constexpr double kThinLayer = 1e-11;
 
-constexpr NodeBox kEverywhere{{-1e300, -1e300, -1e300}, {1e300, 1e300, 1e300}};
-
 // Depth of a plane that covers nothing of the cell.
 constexpr double kDeepest = 0.9999;
-
-// The order of a heap whose first is the lowest.
-constexpr auto kHigher = [](const auto& x, const auto& y) { return x.rank > y.rank; };
 
 }  // namespace
 
@@ -57,8 +52,7 @@ CellFront::CellFront(const WhitenedPair& pair, ObstacleTable& obstacles,
       cell_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0},
       box_{},
       layers_(pair),
-      support_a_(pair.a),
-      support_b_(pair.b) {}
+      lowest_(pair, obstacles, cell_, box_, layers_, statistics) {}
 
 void CellFront::take(const Cell& cell, const std::vector<FrontPair>& inherited) {
   cell_ = cell;
@@ -105,7 +99,7 @@ void CellFront::gatherLeaves(const std::vector<FrontPair>& inherited) {
   for (const FrontPair& pair : inherited) {
     if (!pair.hasObstacle()) continue;
     ++statistics_.pairs_tested;
-    if (meetsCell(obstacleBoxOf(pair))) gatherLeaf(pair);
+    if (meetsCell(obstacleBoxOf(pair_, pair))) gatherLeaf(pair);
     if (cell_.empty()) return;
   }
   carve();
@@ -153,7 +147,8 @@ void CellFront::coverAll(const FrontPair& by) {
 void CellFront::gatherSection(const FrontPair& pair) {
   const SupportObstacle obstacle = obstacles_.support(pair.nodes);
   CuttingPair cutting{pair, 2, -1.0, {}, 0.0, 2.0};
-  if (least_depth_ < kDeepest && lowestOf(obstacle, pair.nodes, deepest_.m) >= deepest_.s) {
+  if (least_depth_ < kDeepest &&
+      lowest_.ofSupport(obstacle, pair.nodes, deepest_.m) >= deepest_.s) {
     cutting_.push_back(cutting);
     return;
   }
@@ -190,16 +185,6 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair n
       : n.dot(cell_.lowestCorner(-n)) + rounding <= section.inner ? CellSection::Relation::inside
                                                                   : CellSection::Relation::cut;
   return section;
-}
-
-// Lower bound of m·y over the C-obstacle of two pieces.
-double CellFront::lowestOf(const SupportObstacle& obstacle, NodePair nodes,
-                           const Eigen::Vector3d& m) const {
-  return -obstacle.supportUpper(-m) - outwardOfBand(m, nodes);
-}
-
-double CellFront::outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const {
-  return pair_.band ? pair_.band->outwardAlong(m, nodes) : 0.0;
 }
 
 double CellFront::depthOf(const CellPlane& plane) const {
@@ -318,34 +303,19 @@ void CellFront::classifyAgain() {
   cutting_.clear();
   least_depth_ = kDeepest;
   for (const CuttingPair& cutting : previous_) {
-    if (meetsCell(obstacleBoxOf(cutting.pair))) gatherLeaf(cutting.pair);
+    if (meetsCell(obstacleBoxOf(pair_, cutting.pair))) gatherLeaf(cutting.pair);
     if (cell_.empty()) return;
   }
-}
-
-NodeBox CellFront::obstacleBoxOf(const FrontPair& pair) const {
-  if (pair.isLayer()) return kEverywhere;
-  return obstacleBox(pair_, pair.nodes);
 }
 
 bool CellFront::meetsCell(const NodeBox& box) const {
   return !isClearOf(box, cell_.lo.data(), cell_.hi.data());
 }
 
-bool CellFront::meetsCell(const NodeLayer& layer) const {
-  double middle = 0.0;
-  double radius = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    middle += layer.n[k] * box_.center[k];
-    radius += std::fabs(layer.n[k]) * box_.half[k];
-  }
-  return !(middle + radius < layer.lo || middle - radius > layer.hi);
-}
-
 // Whether the layer of two nodes, if they have one, meets the cell.
 bool CellFront::meetsLayer(NodePair nodes) {
   const std::optional<NodeLayer> layer = layers_.of(nodes);
-  return !layer || meetsCell(*layer);
+  return !layer || meets(box_, *layer);
 }
 
 // How far the middle of the cell is from that of the C-obstacle's box.
@@ -361,7 +331,7 @@ double CellFront::eccentricity(const NodeBox& box) const {
 bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const {
   for (int k = 0; k < cell_.rank; ++k) {
     double own = box.hi[k] - box.lo[k];
-    if (pair_.band) own -= 2.0 * outwardOfBand(Eigen::Vector3d::Unit(k), pair.nodes);
+    if (pair_.band) own -= 2.0 * outwardOfBand(pair_, Eigen::Vector3d::Unit(k), pair.nodes);
     if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;
@@ -381,103 +351,8 @@ Eigen::Vector3d CellFront::acrossNearest(const Eigen::Vector3d& point) const {
   return across;
 }
 
-double CellFront::lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const {
-  double lowest = -1e-13;  // rounding of the sum
-  for (int k = 0; k < 3; ++k) {
-    const double lo = std::max(box.lo[k], cell_.lo[k]);
-    const double hi = std::min(box.hi[k], cell_.hi[k]);
-    lowest += m[k] * (m[k] > 0 ? lo : hi);
-  }
-  return lowest;
-}
-
-// The side of the layer that is below.
-double CellFront::lowestInLayer(const NodeLayer& layer, const NodeBox& box,
-                                const Eigen::Vector3d& m) const {
-  Eigen::Vector3d lo, hi;
-  for (int k = 0; k < 3; ++k) {
-    lo[k] = std::max(box.lo[k], cell_.lo[k]);
-    hi[k] = std::min(box.hi[k], cell_.hi[k]);
-  }
-  if (layer.n.dot(m) > 0.0) return lowestBeyond(lo, hi, m, layer.n, layer.lo);
-  return lowestBeyond(lo, hi, m, -layer.n, -layer.hi);
-}
-
-double CellFront::lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const {
-  const SlabArrays& slabs = obstacles_.slabs(pair.obstacle);
-  const double lowest = kernels_.minimumAlong(slabs, box_, m.data());
-  if (!slabs.outer_only) return lowest;
-  return std::max(lowest, lowestOf(obstacles_.support(pair.nodes), pair.nodes, m));
-}
-
-double CellFront::lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m) {
-  if (!pair_.a.tree->isMesh() || !pair_.b.tree->isMesh()) return -1e300;
-  const double a = support_a_.along(m, nodes.a);
-  const double b = -support_b_.along(-m, nodes.b);
-  const Eigen::Vector3d rounded =
-      pair_.turning ? Eigen::Vector3d(pair_.a.error + pair_.b.error) : slabError(pair_, nodes);
-  const double moved = pair_.turning ? pair_.turning->along(m, nodes) : outwardOfBand(m, nodes);
-  const double error =
-      4 * m.cwiseAbs().dot(rounded) + moved + 1e-15 * (std::fabs(a) + std::fabs(b));
-  return b - a - error;
-}
-
-// Lower bound of m·y over the C-obstacle of two nodes ∩ cell: as good as it gets if it is below the
-// level.
-double CellFront::lowestOfParts(const BoxedPair& boxed, const CellPlane& level) {
-  const NodePair nodes = boxed.pair.nodes;
-  double lowest = lowestInCell(boxed.box, level.m);
-  if (lowest >= level.s) return lowest;
-  if (const auto layer = layers_.of(nodes)) {
-    if (!meetsCell(*layer)) return kInfinity;
-    lowest = std::max(lowest, lowestInLayer(*layer, boxed.box, level.m));
-    if (lowest >= level.s) return lowest;
-  }
-  lowest = std::max(lowest, lowestOfVertices(nodes, level.m));
-  if (lowest >= level.s || !areLeaves(pair_, nodes) || !obstacles_.areTriangles(nodes)) {
-    return lowest;
-  }
-  const SlabArrays slabs = obstacles_.slabsOnce(nodes, once_);
-  if (kernels_.classify(slabs, box_).relation == CellRelation::outside) return kInfinity;
-  return std::max(lowest, kernels_.minimumAlong(slabs, box_, level.m.data()));
-}
-
-// Adds to the heap of pairs by how low they reach.
-void CellFront::addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below) {
-  ++statistics_.pairs_tested;
-  const BoxedPair boxed{FrontPair::ofNodes(nodes), obstacleBox(pair_, nodes)};
-  if (!meetsCell(boxed.box)) return;
-  const double lowest = lowestOfParts(boxed, level);
-  if (lowest >= level.s) {
-    below.lowest_of_others = std::min(below.lowest_of_others, lowest);
-    return;
-  }
-  rankPair(lowest, boxed);
-  std::push_heap(ordered_.begin(), ordered_.end(), kHigher);
-}
-
-void CellFront::findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
-                          int budget, PartsBelow& below) {
-  below.pairs.clear();
-  below.lowest = kInfinity;
-  below.lowest_of_others = kInfinity;
-  ordered_.clear();
-  boxed_.clear();
-  for (const FrontPair& pair : pairs) addBelow(pair.nodes, level, below);
-  for (; !ordered_.empty() && budget > 0; --budget) {
-    const Ranked lowest = ordered_.front();
-    const NodePair nodes = boxed_[lowest.place].pair.nodes;
-    if (lowest.rank >= known || areLeaves(pair_, nodes)) break;
-    std::pop_heap(ordered_.begin(), ordered_.end(), kHigher);
-    ordered_.pop_back();
-    for (const NodePair child : childrenOf(pair_, nodes)) addBelow(child, level, below);
-  }
-  if (!ordered_.empty()) below.lowest = ordered_.front().rank;
-  for (const Ranked& ranked : ordered_) below.pairs.push_back(boxed_[ranked.place].pair);
-}
-
 bool CellFront::clip(const FrontPair& pair, Cell& part) const {
-  const NodeBox box = obstacleBoxOf(pair);
+  const NodeBox box = obstacleBoxOf(pair_, pair);
   for (int k = 0; k < cell_.rank; ++k) {
     part.lo[k] = std::max(box.lo[k], part.lo[k]);
     part.hi[k] = std::min(box.hi[k], part.hi[k]);

@@ -5,11 +5,11 @@
 
 #include <vector>
 
+#include "cells/lowest_in_cell.h"
 #include "cells/open_cell.h"
 #include "convex/cell_section.h"
 #include "fcl_prob/probability_result.h"
 #include "scene/node_layers.h"
-#include "scene/node_support.h"
 #include "scene/obstacle_table.h"
 
 namespace fcl_prob::detail {
@@ -35,6 +35,8 @@ struct CoveredSlice {
 class CellFront {
  public:
   CellFront(const WhitenedPair& pair, ObstacleTable& obstacles, ProbabilityStatistics& statistics);
+  CellFront(const CellFront&) = delete;
+  CellFront& operator=(const CellFront&) = delete;
 
   /// Takes up a cell with the front inherited from its parent. Afterwards cell() is what remains of
   /// it, covered() the slices that certainly collide, cutting() and coarse() its own front.
@@ -69,29 +71,8 @@ class CellFront {
   /// it; 0 if there is none.
   Eigen::Vector3d acrossNearest(const Eigen::Vector3d& point) const;
 
-  /// Lower bound of m·y over the pair's C-obstacle ∩ cell, from its bounding box.
-  double lowestOfBox(const FrontPair& pair, const Eigen::Vector3d& m) const {
-    return lowestInCell(obstacleBoxOf(pair), m);
-  }
-
-  /// The same from the slabs of a pair of leaves.
-  double lowestOfSlabs(const FrontPair& pair, const Eigen::Vector3d& m) const;
-
-  /// Lower bound of m·y over the C-obstacle of two nodes of meshes, in the cell or not, from their
-  /// vertices. Calls with the same m share their work until another m is used.
-  double lowestOfVertices(NodePair nodes, const Eigen::Vector3d& m);
-
-  /// What reaches below a level, in pairs as large as they came or smaller.
-  struct PartsBelow {
-    std::vector<FrontPair> pairs;
-    double lowest;            ///< of them, or a bound that is at least as low
-    double lowest_of_others;  ///< of those that do not reach below the level
-  };
-
-  /// How low coarse pairs reach within the cell. The lowest one is opened until that is known, no
-  /// pair reaches below `known`, or `budget` nodes were opened: what lies higher stays as it is.
-  void findBelow(const std::vector<FrontPair>& pairs, const CellPlane& level, double known,
-                 int budget, PartsBelow& below);
+  /// How low C-obstacles reach within the cell.
+  LowestInCell& lowest() { return lowest_; }
 
   /// Shrinks a part of the cell to a box around what the pair's C-obstacle has of it; false if that
   /// is nothing.
@@ -114,8 +95,6 @@ class CellFront {
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
   CellSection sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const;
-  double lowestOf(const SupportObstacle& obstacle, NodePair nodes, const Eigen::Vector3d& m) const;
-  double outwardOfBand(const Eigen::Vector3d& m, NodePair nodes) const;
   void setPlane(const CellCut& cut, CuttingPair& cutting) const;
   void coverAll(const FrontPair& by);
   void noteDepth(const CuttingPair& cutting);
@@ -126,17 +105,11 @@ class CellFront {
   bool carveBy(const FrontPair& pair, double least_share);
   void cover(const CellSlice& slice, const FrontPair& by);
   void classifyAgain();
-  NodeBox obstacleBoxOf(const FrontPair& pair) const;
   bool meetsCell(const NodeBox& box) const;
-  bool meetsCell(const NodeLayer& layer) const;
   bool meetsLayer(NodePair nodes);
   double eccentricity(const NodeBox& box) const;
   bool largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const;
-  double lowestInCell(const NodeBox& box, const Eigen::Vector3d& m) const;
-  double lowestInLayer(const NodeLayer& layer, const NodeBox& box, const Eigen::Vector3d& m) const;
   void rankPair(double rank, const BoxedPair& boxed);
-  double lowestOfParts(const BoxedPair& boxed, const CellPlane& level);
-  void addBelow(NodePair nodes, const CellPlane& level, PartsBelow& below);
 
   const WhitenedPair& pair_;
   ObstacleTable& obstacles_;
@@ -151,13 +124,11 @@ class CellFront {
   CellPlane deepest_;         ///< inner plane of the cutting pair of least depth
   std::vector<FrontPair> coarse_;
   NodeLayers layers_;
-  NodeSupport support_a_;  ///< along m
-  NodeSupport support_b_;  ///< along -m
+  LowestInCell lowest_;
   std::vector<BoxedPair> stack_;
   std::vector<CuttingPair> previous_;
   std::vector<BoxedPair> boxed_;
   std::vector<Ranked> ordered_;
-  TriangleSlabsData once_;
 };
 
 }  // namespace fcl_prob::detail

@@ -114,9 +114,9 @@ TEST_CASE("parts of a pair that may reach below a level are all told", "[front]"
     front.take(cell, {});
     const double level = m.dot(middle) + random.uniform(-1, 1) * half.norm();
     const double known = random.integer(0, 1) ? level - random.uniform(0, 1) : 1e300;
-    CellFront::PartsBelow below;
+    LowestInCell::PartsBelow below;
     const int budget = random.integer(0, 1) ? 1000000 : random.integer(0, 50);
-    front.findBelow({FrontPair::ofNodes({0, 0})}, {m, level}, known, budget, below);
+    front.lowest().findBelow({FrontPair::ofNodes({0, 0})}, {m, level}, known, budget, below);
     std::set<std::pair<int, int>> told;
     for (const FrontPair& pair : below.pairs) {
       for (int a : leavesUnder(*meshes.tree_a, pair.nodes.a)) {
