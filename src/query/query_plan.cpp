@@ -149,16 +149,9 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
 
 std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& displacement) {
   if (pair.areSpheres()) return "two spheres: their C-obstacle is a ball, mass by quadrature";
-  if (pair.areRounded() && displacement.rank() >= 2) {
-    const std::string note =
-        "round and flat shapes: their C-obstacle is a polytope swept by a ball, ";
-    return note + (displacement.rank() == 3
-                       ? "mass by quadrature"
-                       : "mass of its section by quadrature over the boundary");
-  }
-  if (displacement.rank() == 2 && pair.areEllipsoidAndFlat()) {
-    return "an ellipsoid and flat sides: mass of their C-obstacle's section by quadrature over the "
-           "boundary";
+  if (pair.areRounded() && displacement.rank() == 3) {
+    return "round and flat shapes: their C-obstacle is a polytope swept by a ball, mass by "
+           "quadrature";
   }
   if (displacement.rank() < 3 && !pair.areFlat()) {
     return displacement.rank() == 2
