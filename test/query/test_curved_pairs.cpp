@@ -12,6 +12,7 @@
 #include "catch.h"
 #include "fcl_prob/collision_probability.h"
 #include "mesh_shapes.h"
+#include "poses.h"
 #include "query/partition.h"
 #include "random_bodies.h"
 #include "shapes.h"
@@ -46,12 +47,6 @@ double below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2)); }
 double ballMass(double d, double r) {
   return below(r - d) - below(-r - d) - (density(r - d) - density(r + d)) / d;
 }
-
-fcl::Transform3d at(const Eigen::Vector3d& position) {
-  return fcl::Transform3d(Eigen::Translation3d(position));
-}
-
-const fcl::Transform3d kIdentity = fcl::Transform3d::Identity();
 
 }  // namespace
 
