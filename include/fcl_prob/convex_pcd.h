@@ -47,10 +47,10 @@ ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, c
 /// The probability itself, certified. The bounds differ by a rounding margin only for two bodies
 /// with flat sides, for two balls, and, where the displacement has rank 3, for bodies rounded by a
 /// ball (spheres, capsules, RSS) or ellipsoids beside bodies with flat sides, and the former beside
-/// each other. Other curved bodies, and all of them under rank 2, differ by about 1e-6 of
-/// themselves or less where the C-obstacle is known, else they are the masses of polytopes inside
-/// and around it, which get closer as the resolution of the bodies grows. \throws InvalidPose if a
-/// pose is not finite or not rigid
+/// each other. Other curved bodies, and all of them under rank 2 or where one deviation is tiny
+/// beside another, differ by about 1e-6 of themselves or less where the C-obstacle is known, else
+/// they are the masses of polytopes inside and around it, which get closer as the resolution of the
+/// bodies grows. \throws InvalidPose if a pose is not finite or not rigid
 Bounds convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
 

@@ -46,14 +46,8 @@ struct QueryPair {
   bool areCurved() const {
     if constexpr (kHasExact) {
       return areConvex() && !areRounded() &&
-             (isCurvedPair(a.rootBody(), b.rootBody()) || areEllipsoidAndFlat());
-    } else {
-      return false;
-    }
-  }
-  bool areEllipsoidAndFlat() const {
-    if constexpr (kHasExact) {
-      return areConvex() && isEllipsoidWithPolytope(a.rootBody(), b.rootBody());
+             (isCurvedPair(a.rootBody(), b.rootBody()) ||
+              isEllipsoidWithPolytope(a.rootBody(), b.rootBody()));
     } else {
       return false;
     }
