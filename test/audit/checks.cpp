@@ -151,10 +151,11 @@ class SceneCheck {
     if (!gradient) return;
     ++tally_.checks["exact gradient"];
     for (int k = 0; k < 3; ++k) {
-      const double slack = 1e-9 * std::abs((*gradient)[k]);
-      if ((*gradient)[k] < (*result().gradient_lower)[k] - slack ||
-          (*gradient)[k] > (*result().gradient_upper)[k] + slack) {
-        return report("exact gradient", vectorText(*gradient));
+      const double slope = gradient->value[k];
+      const double slack = 1e-9 * std::abs(slope) + gradient->rounding;
+      if (slope < (*result().gradient_lower)[k] - slack ||
+          slope > (*result().gradient_upper)[k] + slack) {
+        return report("exact gradient", vectorText(gradient->value));
       }
     }
   }

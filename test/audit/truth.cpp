@@ -150,12 +150,14 @@ std::optional<Exact> exactProbability(const TruthQuestion& question,
   return sum / weights;
 }
 
-std::optional<Vector3d> exactGradient(const TruthQuestion& question) {
+std::optional<ExactGradient> exactGradient(const TruthQuestion& question) {
   const auto middle = exactProbability(question);
   const double sigma = question.normals[0].sigma[0];
   if (!middle || !(sigma > 0.0)) return std::nullopt;
   const Exact step = Exact(sigma) * Exact("1e-18");
-  Vector3d gradient;
+  // A hundred roundings of P, for those of the products that P is.
+  ExactGradient gradient{Vector3d::Zero(),
+                         static_cast<double>(Exact(*middle * Exact("1e-58") / step))};
   for (std::size_t k = 0; k < 3; ++k) {
     std::array<Exact, 3> shift = {0, 0, 0};
     shift[k] = step;
@@ -163,8 +165,8 @@ std::optional<Vector3d> exactGradient(const TruthQuestion& question) {
     shift[k] = -step;
     const Exact behind = (*middle - *exactProbability(question, shift)) / step;
     const Exact size = Exact(abs(ahead)) + Exact(abs(behind));
-    if (abs(Exact(ahead - behind)) > size * Exact("1e-9")) return std::nullopt;
-    gradient[static_cast<int>(k)] = static_cast<double>(Exact((ahead + behind) / 2));
+    if (abs(Exact(ahead - behind)) > size * Exact("1e-9") + gradient.rounding) return std::nullopt;
+    gradient.value[static_cast<int>(k)] = static_cast<double>(Exact((ahead + behind) / 2));
   }
   return gradient;
 }

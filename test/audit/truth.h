@@ -40,8 +40,15 @@ TruthQuestion truthQuestion(const Scene& scene);
 std::optional<Exact> exactProbability(const TruthQuestion& question,
                                       const std::array<Exact, 3>& shift = {0, 0, 0});
 
-/// Its gradient with respect to the mean, by differences of 1e-20; nothing where P has a kink.
-std::optional<Vector3d> exactGradient(const TruthQuestion& question);
+/// The gradient of P with respect to the mean, by differences.
+struct ExactGradient {
+  Vector3d value;
+  /// By how much each slope may be off because P is kept to 60 digits: near P = 1 more than the
+  /// slope itself.
+  double rounding = 0.0;
+};
+/// By steps of 1e-18 deviations; nothing where P has a kink.
+std::optional<ExactGradient> exactGradient(const TruthQuestion& question);
 
 /// Means of contact along random lines, each within [0, 1] with the mean P.
 struct SampledTruth {
