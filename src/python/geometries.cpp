@@ -10,6 +10,7 @@
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <pybind11/stl.h>
 
 #include <cmath>
 #include <optional>
@@ -20,6 +21,15 @@
 #include "python/pickled.h"
 
 namespace fcl_prob::python {
+
+/// A mesh from a file about which something is to be said. Not in an unnamed namespace, where the
+/// extension modules would each have a type of their own.
+struct ReadModel : fcl::BVHModel<fcl::OBBRSSd> {
+  ReadModel(const fcl::BVHModel<fcl::OBBRSSd>& model, ReadingNotes said)
+      : fcl::BVHModel<fcl::OBBRSSd>(model), reading(std::move(said)) {}
+  ReadingNotes reading;
+};
+
 namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
@@ -54,11 +64,15 @@ py::object trianglesOf(const std::shared_ptr<Model>& model) {
   return meshArray(model, model->tri_indices, "l", model->num_tris);
 }
 
-std::shared_ptr<Model> meshFromArrays(py::handle vertices, py::handle triangles) {
+TriangleMesh meshOf(py::handle vertices, py::handle triangles) {
   TriangleMesh mesh;
   mesh.vertices = pointsFrom(vertices, "vertices");
   mesh.triangles = trianglesFrom(triangles, mesh.vertices.size(), "triangles");
-  return modelOf(mesh);
+  return mesh;
+}
+
+std::shared_ptr<Model> meshFromArrays(py::handle vertices, py::handle triangles) {
+  return modelOf(meshOf(vertices, triangles));
 }
 
 /// Nothing if there is none; what else goes wrong in getting it comes out.
@@ -104,6 +118,15 @@ void bindMesh(py::module_& module) {
                              "(n, 3) float64, metres: the mesh's own memory, read-only.")
       .def_property_readonly("triangles", &trianglesOf,
                              "(m, 3) int64: the mesh's own memory, read-only.")
+      .def_property_readonly(
+          "notes", [](const Model& mesh) { return readingNotesOf(mesh).notes; },
+          "What load_mesh passed over in the file, in sentences; robots' answers repeat it of\n"
+          "obstacles.")
+      .def_property_readonly(
+          "coordinate_error",
+          [](const Model& mesh) { return readingNotesOf(mesh).coordinate_error; },
+          "Metres: how far a coordinate may be from the file's, where it was read in single\n"
+          "precision; 0 otherwise.")
       .def("__repr__",
            [](const Model& mesh) {
              return "<Mesh of " + std::to_string(mesh.num_vertices) + " vertices and " +
@@ -111,9 +134,16 @@ void bindMesh(py::module_& module) {
            })
       .def(pickledAs<std::shared_ptr<Model>>(
           [](const std::shared_ptr<Model>& mesh) {
-            return py::make_tuple(verticesOf(mesh), trianglesOf(mesh));
+            const ReadingNotes reading = readingNotesOf(*mesh);
+            return py::make_tuple(verticesOf(mesh), trianglesOf(mesh), reading.coordinate_error,
+                                  reading.notes);
           },
-          [](const py::tuple& state) { return meshFromArrays(state[0], state[1]); }));
+          [](const py::tuple& state) {
+            TriangleMesh mesh = meshOf(state[0], state[1]);
+            mesh.coordinate_error = state[2].cast<double>();
+            mesh.notes = state[3].cast<std::vector<std::string>>();
+            return modelOf(mesh);
+          }));
 }
 
 template <class Shape>
@@ -245,7 +275,14 @@ void bindFlat(py::module_& module, const char* name, const char* documentation) 
 
 std::shared_ptr<Model> modelOf(const TriangleMesh& mesh) {
   const py::gil_scoped_release released;
-  return buildModel<fcl::OBBRSSd>(mesh);
+  std::shared_ptr<Model> model = buildModel<fcl::OBBRSSd>(mesh);
+  if (mesh.notes.empty() && mesh.coordinate_error == 0.0) return model;
+  return std::make_shared<ReadModel>(*model, ReadingNotes{mesh.coordinate_error, mesh.notes});
+}
+
+ReadingNotes readingNotesOf(const fcl::CollisionGeometryd& geometry) {
+  const auto* read = dynamic_cast<const ReadModel*>(&geometry);
+  return read == nullptr ? ReadingNotes() : read->reading;
 }
 
 Geometry geometryFrom(py::handle value, const std::string& name) {

@@ -27,6 +27,14 @@ std::vector<Geometry> geometriesFrom(py::handle values, const std::string& name)
 /// The mesh as a geometry of Python; its tree is built without the GIL.
 std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> modelOf(const TriangleMesh& mesh);
 
+/// What was said when a mesh was read: as in TriangleMesh.
+struct ReadingNotes {
+  double coordinate_error = 0.0;  ///< metres
+  std::vector<std::string> notes;
+};
+/// Nothing to say for what was not read from a file.
+ReadingNotes readingNotesOf(const fcl::CollisionGeometryd& geometry);
+
 void bindGeometries(py::module_& module);
 
 }  // namespace fcl_prob::python

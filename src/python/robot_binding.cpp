@@ -37,8 +37,10 @@ Robot robotOfText(const std::string& text, const Packages& packages, const Names
 Robot withAttached(const Robot& robot, const std::string& name, const std::string& link,
                    const py::object& geometry, const py::object& pose,
                    const std::vector<std::string>& touch_links) {
-  return robot.withAttached(
-      {name, link, geometryFrom(geometry, "geometry"), poseFrom(pose, "pose"), touch_links});
+  const Geometry body = geometryFrom(geometry, "geometry");
+  const ReadingNotes reading = readingNotesOf(*body);
+  return robot.withAttached({name, link, body, poseFrom(pose, "pose"), touch_links,
+                             reading.coordinate_error, reading.notes});
 }
 
 /// The files are read again, a text that is the URDF is kept.

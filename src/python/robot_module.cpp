@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "base/decision.h"
@@ -91,10 +92,17 @@ void bindResult(py::module_& module) {
       .def("__repr__", &reprOf);
 }
 
+void addReadingNotes(const fcl::CollisionGeometryd& geometry, Obstacle& obstacle) {
+  const ReadingNotes reading = readingNotesOf(geometry);
+  obstacle.coordinate_error = std::max(obstacle.coordinate_error, reading.coordinate_error);
+  obstacle.notes.insert(obstacle.notes.end(), reading.notes.begin(), reading.notes.end());
+}
+
 /// One geometry, or a list of tuples (geometry, pose) in the frame of the obstacle.
 void bodiesFrom(py::handle value, const std::string& name, Obstacle& obstacle) {
   if (!py::isinstance<py::list>(value)) {
     obstacle.geometry = geometryFrom(value, name);
+    addReadingNotes(*obstacle.geometry, obstacle);
     return;
   }
   const fcl::Transform3d frame = obstacle.pose;
@@ -105,6 +113,7 @@ void bodiesFrom(py::handle value, const std::string& name, Obstacle& obstacle) {
     const auto body = py::reinterpret_borrow<py::tuple>(one);
     const fcl::Transform3d pose = frame * poseFrom(body[1], name + ": pose of a body");
     const auto geometry = geometryFrom(body[0], name);
+    addReadingNotes(*geometry, obstacle);
     if (obstacle.geometry) {
       obstacle.more.push_back({geometry, obstacle.pose.inverse() * pose});
     } else {

@@ -4,6 +4,8 @@
 import json
 import math
 import os
+import pickle
+import struct
 import subprocess
 
 import numpy as np
@@ -214,6 +216,27 @@ def test_robot_from_parts():
         fcl_prob.RobotQuery(robot, [fcl_prob.Sphere(1)])
     with pytest.raises(fcl_prob.FileError):
         fcl_prob.Robot(DATA / "mug.obj")
+
+
+@needs_io
+@needs_robot
+def test_what_was_said_when_a_mesh_was_read_is_told_with_answers(tmp_path):
+    record = np.dtype([("numbers", "<f4", 12), ("attribute", "<u2")])
+    vertices, triangles = box_mesh(0.1, 0.1, 0.1)
+    records = np.zeros(len(triangles), record)
+    records["numbers"][:, 3:] = np.asarray(vertices)[np.asarray(triangles)].reshape(-1, 9)
+    file = tmp_path / "longer.stl"
+    file.write_bytes(bytes(80) + struct.pack("<I", len(records)) + records.tobytes() + b"more")
+    mesh = fcl_prob.load_mesh(file)
+    assert len(mesh.notes) == 1 and "longer.stl" in mesh.notes[0]
+    assert mesh.coordinate_error == 0.0 and fcl_prob.Mesh(vertices, triangles).notes == []
+    assert pickle.loads(pickle.dumps(mesh)).notes == mesh.notes
+    robot = fcl_prob.Robot(DATA / "arm.urdf")
+    for body in (mesh, [(mesh, np.eye(4)), (fcl_prob.Sphere(0.05), np.eye(4))]):
+        result = fcl_prob.RobotQuery(robot, [("box", body, ERROR, [0.5, 0, 0.2])]).state({})
+        assert mesh.notes[0] in result.plan
+    carrying = robot.with_attached("held", robot.links[-1], mesh)
+    assert mesh.notes[0] in carrying.notes
 
 
 @needs_command

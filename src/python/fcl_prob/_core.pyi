@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the fcl_prob authors
-from typing import Any, Callable, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 
 from ._types import AnyMesh, FloatArray, IntArray, NameArray, Numbers
 
@@ -14,6 +14,10 @@ class Mesh(Geometry):
     def vertices(self) -> FloatArray: ...
     @property
     def triangles(self) -> IntArray: ...
+    @property
+    def notes(self) -> List[str]: ...
+    @property
+    def coordinate_error(self) -> float: ...
 
 class Box(Geometry):
     def __init__(self, x: float, y: float, z: float) -> None: ...
