@@ -12,6 +12,16 @@ using namespace fcl_prob;
 
 namespace {
 
+const char* const kArm = R"(<robot name="arm">
+  <link name="base"/>
+  <link name="upper"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.06 0.06"/></geometry></collision></link>
+  <link name="fore"><collision><origin xyz="0.2 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.5"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="2"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0.45 0 0"/>
+    <axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="1" velocity="2"/></joint>
+</robot>)";
+
 bool plansAmongWhatStays(const Robot& robot, const SelfCollision& self_collision,
                          const Obstacle& ball, const Eigen::VectorXd& start,
                          const Eigen::VectorXd& goal) {
@@ -37,10 +47,10 @@ bool plansInTime(const Robot& robot, const SelfCollision& self_collision, Obstac
 }  // namespace
 
 int main() {
-  const Robot robot("data/arm.urdf");
+  const Robot robot = Robot::fromText(kArm);
   const SelfCollision self_collision(robot);
   Obstacle ball{"ball", std::make_shared<fcl::Sphered>(0.1)};
-  ball.pose.translation() = Eigen::Vector3d(0.6, 0.3, 0.5);
+  ball.pose.translation() = Eigen::Vector3d(0.6, 0.2, 0.5);
   ball.displacement = GaussianDisplacement::fromStandardDeviations({0.01, 0.01, 0.01});
   const Eigen::VectorXd start = robot.values({{"turn", -0.3}}),
                         goal = robot.values({{"turn", 0.6}});

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// docs/robots.md: the block on robots, in a folder where the robot's file is.
+// docs/robots.md, run where my_robot.urdf is.
 #include <fcl/geometry/shape/cylinder.h>
 
 #include <cstdio>
-#include <filesystem>
 
 #include "fcl_prob/robot_query.h"
 
 using namespace fcl_prob;
 
 int main() {
-  std::filesystem::copy_file("data/arm.urdf", "my_robot.urdf",
-                             std::filesystem::copy_options::overwrite_existing);
   const auto mug = std::make_shared<fcl::Cylinderd>(0.04, 0.1);
   fcl::Transform3d mug_pose = fcl::Transform3d::Identity();
   mug_pose.translation() = Eigen::Vector3d(0.25, 0.0, 0.25);
