@@ -18,8 +18,8 @@ import tempfile
 SOURCE_DIR = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ["data/README.md", "README.md"]
 PAGES += [f"docs/{name}.md" for name in ("start", "robots", "planning", "pose", "sweep")]
-# What needs a cloud or models that are not here, or GNU parallel; other tests run it.
-ELSEWHERE = ["reconstruct", "bench", "--shard"]
+# What needs a cloud, models that are not here or GNU parallel, or takes a minute; other tests run it.
+ELSEWHERE = ["reconstruct", "bench", "--shard", "compare"]
 BLOCK = re.compile(r"(?:P = (?P<said>[\d.]+)\.)?\n+```sh\n(?P<lines>.*?)^```", re.DOTALL | re.MULTILINE)
 
 
