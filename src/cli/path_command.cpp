@@ -14,6 +14,7 @@
 #include "cli/prepared_scene.h"
 #include "cli/progress_bar.h"
 #include "cli/result_report.h"
+#include "cli/robot_reproduction.h"
 #include "cli/run.h"
 #include "cli/self_report.h"
 #include "fcl_prob/exceptions.h"
@@ -42,6 +43,7 @@ struct PathArguments {
   bool json = false;
   std::string output;
   std::string certificate;  ///< its file, empty for none
+  std::string reproduce;    ///< a folder, likewise
 };
 
 struct PathReport {
@@ -334,8 +336,15 @@ ProbableReport answerProbably(RobotScene scene, double chance) {
   return report;
 }
 
+void reproduce(const RobotScene& scene, const PathArguments& arguments,
+               const ordered_json& answer) {
+  if (arguments.reproduce.empty()) return;
+  writeRobotReproduction(scene, arguments.scene, answer, arguments.reproduce);
+}
+
 int runProbably(const PathArguments& arguments, const RobotScene& scene) {
   const ProbableReport report = answerProbably(scene, *arguments.probable);
+  reproduce(scene, arguments, jsonOf(report));
   deliver(arguments.json ? jsonOf(report).dump() + "\n" : textOf(report), arguments.output);
   return stoppedByLimit(report.result.status) ? kStopped : kAnswered;
 }
@@ -344,6 +353,7 @@ int runPath(const PathArguments& arguments) {
   const RobotScene scene = sceneOf(arguments);
   if (arguments.probable) return runProbably(arguments, scene);
   const PathReport report = answer(scene, arguments);
+  reproduce(scene, arguments, jsonOf(report, scene));
   deliver(arguments.json ? jsonOf(report, scene).dump() + "\n" : textOf(report, scene),
           arguments.output);
   const bool stopped =
@@ -387,6 +397,9 @@ void addPathCommand(CLI::App& app, int& exit_code) {
   command.add_option("--certificate", arguments->certificate,
                      "Write what fcl_prob_verify needs to check the interval to this file: one "
                      "state, or waypoints with persistent errors, of meshes and boxes");
+  command.add_option("--reproduce", arguments->reproduce,
+                     "Write a folder to this path that needs no other file: scene, URDF, meshes, "
+                     "version and answer, for a report of a fault");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
   command.callback([arguments, &exit_code] { exit_code = runPath(*arguments); });
 }

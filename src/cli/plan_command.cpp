@@ -9,6 +9,7 @@
 #include "cli/output.h"
 #include "cli/planned_path.h"
 #include "cli/progress_bar.h"
+#include "cli/robot_reproduction.h"
 #include "cli/run.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
@@ -30,6 +31,7 @@ struct PlanArguments {
   bool json = false;
   std::string output;
   std::string csv;
+  std::string reproduce;  ///< a folder, empty for none
 };
 
 RobotScene planSceneOf(const PlanArguments& arguments) {
@@ -155,6 +157,9 @@ int runPlan(const PlanArguments& arguments) {
     json["time_ms"] = watch.milliseconds();
     report = json.dump() + "\n";
   }
+  if (!arguments.reproduce.empty()) {
+    writeRobotReproduction(scene, arguments.scene, plan.json, arguments.reproduce);
+  }
   deliver(report, arguments.output);
   if (plan.solved && !arguments.csv.empty()) writeFile(arguments.csv, plan.csv);
   return plan.solved ? kAnswered : kStopped;
@@ -182,6 +187,9 @@ void addPlanCommand(CLI::App& app, int& exit_code) {
   command.add_flag("--not-shortened", arguments->not_shortened, "The path as it is found");
   command.add_flag("--json", arguments->json, "One JSON object, which path reads, instead of text");
   command.add_option("--output", arguments->output, "Write to this file, whole or not at all");
+  command.add_option("--reproduce", arguments->reproduce,
+                     "Write a folder to this path that needs no other file: scene, URDF, meshes, "
+                     "version and answer, for a report of a fault");
   command.add_option("--csv", arguments->csv, "Also write the waypoints as CSV, which path reads");
   command.callback([arguments, &exit_code] { exit_code = runPlan(*arguments); });
 }

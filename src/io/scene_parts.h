@@ -26,4 +26,8 @@ ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request =
 /// \param folder  that mesh paths are relative to
 SceneObject readShapeAndPose(StrictObject& object, const std::filesystem::path& folder);
 
+/// As the readers take them: a mesh with its vertices and triangles, and a request.
+nlohmann::ordered_json meshJson(const TriangleMesh& mesh);
+nlohmann::ordered_json requestJson(const ProbabilityRequest& request);
+
 }  // namespace fcl_prob::detail

@@ -16,6 +16,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/scene_io.h"
 #include "io/quantities.h"
+#include "io/scene_parts.h"
 
 namespace fcl_prob {
 namespace {
@@ -33,17 +34,6 @@ Json triangleOf(const Matrix& covariance) {
     for (int j = i; j < covariance.cols(); ++j) list.push_back(covariance(i, j));
   }
   return list;
-}
-
-Json meshOf(const TriangleMesh& mesh) {
-  Json vertices = Json::array(), triangles = Json::array();
-  for (const fcl::Vector3d& v : mesh.vertices) {
-    for (int k = 0; k < 3; ++k) vertices.push_back(v[k]);
-  }
-  for (const fcl::Triangle& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) triangles.push_back(t[k]);
-  }
-  return {{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}};
 }
 
 template <class Shape>
@@ -87,7 +77,7 @@ Json objectOf(const SceneObject& object) {
   }
   Json json;
   if (const auto* mesh = std::get_if<MeshFile>(&object.shape)) {
-    json["mesh"] = meshOf(mesh->read());
+    json["mesh"] = detail::meshJson(mesh->read());
   } else {
     json = primitiveOf(*std::get<PrimitiveShape>(object.shape));
   }
@@ -103,19 +93,35 @@ Json objectOf(const SceneObject& object) {
   return json;
 }
 
-Json requestOf(const ProbabilityRequest& request) {
+}  // namespace
+
+namespace detail {
+
+Json meshJson(const TriangleMesh& mesh) {
+  Json vertices = Json::array(), triangles = Json::array();
+  for (const fcl::Vector3d& v : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) vertices.push_back(v[k]);
+  }
+  for (const fcl::Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) triangles.push_back(t[k]);
+  }
+  return {{"vertices", std::move(vertices)}, {"triangles", std::move(triangles)}};
+}
+
+Json requestJson(const ProbabilityRequest& request) {
   Json json{{"method", toString(request.method)},
-            {"contact", detail::toString(request.contact)},
+            {"contact", toString(request.contact)},
             {"relative_tolerance", request.relative_tolerance},
             {"absolute_tolerance", request.absolute_tolerance},
             {"confidence", request.confidence},
             {"samples", request.samples},
             {"seed", request.seed}};
   if (request.threshold) json["threshold"] = *request.threshold;
+  if (request.time_limit) json["time_limit"] = *request.time_limit;
   return json;
 }
 
-}  // namespace
+}  // namespace detail
 
 void writeScene(const Scene& scene, const std::string& description, std::ostream& out) {
   Json json{{"description", description}, {"a", objectOf(scene.a)}, {"b", objectOf(scene.b)}};
@@ -128,7 +134,7 @@ void writeScene(const Scene& scene, const std::string& description, std::ostream
     json["displacement"] = {{"covariance", triangleOf(scene.displacement.covariance())},
                             {"mean", listOf(scene.displacement.mean())}};
   }
-  json["request"] = requestOf(scene.request);
+  json["request"] = detail::requestJson(scene.request);
   out << json.dump() << '\n';
 }
 

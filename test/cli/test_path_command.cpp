@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob path, from outside.
 #ifdef FCL_PROB_HAS_ROBOT
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "catch.h"
@@ -177,6 +179,58 @@ TEST_CASE("path tells of a state that collides with itself", "[cli]") {
   const CommandResult text = runCommand({"path", "--scene", "scene.json"}, folder);
   CHECK(text.out.find("collides with itself: left_finger and right_finger at 2") !=
         std::string::npos);
+}
+
+TEST_CASE("a reproduction of a robot needs no other file, and has the same bits", "[cli]") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path("given/part"));
+  std::filesystem::copy_file(dataFile("mug.obj"), folder.path("given/part/mug.obj"));
+  std::filesystem::copy_file(dataFile("gripper_finger.off"), folder.path("given/finger.off"));
+  const std::string body = "<collision><geometry><mesh filename=";
+  const std::string end = "/></geometry></collision></link>";
+  const auto jointTo = [](const std::string& link) {
+    return "<joint name='to_" + link + "' type='continuous'><parent link='base'/><child link='" +
+           link + "'/><axis xyz='0 0 1'/></joint>";
+  };
+  folder.write("given/robot.urdf", "<robot name='r'><link name='base'/><link name='a'>" + body +
+                                       "\"package://part/mug.obj\" scale='1 -1 1'" + end +
+                                       "<link name='b'>" + body + "'finger.off'" + end +
+                                       jointTo("a") + jointTo("b") + "</robot>");
+  folder.write("given/robot.srdf",
+               "<robot name='r'><disable_collisions link1='a' link2='b' reason='Never'/></robot>");
+  folder.write("given/scene.json", R"({
+    "robot": {"urdf": "robot.urdf", "srdf": "robot.srdf", "packages": {"part": "part"}},
+    "obstacles": [
+      {"name": "mug", "mesh": "part/mug.obj", "scale": 0.7, "pose": [0.11, 0, 0.02, 1, 0, 0, 0],
+       "displacement": {"sigma": [0.01, 0.02, 0.01]}},
+      {"name": "other", "robot": {"urdf": "robot.urdf", "packages": {"part": "part"}, "joints": {"to_a": 1}},
+       "pose": [-0.12, 0, 0, 1, 0, 0, 0], "displacement": {"sigma": [0.01, 0.01, 0.02]}},
+      {"name": "two", "bodies": [{"sphere": 0.02}, {"mesh": "finger.off", "normalize": true, "scale": 0.1}],
+       "pose": [0, 0.15, 0.1, 1, 0, 0, 0], "displacement": {"sigma": [0.02, 0.01, 0.01]}}],
+    "waypoints": [{"to_a": 0.1}, {"to_a": 0.3, "to_b": 0.2}]})");
+  const auto ask = [&](const std::string& scene, const std::vector<std::string>& more) {
+    std::vector<std::string> options{"path", "--scene", folder.path(scene), "--json"};
+    options.insert(options.end(), more.begin(), more.end());
+    const CommandResult result = runCommand(options, folder);
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    return json::parse(result.out);
+  };
+  const std::string fault = folder.path("fault");
+  const json first = ask("given/scene.json",
+                         {"--errors", "independent", "--tolerance", "0.07", "--reproduce", fault});
+  CHECK(
+      runCommand({"path", "--scene", folder.path("given/scene.json"), "--reproduce", fault}, folder)
+          .err.find("is there already") != std::string::npos);
+  std::filesystem::remove_all(folder.path("given"));
+  const json again = ask("fault/scene.json", {});
+  CHECK(first.at("lower").get<double>() > 1e-3);
+  for (const char* key : {"lower", "upper", "status", "parts", "by_waypoint", "self_collisions"}) {
+    CHECK(first.at(key) == again.at(key));
+  }
+  std::ifstream stream(folder.path("fault/scene.json"));
+  const std::string description = json::parse(stream)["description"];
+  CHECK(description.find("\"lower\":" + first["lower"].dump()) != std::string::npos);
 }
 
 TEST_CASE("path says in one line what is wrong with a scene", "[cli]") {

@@ -35,8 +35,9 @@ json motionOf(const std::string& file, const TemporaryFolder& folder) {
 
 TEST_CASE("plan writes paths that path reads as the same motion", "[cli]") {
   const TemporaryFolder folder;
-  const CommandResult result =
-      runCommand(planOptions({"--json", "--output", "plan.json", "--csv", "plan.csv"}), folder);
+  const CommandResult result = runCommand(
+      planOptions({"--json", "--output", "plan.json", "--csv", "plan.csv", "--reproduce", "fault"}),
+      folder);
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
   CHECK(result.out.empty());
@@ -45,6 +46,9 @@ TEST_CASE("plan writes paths that path reads as the same motion", "[cli]") {
   CHECK(plan.at("largest").at("upper").get<double>() <= 0.05);
   CHECK(plan.at("waypoints").size() >= 2);
   CHECK(plan.at("waypoints")[0].at("turn") == 0.9);
+  const CommandResult again = runCommand({"plan", "--scene", "fault/scene.json", "--json"}, folder);
+  REQUIRE(again.exit_code == 0);
+  CHECK(json::parse(again.out).at("waypoints") == plan.at("waypoints"));
   const json from_json = motionOf("plan.json", folder), from_csv = motionOf("plan.csv", folder);
   CHECK(from_json.at("waypoints").get<std::size_t>() > plan.at("waypoints").size());
   CHECK(from_json.at("self_collisions").empty());
