@@ -18,7 +18,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr int kPlanesPerDirection = 7;
+/// The best of these is refined. Seven take twice as long and do not lead to smaller parts (nine
+/// meshes of 500 to 6,090 triangles: volumes of 40 parts within 1 %, or larger).
+constexpr int kPlanesPerDirection = 3;
 constexpr int kSupportDirections = 92;
 constexpr int kRefinements = 4;
 
@@ -253,16 +255,6 @@ double hullVolumeOf(const Piece& piece) {
   return whole.hullVolume();
 }
 
-/// Of the hulls of both sides, each cut once more where that helps.
-double volumeAfterCuts(const Piece& piece, const CutPlane& plane) {
-  double volume = 0.0;
-  for (const CutPlane& side : {plane, plane.flipped()}) {
-    const Piece half = piece.below(side, side.normal == plane.normal);
-    if (!half.isEmpty()) volume += hullVolumeOf(half) - bestCut(half).gain;
-  }
-  return volume;
-}
-
 /// A plane with the volume of the two hulls.
 struct TriedCut {
   double volume;
@@ -296,6 +288,23 @@ TriedCut bestOf(const std::vector<ParallelCuts>& cuts, double volume) {
   return best;
 }
 
+std::vector<ParallelCuts> cutsAlong(const Points& directions, const Piece& piece) {
+  std::vector<ParallelCuts> cuts;
+  for (const Eigen::Vector3d& direction : directions) cuts.emplace_back(piece, direction);
+  return cuts;
+}
+
+/// Of the hulls of both sides, each cut once more, along axes, where that helps.
+double volumeAfterCuts(const Piece& piece, const CutPlane& plane) {
+  double volume = 0.0;
+  for (const CutPlane& side : {plane, plane.flipped()}) {
+    const Piece half = piece.below(side, side.normal == plane.normal);
+    if (half.isEmpty()) continue;
+    volume += bestOf(cutsAlong(axesOf(half.surface), half), hullVolumeOf(half)).volume;
+  }
+  return volume;
+}
+
 /// Not of the extreme points only.
 double exactHullVolumeOf(const Piece& piece) {
   Points points = piece.surface.vertices();
@@ -318,8 +327,7 @@ BestCut bestCut(const Piece& piece) {
   if (piece.surface.isEmpty()) return {};
   const double volume = hullVolumeOf(piece);
   const Points directions = cutDirections(piece.surface);
-  std::vector<ParallelCuts> cuts;
-  for (const Eigen::Vector3d& direction : directions) cuts.emplace_back(piece, direction);
+  const std::vector<ParallelCuts> cuts = cutsAlong(directions, piece);
   const TriedCut tried = bestOf(cuts, volume);
   if (tried.direction == cuts.size()) return {};
   const auto refined = cuts[tried.direction].refined({tried.volume, tried.offset});
