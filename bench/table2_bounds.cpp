@@ -50,7 +50,7 @@ struct OfScene {
 };
 
 using SceneParts = OfScene<ConvexParts>;
-using SceneTrees = OfScene<std::vector<PartTree>>;
+using SceneTrees = OfScene<PartTree>;
 using SceneBalls = OfScene<detail::Ball>;
 
 SceneParts partsOf(const Table2Scene& scene, PartsOfMeshes& known) {
@@ -66,13 +66,9 @@ SceneParts partsOf(const Table2Scene& scene, PartsOfMeshes& known) {
   });
 }
 
-std::shared_ptr<const SceneTrees> treesOf(const SceneParts& parts,
-                                          const std::vector<PartVolume>& volumes) {
-  return std::make_shared<const SceneTrees>(parts, [&volumes](const ConvexParts& of_one) {
-    std::vector<PartTree> trees;
-    for (const PartVolume volume : volumes) trees.emplace_back(of_one, volume);
-    return trees;
-  });
+std::shared_ptr<const SceneTrees> treesOf(const SceneParts& parts, PartVolume volume) {
+  return std::make_shared<const SceneTrees>(
+      parts, [volume](const ConvexParts& of_one) { return PartTree(of_one, volume); });
 }
 
 /// What balls say of a pair, where that hardly matters.
@@ -128,20 +124,20 @@ class SumRow {
   PairUpper upper_;
 };
 
-/// The paper's sum over trees of the last volume; the others are coarser ones, the coarsest first.
+/// The paper's sum.
 PairUpper overTrees(std::shared_ptr<const SceneTrees> trees, double share,
                     GeneralPcdVariant variant = GeneralPcdVariant::sum) {
   return [trees = std::move(trees), share, variant](const PlacedPair& pair, double enough) {
-    const std::vector<PartTree>& a = trees->bodies[pair.body];
-    const std::vector<PartTree>& b = trees->obstacles[pair.index];
+    const PartTree& a = trees->bodies[pair.body];
+    const PartTree& b = trees->obstacles[pair.index];
     GeneralPcdRequest request;
     request.confidence = kConfidenceOfPaths;
     request.variant = variant;
     request.stop_at_one = enough <= 1.0;
-    const std::size_t parts_of_a = (a[0].nodeCount() + 1) / 2;
-    const std::size_t parts_of_b = (b[0].nodeCount() + 1) / 2;
-    return generalPcd(a, pair.body_pose, b, pair.obstacle.pose, pair.displacement(),
-                      share / static_cast<double>(parts_of_a * parts_of_b), request)
+    const std::size_t parts_of_a = (a.nodeCount() + 1) / 2;
+    const std::size_t parts_of_b = (b.nodeCount() + 1) / 2;
+    request.negligible = share / static_cast<double>(parts_of_a * parts_of_b);
+    return generalPcd(a, pair.body_pose, b, pair.obstacle.pose, pair.displacement(), request)
         .raw_sum;
   };
 }
@@ -163,17 +159,16 @@ PairUpper byHunter(std::shared_ptr<const SceneParts> parts, PairUpper sum, doubl
 std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsOfMeshes& known) {
   const auto parts = std::make_shared<const SceneParts>(partsOf(scene, known));
   const BallBound balls(scene);
-  const auto sum = [&](const std::vector<PartVolume>& volumes) {
-    return overTrees(treesOf(*parts, volumes), balls.share());
+  const auto sum = [&](PartVolume volume) {
+    return overTrees(treesOf(*parts, volume), balls.share());
   };
-  const std::vector<PartVolume> to_hulls{PartVolume::obb, PartVolume::kdop26, PartVolume::convex};
-  const auto hulls = treesOf(*parts, to_hulls);
+  const auto hulls = treesOf(*parts, PartVolume::convex);
   const PairUpper sum_of_hulls = overTrees(hulls, balls.share());
   std::vector<Table2Method> methods{
-      {"spheres, printed sum", "sphere", SumRow(balls, sum({PartVolume::sphere}))},
-      {"AABBs, printed sum", "aabb", SumRow(balls, sum({PartVolume::aabb}))},
-      {"OBBs, printed sum", "obb", SumRow(balls, sum({PartVolume::obb}))},
-      {"26-DOPs, printed sum", "kdop26", SumRow(balls, sum({PartVolume::obb, PartVolume::kdop26}))},
+      {"spheres, printed sum", "sphere", SumRow(balls, sum(PartVolume::sphere))},
+      {"AABBs, printed sum", "aabb", SumRow(balls, sum(PartVolume::aabb))},
+      {"OBBs, printed sum", "obb", SumRow(balls, sum(PartVolume::obb))},
+      {"26-DOPs, printed sum", "kdop26", SumRow(balls, sum(PartVolume::kdop26))},
       {"hulls, printed sum", "convex", SumRow(balls, sum_of_hulls)},
       {"hulls, minimum", "",
        SumRow(balls, overTrees(hulls, balls.share(), GeneralPcdVariant::minimum))},

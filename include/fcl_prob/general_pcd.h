@@ -35,6 +35,11 @@ struct GeneralPcdRequest {
   /// pairs are.
   double confidence = 0.99;
 
+  /// A pair that one half-space bounds below this counts with that bound, which takes microseconds
+  /// whatever the faces: the sum is larger by no more than this for each pair that is summed. At
+  /// least 0; displacements of rank 3 only.
+  double negligible = 0.0;
+
   GeneralPcdVariant variant = GeneralPcdVariant::sum;
   LeafBound leaf_bound = LeafBound::volumes;
 

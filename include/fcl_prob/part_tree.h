@@ -61,14 +61,4 @@ GeneralPcdResult generalPcd(const PartTree& a, const fcl::Transform3d& pose_a, c
                             const GaussianDisplacement& displacement,
                             const GeneralPcdRequest& request = {});
 
-/// The same in less time. \param a, b  trees of the same parts, the coarsest bounding volume first,
-/// that of the bound last \param negligible  where a coarse volume gives less for a pair of nodes,
-/// that is its bound: the sum exceeds that over the last trees by no more than this for each pair
-/// of parts. \throws InvalidRequest also without a tree, unless A has as many as B, for trees of
-/// different numbers of parts of one object, or unless `negligible` is at least 0
-GeneralPcdResult generalPcd(const std::vector<PartTree>& a, const fcl::Transform3d& pose_a,
-                            const std::vector<PartTree>& b, const fcl::Transform3d& pose_b,
-                            const GaussianDisplacement& displacement, double negligible,
-                            const GeneralPcdRequest& request = {});
-
 }  // namespace fcl_prob

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/interruption.h"
+#include "convex/c_obstacle.h"
 #include "fcl_prob/convex_pcd.h"
 
 namespace fcl_prob::detail {
@@ -17,5 +18,6 @@ ConvexPcdBounds convexPcd(const ConvexBody& a, const fcl::Transform3d& pose_a, c
 /// in microseconds whatever their faces. 1 where GJK proposes none, and for ranks below 3.
 double halfSpaceUpper(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                       const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement);
+double halfSpaceUpper(const CObstacle& obstacle);
 
 }  // namespace fcl_prob::detail

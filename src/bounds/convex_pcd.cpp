@@ -31,11 +31,14 @@ double detail::halfSpaceUpper(const ConvexBody& a, const fcl::Transform3d& pose_
                               const ConvexBody& b, const fcl::Transform3d& pose_b,
                               const GaussianDisplacement& displacement) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
-  if (frame.rank < 3 || !frame.fits) return 1.0;
-  const PairObstacle obstacle(frame, a.set(), b.set());
-  const Eigen::Vector3d towards = gjkDirection(*obstacle);
+  return halfSpaceUpper(*PairObstacle(frame, a.set(), b.set()));
+}
+
+double detail::halfSpaceUpper(const CObstacle& obstacle) {
+  if (obstacle.frame().rank < 3 || !obstacle.frame().fits) return 1.0;
+  const Eigen::Vector3d towards = gjkDirection(obstacle);
   if (!(towards.squaredNorm() > 0.5)) return 1.0;
-  const double offset = -obstacle->support(-towards) * (1.0 - kHalfSpaceRounding);
+  const double offset = -obstacle.support(-towards) * (1.0 - kHalfSpaceRounding);
   if (!(offset > 0.0)) return 1.0;
   return normalTailMass(offset) * (1.0 + kHalfSpaceRounding) + kUnderflow;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "paper/node_pairs.h"
 
+#include "bounds/convex_bound.h"
 #include "convex/pair_obstacle.h"
 
 namespace fcl_prob::detail {
@@ -12,6 +13,14 @@ double NodePairs::bound(int node_a, int node_b) {
 
 double NodePairs::pieceBound(int leaf_a, int leaf_b) {
   return least(*PairObstacle(frame_, a_.piece(leaf_a), b_.piece(leaf_b)));
+}
+
+double NodePairs::least(const CObstacle& obstacle) {
+  if (negligible_ > 0.0) {
+    const double upper = halfSpaceUpper(obstacle);
+    if (upper < negligible_) return upper;
+  }
+  return pair_bounds_.bounds(obstacle, enough_).least;
 }
 
 bool NodePairs::refinesA(int node_a, int node_b) const {

@@ -31,6 +31,9 @@ class NodePairs {
   /// A bound of at least this need not be exact (pairs that will be refined anyway).
   void setEnough(double bound) { enough_ = bound; }
 
+  /// GeneralPcdRequest::negligible.
+  void setNegligible(double bound) { negligible_ = bound; }
+
   /// The same for two leaves by the pieces themselves.
   double pieceBound(int leaf_a, int leaf_b);
 
@@ -44,13 +47,14 @@ class NodePairs {
 
  protected:
   const PairFrame& frame() const { return frame_; }
-  double least(const CObstacle& obstacle) { return pair_bounds_.bounds(obstacle, enough_).least; }
+  double least(const CObstacle& obstacle);
 
  private:
   const BoundingTree& a_;
   const BoundingTree& b_;
   const PairFrame& frame_;
   double enough_ = PairBounds::kNeverEnough;
+  double negligible_ = 0.0;
   PairBounds pair_bounds_;
 };
 
@@ -73,28 +77,6 @@ class RoundedNodePairs : public NodePairs {
  private:
   const fcl::BVHModel<BV>& model_a_;
   const fcl::BVHModel<BV>& model_b_;
-};
-
-/// Trees of the same nodes, of several bounding volumes: the bound by a coarse one stands where it
-/// is negligible.
-class ScreenedNodePairs final : public NodePairs {
- public:
-  /// \param coarse  the coarsest first
-  ScreenedNodePairs(const BoundingTree& a, const BoundingTree& b, const PairFrame& frame,
-                    std::vector<NodePairs> coarse, double negligible)
-      : NodePairs(a, b, frame), coarse_(std::move(coarse)), negligible_(negligible) {}
-
-  double bound(int node_a, int node_b) override {
-    for (NodePairs& pairs : coarse_) {
-      const double upper = pairs.bound(node_a, node_b);
-      if (upper < negligible_) return upper;
-    }
-    return NodePairs::bound(node_a, node_b);
-  }
-
- private:
-  std::vector<NodePairs> coarse_;
-  double negligible_;
 };
 
 /// A kIOS is bounded both by its OBB and by its smallest sphere.

@@ -97,6 +97,10 @@ void validateGeneralPcdRequest(const GeneralPcdRequest& request) {
   if (!(request.confidence >= 0.0 && request.confidence <= 1.0)) {
     throw InvalidRequest("confidence is " + numberText(request.confidence) + ", must be in [0, 1]");
   }
+  if (!(request.negligible >= 0.0)) {
+    throw InvalidRequest("negligible is " + numberText(request.negligible) +
+                         ", must be at least 0");
+  }
   if (request.max_pairs == 0) throw InvalidRequest("max_pairs is 0, must be at least 1");
 }
 

@@ -12,7 +12,9 @@ namespace fcl_prob::detail {
 class PairSum {
  public:
   PairSum(NodePairs& pairs, const GeneralPcdRequest& request)
-      : pairs_(pairs), request_(request), threshold_(1.0 - request.confidence) {}
+      : pairs_(pairs), request_(request), threshold_(1.0 - request.confidence) {
+    pairs_.setNegligible(request.negligible);
+  }
 
   NodePairs& pairs() { return pairs_; }
 

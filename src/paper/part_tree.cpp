@@ -80,32 +80,6 @@ Bounded bounded(PartVolume volume, const Points& points) {
   throw InvalidRequest("not one of PartVolume");
 }
 
-void requireAlike(const std::vector<PartTree>& a, const std::vector<PartTree>& b) {
-  if (a.empty() || a.size() != b.size()) {
-    throw InvalidRequest("GeneralPCD over parts needs a tree of each object, and as many of both");
-  }
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].boundingVolume() != b[i].boundingVolume()) {
-      throw InvalidRequest("GeneralPCD needs one bounding volume for both trees of parts");
-    }
-    if (a[i].nodeCount() != a[0].nodeCount() || b[i].nodeCount() != b[0].nodeCount()) {
-      throw InvalidRequest("GeneralPCD over several trees needs them to be of the same parts");
-    }
-  }
-}
-
-double largestSize(const std::vector<PartTree>& trees) {
-  double largest = 0.0;
-  for (const PartTree& tree : trees) largest = std::max(largest, tree.tree().size());
-  return largest;
-}
-
-double largestSlack(const std::vector<PartTree>& trees) {
-  double largest = 0.0;
-  for (const PartTree& tree : trees) largest = std::max(largest, tree.tree().slack());
-  return largest;
-}
-
 }  // namespace
 
 PartBoundingTree::PartBoundingTree(const ConvexParts& parts, PartVolume volume)
@@ -159,30 +133,15 @@ GeneralPcdResult generalPcd(const PartTree& a, const fcl::Transform3d& pose_a, c
                             const fcl::Transform3d& pose_b,
                             const GaussianDisplacement& displacement,
                             const GeneralPcdRequest& request) {
-  return generalPcd(std::vector<PartTree>{a}, pose_a, {b}, pose_b, displacement, 0.0, request);
-}
-
-GeneralPcdResult generalPcd(const std::vector<PartTree>& a, const fcl::Transform3d& pose_a,
-                            const std::vector<PartTree>& b, const fcl::Transform3d& pose_b,
-                            const GaussianDisplacement& displacement, double negligible,
-                            const GeneralPcdRequest& request) {
-  detail::requireAlike(a, b);
-  if (!(negligible >= 0.0)) {
-    throw InvalidRequest("negligible is " + detail::numberText(negligible) +
-                         ", must be at least 0");
+  if (a.boundingVolume() != b.boundingVolume()) {
+    throw InvalidRequest("GeneralPCD needs one bounding volume for both trees of parts");
   }
   detail::validatePose(pose_a, "pose of A");
   detail::validatePose(pose_b, "pose of B");
   detail::validateGeneralPcdRequest(request);
-  detail::PairFrame frame(displacement, pose_a, detail::largestSize(a), pose_b,
-                          detail::largestSize(b));
-  frame.error += detail::largestSlack(a) + detail::largestSlack(b);
-  std::vector<detail::NodePairs> coarse;
-  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
-    coarse.emplace_back(a[i].tree(), b[i].tree(), frame);
-  }
-  detail::ScreenedNodePairs pairs(a.back().tree(), b.back().tree(), frame, std::move(coarse),
-                                  negligible);
+  detail::PairFrame frame(displacement, pose_a, a.tree().size(), pose_b, b.tree().size());
+  frame.error += a.tree().slack() + b.tree().slack();
+  detail::NodePairs pairs(a.tree(), b.tree(), frame);
   return detail::generalPcdOver(pairs, request);
 }
 

@@ -95,21 +95,20 @@ void checkRandomScene(RandomBodies& random) {
                      displacement, pcd)
               .upper >= *of_meshes.lower);
   }
-  // Coarse volumes first: no less than certain, and more than the hulls by no more than was
-  // allowed.
-  const auto trees = [](const ConvexParts& parts) {
-    return std::vector<PartTree>{
-        {parts, PartVolume::obb}, {parts, PartVolume::kdop26}, {parts, PartVolume::convex}};
-  };
-  const double negligible = random.integer(0, 1) ? 1e-2 : 1e-4;
+  // One half-space where that is enough: no less than certain, and more than the hulls by no more
+  // than was allowed.
+  GeneralPcdRequest screening;
+  screening.negligible = random.integer(0, 1) ? 1e-2 : 1e-4;
   const double screened =
-      generalPcd(trees(parts_a), pose_a, trees(parts_b), pose_b, displacement, negligible).raw_sum;
+      generalPcd(PartTree(parts_a, PartVolume::convex), pose_a,
+                 PartTree(parts_b, PartVolume::convex), pose_b, displacement, screening)
+          .raw_sum;
   const double of_hulls = generalPcd(PartTree(parts_a, PartVolume::convex), pose_a,
                                      PartTree(parts_b, PartVolume::convex), pose_b, displacement)
                               .raw_sum;
   CHECK(std::min(1.0, screened) >= *of_meshes.lower);
   const auto pairs = static_cast<double>(parts_a.size() * parts_b.size());
-  CHECK(screened <= of_hulls * (1.0 + 1e-6) + negligible * pairs);
+  CHECK(screened <= of_hulls * (1.0 + 1e-6) + screening.negligible * pairs);
 
   ProbabilityResult of_parts;
   GroupQuery(parts_a.geometries(), parts_b.geometries())
@@ -207,10 +206,11 @@ TEST_CASE("bounds of parts refuse what they cannot use", "[decomposition]") {
   CHECK_THROWS_AS(generalPcd(PartTree(parts, PartVolume::obb), identity,
                              PartTree(parts, PartVolume::aabb), identity, displacement),
                   InvalidRequest);
-  const std::vector<PartTree> one{{parts, PartVolume::obb}}, none;
-  CHECK_THROWS_AS(generalPcd(one, identity, none, identity, displacement, 0.0), InvalidRequest);
-  CHECK_THROWS_AS(generalPcd(none, identity, none, identity, displacement, 0.0), InvalidRequest);
-  CHECK_THROWS_AS(generalPcd(one, identity, one, identity, displacement, -1.0), InvalidRequest);
+  GeneralPcdRequest below_nothing;
+  below_nothing.negligible = -1.0;
+  const PartTree tree(parts, PartVolume::obb);
+  CHECK_THROWS_AS(generalPcd(tree, identity, tree, identity, displacement, below_nothing),
+                  InvalidRequest);
 }
 
 TEST_CASE("thresholds that sums decide start no partition", "[decomposition]") {
