@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "fcl_prob/robot_query.h"
@@ -42,8 +43,10 @@ struct RobotScene {
 
   /// What is to be planned: a motion from one state to another.
   struct Plan {
-    std::map<std::string, double> start;
-    std::map<std::string, double> goal;
+    /// Values of joints by name, or the name of a state of the group.
+    using State = std::variant<std::map<std::string, double>, std::string>;
+    State start;
+    State goal;
     std::vector<std::string> joints;         ///< that may move; none named: all, or
     std::string group;                       ///< those of a group of the SRDF
     std::optional<double> motion_threshold;  ///< of the whole motion
@@ -115,6 +118,11 @@ void requireExactRobot(const RobotScene& scene, const std::string& what);
 /// \throws FileError as loadGroups(); InvalidRequest for a group that is not there, or of which no
 ///         joint moves by itself
 std::vector<std::string> plannedJoints(const RobotScene& scene, const Robot& robot);
+
+/// Where the plan starts and ends, in the order of the robot's joints.
+/// \throws as Robot::values(), and as plannedJoints() for the name of a state that its group lacks
+std::pair<Eigen::VectorXd, Eigen::VectorXd> plannedEnds(const RobotScene& scene,
+                                                        const Robot& robot);
 
 /// The scene's robot against itself, with the pairs that its SRDF allows. \throws FileError
 SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot);

@@ -102,8 +102,7 @@ PlanReport answer(const RobotScene& scene, const PlanArguments& arguments, const
                   const std::function<bool(const PlanningProgress&)>& on_progress) {
   const Robot& robot = query.robot();
   const SelfCollision self = loadSelfCollision(scene, robot);
-  const Eigen::VectorXd start = robot.values(scene.plan->start);
-  const Eigen::VectorXd goal = robot.values(scene.plan->goal);
+  const auto [start, goal] = plannedEnds(scene, robot);
   if (isPredicted(scene) || scene.plan->latest) {
     TimedPlanningRequest request = timedRequestOf(scene, arguments);
     request.errors = errorsOf(scene, robot);

@@ -26,6 +26,7 @@ class StrictObject {
 
   bool has(const std::string& key) const { return value_.contains(key); }
   bool holdsObject(const std::string& key) const { return has(key) && value_[key].is_object(); }
+  bool holdsText(const std::string& key) const { return has(key) && value_[key].is_string(); }
 
   /// The object at `key`, which must be there.
   StrictObject object(const std::string& key);

@@ -48,14 +48,24 @@ void readRobot(StrictObject object, const std::filesystem::path& folder, RobotSc
   object.finish();
 }
 
+RobotScene::Plan::State readState(StrictObject& object, const std::string& key) {
+  if (object.holdsText(key)) return object.text(key);
+  return object.object(key).numbersByName();
+}
+
 RobotScene::Plan readPlan(StrictObject object) {
   RobotScene::Plan plan;
-  plan.start = object.object("start").numbersByName();
-  plan.goal = object.object("goal").numbersByName();
+  plan.start = readState(object, "start");
+  plan.goal = readState(object, "goal");
   if (object.has("joints") && object.oneOf({"joints", "group"}) == "joints") {
     plan.joints = object.texts("joints");
   }
   if (object.has("group")) plan.group = object.text("group");
+  for (const char* key : {"start", "goal"}) {
+    if (object.holdsText(key) && plan.group.empty()) {
+      object.fail(key, "the name of a state needs the group that it is of");
+    }
+  }
   if (object.has("motion_threshold")) plan.motion_threshold = object.number("motion_threshold");
   if (object.has("seed")) plan.seed = object.count("seed");
   if (object.has("max_states")) plan.max_states = object.count("max_states");
@@ -175,6 +185,15 @@ Obstacle loadPredicted(const RobotScene& scene, const Robot& robot,
   return obstacle;
 }
 
+/// The group of the SRDF that the plan names. \throws InvalidRequest if nothing of it moves
+RobotGroup plannedGroup(const RobotScene& scene, const Robot& robot) {
+  const RobotGroups groups = loadGroups(scene.srdf, robot);
+  const auto group = groups.find(scene.plan->group);
+  if (group != groups.end() && !group->second.joints.empty()) return group->second;
+  throw InvalidRequest(scene.srdf + ": no group " + scene.plan->group +
+                       " with joints that move by themselves");
+}
+
 }  // namespace
 
 RobotScene loadRobotScene(const std::string& path) {
@@ -243,12 +262,20 @@ SelfCollision loadSelfCollision(const RobotScene& scene, const Robot& robot) {
 
 std::vector<std::string> plannedJoints(const RobotScene& scene, const Robot& robot) {
   const RobotScene::Plan& plan = scene.plan.value();
-  if (plan.group.empty()) return plan.joints;
-  const RobotGroups groups = loadGroups(scene.srdf, robot);
-  const auto group = groups.find(plan.group);
-  if (group != groups.end() && !group->second.joints.empty()) return group->second.joints;
-  throw InvalidRequest(scene.srdf + ": no group " + plan.group +
-                       " with joints that move by themselves");
+  return plan.group.empty() ? plan.joints : plannedGroup(scene, robot).joints;
+}
+
+std::pair<Eigen::VectorXd, Eigen::VectorXd> plannedEnds(const RobotScene& scene,
+                                                        const Robot& robot) {
+  const auto valuesOf = [&](const RobotScene::Plan::State& state) {
+    if (const auto* by_name = std::get_if<0>(&state)) return robot.values(*by_name);
+    const std::string& name = std::get<std::string>(state);
+    const RobotGroup group = plannedGroup(scene, robot);
+    const auto found = group.states.find(name);
+    if (found != group.states.end()) return robot.values(found->second);
+    throw InvalidRequest(scene.srdf + ": group " + scene.plan->group + " has no state " + name);
+  };
+  return {valuesOf(scene.plan->start), valuesOf(scene.plan->goal)};
 }
 
 bool isPredicted(const RobotScene& scene) {

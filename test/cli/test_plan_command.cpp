@@ -74,7 +74,9 @@ TEST_CASE("plan says why there is no path", "[cli]") {
 TEST_CASE("plan moves the joints of a group of the SRDF and no others", "[cli]") {
   const TemporaryFolder folder;
   folder.write("arm.srdf",
-               "<robot name=\"arm\"><group name=\"turret\"><joint name=\"turn\"/></group></robot>");
+               "<robot name=\"arm\"><group name=\"turret\"><joint name=\"turn\"/></group>"
+               "<group_state name=\"aside\" group=\"turret\"><joint name=\"turn\" value=\"-1\"/>"
+               "</group_state></robot>");
   json scene{{"robot", {{"urdf", dataFile("arm.urdf")}, {"srdf", "arm.srdf"}}}};
   scene["obstacles"] = {{{"name", "far"},
                          {"sphere", 0.1},
@@ -91,6 +93,24 @@ TEST_CASE("plan moves the joints of a group of the SRDF and no others", "[cli]")
   for (const json& waypoint : json::parse(result.out).at("waypoints")) {
     CHECK(waypoint.at("elbow") == 0.5);
   }
+  // From a state that the SRDF names.
+  scene["plan"]["start"] = "aside";
+  scene["plan"]["goal"] = {{"turn", 1.0}};
+  folder.write("scene.json", scene.dump());
+  const CommandResult named = runCommand({"plan", "--scene", "scene.json", "--json"}, folder);
+  CAPTURE(named.err);
+  REQUIRE(named.exit_code == 0);
+  CHECK(json::parse(named.out).at("waypoints")[0].at("turn") == -1.0);
+  scene["plan"]["start"] = "nowhere";
+  folder.write("scene.json", scene.dump());
+  const CommandResult nowhere = runCommand({"plan", "--scene", "scene.json"}, folder);
+  CHECK((nowhere.refused() &&
+         nowhere.err.find("group turret has no state nowhere") != std::string::npos));
+  scene["plan"].erase("group");
+  folder.write("scene.json", scene.dump());
+  CHECK(runCommand({"plan", "--scene", "scene.json"}, folder).refused());
+  scene["plan"]["start"] = {{"turn", -1.0}, {"elbow", 0.5}};
+  scene["plan"]["goal"] = {{"turn", 1.0}, {"elbow", 0.5}};
   scene["plan"]["group"] = "wrist";
   folder.write("scene.json", scene.dump());
   CHECK(runCommand({"plan", "--scene", "scene.json"}, folder).refused());

@@ -22,8 +22,9 @@ struct PlanScene {
   RobotScene scene = loadRobotScene(std::string(FCL_PROB_SOURCE_DIR) + "/data/arm_plan.json");
   RobotQuery query = loadRobotQuery(scene);
   SelfCollision self = loadSelfCollision(scene, query.robot());
-  Eigen::VectorXd start = query.robot().values(scene.plan->start);
-  Eigen::VectorXd goal = query.robot().values(scene.plan->goal);
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> ends = plannedEnds(scene, query.robot());
+  Eigen::VectorXd start = ends.first;
+  Eigen::VectorXd goal = ends.second;
 
   CertifiedPlanningRequest request(std::uint64_t seed) const {
     CertifiedPlanningRequest result;
