@@ -271,7 +271,7 @@ AnimatedScene motionScene(const RobotQuery& query, const std::vector<Eigen::Vect
 
 RobotScene drawnSceneOf(const MotionExportArguments& arguments) {
   RobotScene scene = loadRobotScene(arguments.scene);
-  if (!arguments.motion.empty()) scene.waypoints = loadWaypoints(arguments.motion);
+  if (!arguments.motion.empty()) loadMotion(arguments.motion, scene);
   if (arguments.largest_step) scene.largest_step = arguments.largest_step;
   scene.robot.allow_outside_limits |= arguments.allow_outside_limits;
   if (scene.waypoints.empty()) {

@@ -33,6 +33,7 @@ struct PathArguments {
   std::optional<double> threshold;
   std::optional<double> time_limit;
   std::optional<double> largest_step;
+  std::optional<std::size_t> max_cells;
   std::optional<double> probable;
   std::string method;
   std::string errors;
@@ -79,13 +80,14 @@ std::string errorsTold(ErrorsOverTime errors) {
 
 RobotScene sceneOf(const PathArguments& arguments) {
   RobotScene scene = loadRobotScene(arguments.scene);
-  if (!arguments.motion.empty()) scene.waypoints = loadWaypoints(arguments.motion);
+  if (!arguments.motion.empty()) loadMotion(arguments.motion, scene);
   if (arguments.relative_tolerance) {
     scene.request.relative_tolerance = *arguments.relative_tolerance;
   }
   if (arguments.threshold) scene.request.threshold = arguments.threshold;
   if (arguments.time_limit) scene.request.time_limit = arguments.time_limit;
   if (arguments.largest_step) scene.largest_step = arguments.largest_step;
+  if (arguments.max_cells) scene.request.max_cells = *arguments.max_cells;
   if (!arguments.method.empty()) scene.request.method = *methodFromString(arguments.method);
   if (!arguments.errors.empty()) {
     scene.errors = errorsFrom(arguments.errors);
@@ -376,7 +378,9 @@ void addPathCommand(CLI::App& app, int& exit_code) {
       .add_option("--errors", arguments->errors,
                   "Drawn once, anew at every waypoint, or bounds for whatever they are")
       ->check(CLI::IsMember({"persistent", "independent", "any-dependence"}));
-  command.add_option("--tolerance", arguments->relative_tolerance, "Relative");
+  command.add_option("--tolerance,--relative-tolerance", arguments->relative_tolerance, "Relative");
+  command.add_option("--max-cells", arguments->max_cells, "Cells to look at, at most")
+      ->check(CLI::PositiveNumber);
   command.add_option("--threshold", arguments->threshold, "Decide whether P is below or above");
   command.add_option("--probable", arguments->probable,
                      "Decide the threshold with samples, wrong with at most this chance");

@@ -25,6 +25,7 @@ struct PlanArguments {
   std::optional<double> largest_step;
   std::optional<double> time_limit;
   std::optional<std::size_t> max_states;
+  std::optional<std::size_t> max_cells;
   std::optional<std::uint64_t> seed;
   bool not_shortened = false;
   bool no_descent = false;
@@ -54,6 +55,7 @@ RobotScene planSceneOf(const PlanArguments& arguments) {
   if (arguments.largest_step) scene.largest_step = arguments.largest_step;
   if (arguments.max_states) scene.plan->max_states = arguments.max_states;
   if (arguments.seed) scene.plan->seed = *arguments.seed;
+  if (arguments.max_cells) scene.request.max_cells = *arguments.max_cells;
   return scene;
 }
 
@@ -180,6 +182,10 @@ void addPlanCommand(CLI::App& app, int& exit_code) {
                      "States are asked for so that no joint moves further (radians, metres)");
   command.add_option("--seed", arguments->seed, "The same seed gives the same path");
   command.add_option("--max-states", arguments->max_states, "States to ask for at most");
+  command
+      .add_option("--max-cells", arguments->max_cells,
+                  "Cells to look at for a state, at most; what is not decided then is refused")
+      ->check(CLI::PositiveNumber);
   command.add_option("--time-limit", arguments->time_limit, "Seconds, of the whole plan");
   command.add_flag("--no-descent", arguments->no_descent,
                    "Do not move a path along the gradient of P for --motion-threshold");

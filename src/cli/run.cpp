@@ -10,6 +10,7 @@
 #include "cli/output.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/version.h"
+#include "io/text_reader.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -24,6 +25,19 @@ constexpr const char* kFirstSteps =
 int complain(const std::string& message) {
   std::cerr << "fcl_prob: " << onOneLine(message) << std::endl;
   return kBadInput;
+}
+
+/// What the first word would have asked for; empty if it is a command of this build, or an option.
+std::string unknownCommand(const CLI::App& app, const std::string& word) {
+  const auto isWord = [&](const CLI::App* command) { return command->get_name() == word; };
+  if (word.empty() || word[0] == '-' || !app.get_subcommands(isWord).empty()) return {};
+  for (const auto& [name, part] :
+       {std::pair("path", "FCL_PROB_WITH_ROBOT"), std::pair("plan", "FCL_PROB_WITH_PLANNING"),
+        std::pair("reconstruct", "FCL_PROB_WITH_CLOUD"),
+        std::pair("bench", "FCL_PROB_WITH_BENCH")}) {
+    if (word == name) return word + " is not in this build, which has no " + part;
+  }
+  return "no command " + detail::inQuotes(word) + "; --help lists those there are";
 }
 
 int parseAndRun(int argc, const char* const* argv, const std::vector<AddCommand>& others) {
@@ -51,6 +65,8 @@ int parseAndRun(int argc, const char* const* argv, const std::vector<AddCommand>
   addReconstructCommand(app, exit_code);
 #endif
   for (const AddCommand add : others) add(app, exit_code);
+  const std::string unknown = unknownCommand(app, argv[1]);
+  if (!unknown.empty()) return complain(unknown);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

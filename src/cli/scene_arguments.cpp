@@ -120,7 +120,7 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   }
   if (arguments.contact) {
     const auto contact = detail::contactFromString(*arguments.contact);
-    if (!contact) throw InvalidRequest("--contact: neither fcl nor solid");
+    if (!contact) throw InvalidRequest("--contact: none of fcl, solid, contained");
     request.contact = *contact;
   }
   const auto apply = [](const auto& option, auto& field) {
@@ -132,6 +132,7 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   apply(arguments.time_limit, request.time_limit);
   apply(arguments.confidence, request.confidence);
   apply(arguments.samples, request.samples);
+  apply(arguments.max_cells, request.max_cells);
   apply(arguments.seed, request.seed);
   apply(arguments.threads, request.threads);
   if (arguments.gradient) request.gradient = true;
@@ -222,7 +223,7 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
       ->check(CLI::IsMember({"fcl", "solid", "contained"}));
   command.add_option("--threshold", arguments.threshold,
                      "Stop as soon as it is certain on which side of this the probability is");
-  command.add_option("--relative-tolerance", arguments.relative_tolerance,
+  command.add_option("--relative-tolerance,--tolerance", arguments.relative_tolerance,
                      "Width of the interval relative to its upper end");
   command.add_option("--absolute-tolerance", arguments.absolute_tolerance,
                      "Width of the interval that is always good enough");
@@ -239,6 +240,10 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--time-limit", arguments.time_limit, "Seconds");
   command.add_option("--samples", arguments.samples, "Number of samples at most")
       ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--max-cells", arguments.max_cells,
+                  "Cells of a partition, or random configurations, at most")
+      ->check(CLI::PositiveNumber);
   command
       .add_option("--threads", arguments.threads, "Of one query, too; results do not depend on it")
       ->check(CLI::NonNegativeNumber);

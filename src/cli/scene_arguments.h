@@ -45,6 +45,7 @@ struct SceneArguments {
   std::optional<double> time_limit;
   std::optional<double> confidence;
   std::optional<std::size_t> samples;
+  std::optional<std::size_t> max_cells;
   std::optional<std::uint64_t> seed;
   std::optional<unsigned> threads;
   std::optional<std::string> contact;

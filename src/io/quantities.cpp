@@ -3,6 +3,7 @@
 #include "io/quantities.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/number_text.h"
@@ -112,9 +113,14 @@ PoseError::Vector6 sixFrom(const Numbers& numbers, const std::string& name) {
 }
 
 PoseError::Matrix6 poseCovarianceFrom(const Numbers& numbers) {
+  if (numbers.size() == 36) {
+    std::array<double, 36> rows;
+    std::copy(numbers.begin(), numbers.end(), rows.begin());
+    return PoseError::fromRosCovariance(rows).covariance();
+  }
   if (numbers.size() != 21) {
     throw InvalidDistribution(
-        "a pose covariance needs 21 numbers, its upper triangle row by row, not " +
+        "a pose covariance needs 36 numbers, or 21, its upper triangle row by row, not " +
         std::to_string(numbers.size()));
   }
   PoseError::Matrix6 covariance;

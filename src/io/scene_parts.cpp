@@ -170,6 +170,7 @@ ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request) 
   readNumber("time_limit", request.time_limit);
   readNumber("confidence", request.confidence);
   if (object.has("samples")) request.samples = object.count("samples");
+  if (object.has("max_cells")) request.max_cells = object.count("max_cells");
   if (object.has("seed")) request.seed = object.count("seed");
   object.finish();
   return request;

@@ -115,6 +115,7 @@ Json requestJson(const ProbabilityRequest& request) {
             {"absolute_tolerance", request.absolute_tolerance},
             {"confidence", request.confidence},
             {"samples", request.samples},
+            {"max_cells", request.max_cells},
             {"seed", request.seed}};
   if (request.threshold) json["threshold"] = *request.threshold;
   if (request.time_limit) json["time_limit"] = *request.time_limit;

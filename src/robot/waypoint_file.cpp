@@ -81,4 +81,13 @@ NamedWaypoints loadWaypoints(const std::string& path) {
   return waypoints;
 }
 
+void loadMotion(const std::string& path, RobotScene& scene) {
+  scene.waypoints = loadWaypoints(path);
+  if (scene.largest_step || std::filesystem::path(path).extension() == ".csv") return;
+  const nlohmann::json document = detail::parseJsonFile(path);
+  detail::StrictObject root(document, path);
+  if (root.has("largest_step")) scene.largest_step = root.number("largest_step");
+  if (scene.largest_step && !(*scene.largest_step > 0.0)) root.fail("largest_step", "must be > 0");
+}
+
 }  // namespace fcl_prob

@@ -75,8 +75,9 @@ TEST_CASE("plan moves the joints of a group of the SRDF and no others", "[cli]")
   const TemporaryFolder folder;
   folder.write("arm.srdf",
                "<robot name=\"arm\"><group name=\"turret\"><joint name=\"turn\"/></group>"
-               "<group_state name=\"aside\" group=\"turret\"><joint name=\"turn\" value=\"-1\"/>"
-               "</group_state></robot>");
+               "<group name=\"both\"><joint name=\"turn\"/><joint name=\"elbow\"/></group>"
+               "<group_state name=\"aside\" group=\"both\"><joint name=\"turn\" value=\"-1\"/>"
+               "<joint name=\"elbow\" value=\"0.5\"/></group_state></robot>");
   json scene{{"robot", {{"urdf", dataFile("arm.urdf")}, {"srdf", "arm.srdf"}}}};
   scene["obstacles"] = {{{"name", "far"},
                          {"sphere", 0.1},
@@ -95,7 +96,7 @@ TEST_CASE("plan moves the joints of a group of the SRDF and no others", "[cli]")
   }
   // From a state that the SRDF names.
   scene["plan"]["start"] = "aside";
-  scene["plan"]["goal"] = {{"turn", 1.0}};
+  scene["plan"]["group"] = "both";
   folder.write("scene.json", scene.dump());
   const CommandResult named = runCommand({"plan", "--scene", "scene.json", "--json"}, folder);
   CAPTURE(named.err);
@@ -105,12 +106,11 @@ TEST_CASE("plan moves the joints of a group of the SRDF and no others", "[cli]")
   folder.write("scene.json", scene.dump());
   const CommandResult nowhere = runCommand({"plan", "--scene", "scene.json"}, folder);
   CHECK((nowhere.refused() &&
-         nowhere.err.find("group turret has no state nowhere") != std::string::npos));
+         nowhere.err.find("group both has no state nowhere") != std::string::npos));
   scene["plan"].erase("group");
   folder.write("scene.json", scene.dump());
   CHECK(runCommand({"plan", "--scene", "scene.json"}, folder).refused());
   scene["plan"]["start"] = {{"turn", -1.0}, {"elbow", 0.5}};
-  scene["plan"]["goal"] = {{"turn", 1.0}, {"elbow", 0.5}};
   scene["plan"]["group"] = "wrist";
   folder.write("scene.json", scene.dump());
   CHECK(runCommand({"plan", "--scene", "scene.json"}, folder).refused());
