@@ -56,6 +56,29 @@ TEST_CASE("a sphere that turns about its centre collides as if it did not turn")
   }
 }
 
+TEST_CASE("what counting has said stays said where the limits end it") {
+  // Turned about its centre or not, it is the same sphere.
+  const auto sphere = std::make_shared<fcl::Sphered>(0.3);
+  const auto box = std::make_shared<fcl::Boxd>(1, 1, 1);
+  const auto translation = GaussianDisplacement::fromStandardDeviations({0.1, 0.05, 0.08});
+  const PreparedPoseQuery query(sphere, box);
+  const auto error = PoseError::fromIndependent(translation, Eigen::Matrix3d::Identity(),
+                                                PoseConvention::body_rotation_vector);
+  const fcl::Transform3d pose_a = at(1.12, 0.1, 0.0);
+  ProbabilityResult exact;
+  collisionProbability(sphere.get(), pose_a, box.get(), kIdentity, translation,
+                       poseRequest(Method::interval, 1e-3), exact);
+  REQUIRE(*exact.upper < 2e-3);
+  auto request = poseRequest(Method::estimate, 1e-3);
+  request.max_cells = 20'000;
+  const auto result = answer(query, pose_a, kIdentity, error, request);
+  CHECK(result.status == ProbabilityStatus::resolution_limit);
+  REQUIRE(result.confidence_interval);
+  CHECK(result.confidence_interval->upper < 10.0 * *exact.upper);
+  CHECK(result.confidence_interval->lower <= *exact.upper);
+  CHECK(result.confidence_interval->upper >= *exact.lower);
+}
+
 TEST_CASE("a sphere on a lever before a wall has a closed form") {
   // It turns about the world's z axis, L away; the wall is y >= gap + radius.
   const double lever = 0.8, radius = 0.1, sigma = 0.03;
