@@ -96,8 +96,8 @@ RobotScene loadRobotScene(const std::string& path);
 /// ignored. \throws FileError
 std::vector<std::map<std::string, double>> loadWaypoints(const std::string& path);
 
-/// These in place of the scene's own; with them the `largest_step` of a JSON object, at which a plan
-/// was looked at, unless the scene has one. \throws FileError
+/// These in place of the scene's own; with them the `largest_step` of a JSON object, at which a
+/// plan was looked at, unless the scene has one. \throws FileError
 void loadMotion(const std::string& path, RobotScene& scene);
 
 /// Reads the robot that the scene names, with what is attached to it. \throws FileError,

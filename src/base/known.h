@@ -3,13 +3,21 @@
 // What is certain of P while a query is answered.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
-#include "base/agreed_bounds.h"
 #include "base/decision.h"
 #include "base/known_text.h"
+#include "fcl_prob/bounds.h"
 
 namespace fcl_prob::detail {
+
+/// Both are right, so their intersection is; were they to disagree, both would be kept.
+inline Bounds agreed(const Bounds& a, const Bounds& b) {
+  const Bounds both{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+  if (both.lower <= both.upper) return both;
+  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
 
 /// Bounds on P, narrowed by whoever knows more; what they say of a request is said here only.
 class Known {

@@ -31,4 +31,7 @@ double uniformFrom(std::uint64_t word);
 /// Three independent standard normals from four words (Box-Muller).
 Eigen::Vector3d standardNormalFrom(const std::array<std::uint64_t, 4>& words);
 
+/// Between two of them: 2⁶⁴ over the golden ratio.
+inline constexpr std::uint64_t kSeedsApart = 0x9e3779b97f4a7c15;
+
 }  // namespace fcl_prob::detail

@@ -18,4 +18,7 @@ inline Bounds roundedSum(double lower, double upper, double terms) {
           std::clamp(upper * (1.0 + rounding) + kUnderflow, 0.0, 1.0)};
 }
 
+/// No less than the sum of two numbers that are not negative, which doubles round by 1.2e-16 of it.
+inline double sumAbove(double a, double b) { return (a + b) * (1.0 + 1e-15); }
+
 }  // namespace fcl_prob::detail

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/power_of_two.h"
 #include "fcl_prob/normal_mass.h"
 #include "mass/exact_hull.h"
 

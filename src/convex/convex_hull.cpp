@@ -18,7 +18,7 @@
 #include "fcl_prob/convex_polytope.h"
 #include "fcl_prob/exceptions.h"
 #include "geometry/directed_edges.h"
-#include "geometry/length_limit.h"
+#include "geometry/length.h"
 #include "geometry/quiet_qhull.h"
 
 namespace fcl_prob {

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "base/power_of_two.h"
+#include "base/constants.h"
 #include "convex/hull_slack.h"
 #include "fcl_prob/exceptions.h"
 

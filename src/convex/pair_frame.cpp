@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/power_of_two.h"
+#include "base/constants.h"
 #include "geometry/exact_sum.h"
 #include "geometry/length.h"
 #include "geometry/validation.h"

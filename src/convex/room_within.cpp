@@ -6,7 +6,6 @@
 #include <array>
 
 #include "base/constants.h"
-#include "base/power_of_two.h"
 #include "convex/convex_set.h"
 #include "convex/cut_polytope.h"
 

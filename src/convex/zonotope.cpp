@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/power_of_two.h"
+#include "base/constants.h"
 #include "convex/perturbation.h"
 
 namespace fcl_prob::detail {

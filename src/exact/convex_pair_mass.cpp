@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "base/agreed_bounds.h"
 #include "base/constants.h"
+#include "base/known.h"
 #include "bounds/pair_bounds.h"
 #include "convex/pair_obstacle.h"
 #include "convex/resolved_part.h"

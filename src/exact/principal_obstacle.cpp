@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "base/constants.h"
-#include "base/power_of_two.h"
 #include "exact/curved_body.h"
 #include "geometry/exact_sum.h"
 #include "mass/long_whitening.h"

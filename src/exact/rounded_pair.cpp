@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/constants.h"
-#include "base/power_of_two.h"
 #include "convex/minkowski_sum.h"
 #include "geometry/exact_sum.h"
 #include "mass/long_whitening.h"

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "base/constants.h"
-#include "base/power_of_two.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "geometry/directed_edges.h"
-#include "geometry/length_limit.h"
+#include "geometry/length.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -13,4 +13,12 @@ inline double lengthOf(const Eigen::Vector3d& v) {
   return std::max(v.norm(), v.cwiseAbs().maxCoeff());
 }
 
+/// Metres. As of standard deviations, the square of any is finite.
+inline constexpr double kLargestLength = 1e150;
+
+/// Whether all coordinates are numbers of at most that.
+inline bool isPosition(const Eigen::Vector3d& point) {
+  return (point.array().abs() <= kLargestLength).all();
+}
+
 }  // namespace fcl_prob::detail

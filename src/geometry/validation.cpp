@@ -19,7 +19,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "geometry/convex_faces.h"
-#include "geometry/length_limit.h"
+#include "geometry/length.h"
 #include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::detail {

@@ -14,7 +14,7 @@
 #include <optional>
 #include <sstream>
 
-#include "geometry/length_limit.h"
+#include "geometry/length.h"
 #include "io/file_content.h"
 #include "io/import_isolated.h"
 #include "io/mesh_formats.h"

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "io/polygon_mesh.h"
 
-#include "geometry/length_limit.h"
+#include "geometry/length.h"
 #include "io/polygon_cutter.h"
 #include "io/text_reader.h"
 

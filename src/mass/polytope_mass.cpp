@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "base/agreed_bounds.h"
 #include "base/constants.h"
+#include "base/known.h"
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"

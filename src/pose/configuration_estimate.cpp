@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/decision.h"
+#include "base/known.h"
 #include "pose/counting_source.h"
 
 namespace fcl_prob::detail {
@@ -96,9 +97,7 @@ class Estimator {
     const double by = source_->offset();
     interval_ = {std::clamp(by + bounds.lower - kErrorOfSums, 0.0, 1.0),
                  std::clamp(by + bounds.upper + kErrorOfSums, 0.0, 1.0)};
-    const Bounds both{std::max(interval_.lower, counted_.lower),
-                      std::min(interval_.upper, counted_.upper)};
-    if (both.lower <= both.upper) interval_ = both;
+    interval_ = agreed(interval_, counted_);
     watch_.tell(interval_);
     if (const auto status = satisfied(samples)) return status;
     return watch_.exhausted();

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/agreed_bounds.h"
 #include "base/budget.h"
 #include "base/decision.h"
+#include "base/known.h"
 #include "bounds/convex_bound.h"
 #include "bounds/pair_bounds.h"
 #include "convex/pair_obstacle.h"

@@ -17,7 +17,7 @@
 #include "query/motion_gradient.h"
 #include "query/octree_cells.h"
 #include "query/partition.h"
-#include "query/tolerance_note.h"
+#include "query/plan_notes.h"
 #include "query/truncation.h"
 
 namespace fcl_prob::detail {

@@ -13,9 +13,9 @@
 
 #include "base/constants.h"
 #include "base/decision.h"
-#include "base/seeds_apart.h"
+#include "base/random_words.h"
 #include "query/parts_loop.h"
-#include "query/tolerance_note.h"
+#include "query/plan_notes.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -13,8 +13,7 @@
 #include "geometry/validation.h"
 #include "query/mixture_query.h"
 #include "query/pair_answer.h"
-#include "query/size_note.h"
-#include "query/tolerance_note.h"
+#include "query/plan_notes.h"
 
 namespace fcl_prob::detail {
 namespace {

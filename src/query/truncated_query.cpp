@@ -13,7 +13,7 @@
 #include "query/octree_cells.h"
 #include "query/pair_query.h"
 #include "query/partition.h"
-#include "query/tolerance_note.h"
+#include "query/plan_notes.h"
 #include "query/truncation.h"
 
 namespace fcl_prob::detail {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/rounded_sum.h"
 #include "bounds/convex_bound.h"
 #include "geometry/occupancy.h"
 #include "robot/common_half_spaces.h"
-#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 

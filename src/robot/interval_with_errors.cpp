@@ -8,13 +8,13 @@
 #include "base/decision.h"
 #include "base/known.h"
 #include "base/number_text.h"
+#include "base/rounded_sum.h"
 #include "base/statistics.h"
 #include "fcl_prob/combined_bounds.h"
 #include "query/groups_query.h"
 #include "robot/body_bounds.h"
 #include "robot/moving_obstacle.h"
 #include "robot/placed_query.h"
-#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "base/seeds_apart.h"
+#include "base/random_words.h"
 #include "fcl_prob/exceptions.h"
 #include "query/groups_query.h"
 #include "robot/gradient_parts.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/rounded_sum.h"
 #include "robot/body_bounds.h"
-#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {

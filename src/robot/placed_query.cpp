@@ -7,11 +7,11 @@
 
 #include "base/budget.h"
 #include "base/decision.h"
+#include "base/rounded_sum.h"
 #include "base/statistics.h"
 #include "query/groups_query.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
-#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/budget.h"
-#include "base/seeds_apart.h"
+#include "base/random_words.h"
 #include "fcl_prob/combined_bounds.h"
 #include "robot/obstacle_sampling.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/budget.h"
+#include "base/random_words.h"
 #include "base/refuse_band.h"
-#include "base/seeds_apart.h"
 #include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/exceptions.h"

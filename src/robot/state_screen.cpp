@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/random_words.h"
-#include "robot/sum_above.h"
+#include "base/rounded_sum.h"
 
 namespace fcl_prob::detail {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/decision.h"
+#include "base/rounded_sum.h"
 #include "query/parts_loop.h"
-#include "robot/sum_above.h"
 
 namespace fcl_prob::detail {
 namespace {

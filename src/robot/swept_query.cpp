@@ -7,8 +7,8 @@
 
 #include "query/mixture_query.h"
 #include "query/partition.h"
+#include "query/plan_notes.h"
 #include "query/single_collide.h"
-#include "query/tolerance_note.h"
 #include "query/truncation.h"
 #include "robot/reversed.h"
 

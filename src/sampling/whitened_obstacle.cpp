@@ -8,7 +8,7 @@
 
 #include "fcl_prob/exceptions.h"
 #include "geometry/geometry_kind.h"
-#include "geometry/length_limit.h"
+#include "geometry/length.h"
 #include "geometry/outer_mesh.h"
 
 namespace fcl_prob::detail {
