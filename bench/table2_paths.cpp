@@ -10,7 +10,7 @@ namespace fcl_prob::cli {
 namespace {
 
 constexpr double kLargestStep = 0.05;  // radians
-constexpr std::size_t kStates = 1'000;
+constexpr std::size_t kStates = 1'500;
 constexpr std::size_t kStatesIfQuick = 300;
 
 ProbabilityRequest certifyingRequest() {
