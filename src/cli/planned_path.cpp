@@ -72,8 +72,8 @@ std::string planCsv(const CertifiedPlan& plan, const Robot& robot) {
 
 std::string planText(const CertifiedPlan& plan, const Robot& robot) {
   std::string text = "status: " + toString(plan.path.status) + "\n" +
-                     std::to_string(plan.path.states) + " states asked for, P of each below " +
-                     numberText(plan.state_threshold, 6) + " or refused\n";
+                     std::to_string(plan.path.states) + " states tested, those with P below " +
+                     numberText(plan.state_threshold, 6) + " taken\n";
   if (plan.path.status != PlanningStatus::solved) return text;
   text += std::to_string(plan.path.waypoints.size()) + " waypoints, length " +
           numberText(plan.path.length, 6) + " in joint space, " +

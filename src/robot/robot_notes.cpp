@@ -43,7 +43,10 @@ std::vector<std::string> standingNotes(const Robot& robot, const std::vector<Obs
   for (const std::string& link : robot.linksWithoutBody()) {
     names += (names.empty() ? "" : ", ") + link;
   }
-  if (!names.empty()) notes.push_back("links without a body, which nothing touches: " + names);
+  const bool all_taken = robot.options().links.empty();
+  const std::string which =
+      all_taken ? "links without a body" : "links that are left out or have no body";
+  if (!names.empty()) notes.push_back(which + ", which nothing touches: " + names);
   return notes;
 }
 
