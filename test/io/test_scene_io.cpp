@@ -64,11 +64,15 @@ TEST_CASE("a pose error in place of the displacement", "[io]") {
   CHECK(full.pose_error->covariance()(0, 5) == 0.1);
   CHECK(full.pose_error->covariance()(5, 0) == 0.1);
   CHECK(full.pose_error->covariance()(2, 2) == 1.0);
+  const Scene of_ros = load(
+      R"("pose_error": {"covariance": [1,0,0,0,0,0.1, 0,1,0,0,0,0, 0,0,1,0,0,0, 0,0,0,0.1,0,0,
+                                       0,0,0,0,0.1,0, 0.1,0,0,0,0,0.1]})");
+  CHECK((of_ros.pose_error->covariance() - full.pose_error->covariance()).isZero(1e-15));
   CHECK_FALSE(load(R"("displacement": {"sigma": [1, 2, 3]})").pose_error);
 
   CHECK(fault(R"("pose_error": {"sigma": [1, 2, 3]})").find("pose_error: sigma: it needs 6") !=
         std::string::npos);
-  CHECK(fault(R"("pose_error": {"covariance": [1, 2, 3]})").find("21 numbers") !=
+  CHECK(fault(R"("pose_error": {"covariance": [1, 2, 3]})").find("36 numbers, or 21") !=
         std::string::npos);
   CHECK(fault(R"("pose_error": {"sigma": [1, 2, 3, 0, 0, 45]})").find("degrees") !=
         std::string::npos);
