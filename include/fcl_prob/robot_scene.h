@@ -92,12 +92,12 @@ struct RobotScene {
 RobotScene loadRobotScene(const std::string& path);
 
 /// The waypoints of a CSV file, whose first line names the joints, or of a JSON file: an object
-/// with a list `waypoints`, as `fcl_prob plan` writes both. Whatever else is in the object is
-/// ignored. \throws FileError
+/// with a list `waypoints`, as `fcl_prob plan` writes both. Of the rest of the object only
+/// `largest_step` counts, at which a plan was looked at: a number > 0. \throws FileError
 std::vector<std::map<std::string, double>> loadWaypoints(const std::string& path);
 
-/// These in place of the scene's own; with them the `largest_step` of a JSON object, at which a
-/// plan was looked at, unless the scene has one. \throws FileError
+/// These in place of the scene's own, and the file's `largest_step` unless the scene has one.
+/// \throws FileError
 void loadMotion(const std::string& path, RobotScene& scene);
 
 /// Reads the robot that the scene names, with what is attached to it. \throws FileError,

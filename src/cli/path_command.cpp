@@ -19,6 +19,7 @@
 #include "cli/self_report.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "robot/motion_names.h"
 #include "robot/robot_notes.h"
 
 namespace fcl_prob::cli {
@@ -61,11 +62,6 @@ struct PathReport {
   double time_ms = 0.0;
 };
 
-ErrorsOverTime errorsFrom(const std::string& name) {
-  if (name == "independent") return ErrorsOverTime::independent;
-  return name == "persistent" ? ErrorsOverTime::persistent : ErrorsOverTime::any_dependence;
-}
-
 std::string errorsTold(ErrorsOverTime errors) {
   switch (errors) {
     case ErrorsOverTime::persistent:
@@ -90,7 +86,7 @@ RobotScene sceneOf(const PathArguments& arguments) {
   if (arguments.max_cells) scene.request.max_cells = *arguments.max_cells;
   if (!arguments.method.empty()) scene.request.method = *methodFromString(arguments.method);
   if (!arguments.errors.empty()) {
-    scene.errors = errorsFrom(arguments.errors);
+    scene.errors = detail::valueOf(detail::kErrorsOverTime, arguments.errors).value();
   }
   if (arguments.between) scene.between = BetweenWaypoints::swept;
   scene.robot.allow_outside_limits |= arguments.allow_outside_limits;

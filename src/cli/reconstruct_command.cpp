@@ -135,7 +135,7 @@ void addOptions(CLI::App& command, ReconstructArguments& arguments) {
                          "Deviations x,y,z,rx,ry,rz of the sensor's pose: metres, radians");
   command
       .add_option("--camera-covariance", arguments.pose_covariance,
-                  "Its covariance: 21 numbers, the upper triangle row by row")
+                  "Its covariance row by row: 36 numbers, or the upper triangle's 21")
       ->excludes(sigma);
   command.add_flag("--json", arguments.json, "Print the report instead of a summary");
 }

@@ -3,18 +3,18 @@
 #include "cli/robot_reproduction.h"
 
 #include <filesystem>
-#include <iomanip>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "cli/output.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/mesh_io.h"
 #include "fcl_prob/version.h"
 #include "io/file_content.h"
+#include "io/obj_text.h"
 #include "io/scene_parts.h"
 #include "robot/mesh_names.h"
+#include "robot/motion_names.h"
 #include "robot/urdf_model.h"
 
 namespace fcl_prob::cli {
@@ -23,18 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Of its own, so that what is read again is the same to the last bit.
-std::string objOf(const TriangleMesh& mesh) {
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::max_digits10);
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    text << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
-  }
-  for (const fcl::Triangle& t : mesh.triangles) {
-    text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-  }
-  return text.str();
-}
+constexpr int kAllDigits = std::numeric_limits<double>::max_digits10;
 
 /// Of a file that was read before, within its own limits.
 std::string contentOf(const std::string& path) {
@@ -104,7 +93,7 @@ class Reproduction {
       if (!renameIn(text, name, mesh)) {
         throw FileError(where + ": the name of its mesh is written so that it cannot be replaced");
       }
-      writeFile((folder_ / mesh).string(), objOf(loadMeshIsolated(source)));
+      writeFile((folder_ / mesh).string(), detail::objText(loadMeshIsolated(source), kAllDigits));
     }
     writeFile((folder_ / (as + ".urdf")).string(), text);
     json["urdf"] = as + ".urdf";
@@ -147,10 +136,8 @@ class Reproduction {
     json.erase("joints");
     json.erase("plan");
     json["waypoints"] = scene.waypoints;
-    const bool persistent = scene.errors == ErrorsOverTime::persistent;
-    const bool independent = scene.errors == ErrorsOverTime::independent;
-    json["errors"] = persistent ? "persistent" : independent ? "independent" : "any-dependence";
-    json["between"] = scene.between == BetweenWaypoints::swept ? "swept" : "ignored";
+    json["errors"] = detail::nameOf(detail::kErrorsOverTime, scene.errors);
+    json["between"] = detail::nameOf(detail::kBetweenWaypoints, scene.between);
   }
 
   fs::path folder_;

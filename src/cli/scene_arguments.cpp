@@ -198,9 +198,10 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
   auto* pose_sigma =
       command.add_option("--pose-sigma", arguments.pose_sigma,
                          "Standard deviations x,y,z,rx,ry,rz of A's pose, metres and radians");
-  auto* pose_covariance = command.add_option(
-      "--pose-covariance", arguments.pose_covariance,
-      "Covariance of A's pose: 21 numbers, the upper triangle row by row, order x,y,z,rx,ry,rz");
+  auto* pose_covariance =
+      command.add_option("--pose-covariance", arguments.pose_covariance,
+                         "Covariance of A's pose row by row, order x,y,z,rx,ry,rz: 36 numbers, or "
+                         "the upper triangle's 21");
   pose_sigma->excludes(covariance)->excludes(sigma)->excludes(mean);
   pose_covariance->excludes(covariance)->excludes(sigma)->excludes(mean)->excludes(pose_sigma);
   command

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-#include <iomanip>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "fcl_prob/reconstruction.h"
+#include "io/obj_text.h"
 
 namespace fcl_prob {
 namespace {
@@ -57,16 +56,6 @@ std::string toJson(const Reconstruction& reconstruction, const std::string& surf
   return json.dump(2) + "\n";
 }
 
-std::string toObj(const TriangleMesh& mesh) {
-  std::ostringstream text;
-  text << std::setprecision(9);
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    text << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
-  }
-  for (const fcl::Triangle& t : mesh.triangles) {
-    text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-  }
-  return text.str();
-}
+std::string toObj(const TriangleMesh& mesh) { return detail::objText(mesh, 9); }
 
 }  // namespace fcl_prob

@@ -38,8 +38,8 @@ Eigen::Matrix3d covarianceFrom(const Numbers& numbers);
 /// `name`.
 PoseError::Vector6 sixFrom(const Numbers& numbers, const std::string& name);
 
-/// The upper triangle of a 6 x 6 covariance, row by row.
-/// \throws InvalidDistribution if there are not 21 numbers.
+/// A 6 x 6 covariance row by row: all of it, as ROS has it, or its upper triangle.
+/// \throws InvalidDistribution if there are neither 36 nor 21 numbers.
 PoseError::Matrix6 poseCovarianceFrom(const Numbers& numbers);
 
 /// Independent standard deviations x, y, z, rx, ry, rz around a mean. \throws InvalidDistribution

@@ -18,6 +18,7 @@
 #include "python/results.h"
 #include "python/robot_values.h"
 #include "python/running.h"
+#include "robot/motion_names.h"
 
 namespace fcl_prob::python {
 namespace {
@@ -224,16 +225,13 @@ py::list decideStates(const RobotQuery& query, const py::object& states, double 
 }
 
 ErrorsOverTime errorsFrom(const std::string& name) {
-  if (name == "persistent") return ErrorsOverTime::persistent;
-  if (name == "independent") return ErrorsOverTime::independent;
-  if (name == "any-dependence") return ErrorsOverTime::any_dependence;
+  if (const auto errors = detail::valueOf(detail::kErrorsOverTime, name)) return *errors;
   throw InvalidRequest("errors is '" + name +
                        "', must be 'persistent', 'independent' or 'any-dependence'");
 }
 
 BetweenWaypoints betweenFrom(const std::string& name) {
-  if (name == "ignored") return BetweenWaypoints::ignored;
-  if (name == "swept") return BetweenWaypoints::swept;
+  if (const auto between = detail::valueOf(detail::kBetweenWaypoints, name)) return *between;
   throw InvalidRequest("between is '" + name + "', must be 'ignored' or 'swept'");
 }
 

@@ -12,6 +12,7 @@
 #include "io/scene_parts.h"
 #include "io/strict_json.h"
 #include "robot/joint_indices.h"
+#include "robot/motion_names.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_scene.h"
 #include "robot/robot_notes.h"
@@ -122,18 +123,15 @@ RobotScene::JointError readJointError(StrictObject object) {
 }
 
 ErrorsOverTime readErrors(StrictObject& root) {
-  const std::string errors = root.text("errors");
-  if (errors == "persistent") return ErrorsOverTime::persistent;
-  if (errors == "independent") return ErrorsOverTime::independent;
-  if (errors == "any-dependence") return ErrorsOverTime::any_dependence;
+  const auto errors = detail::valueOf(detail::kErrorsOverTime, root.text("errors"));
+  if (errors) return *errors;
   root.fail("errors", "none of persistent, independent and any-dependence");
 }
 
 BetweenWaypoints readBetween(StrictObject& root) {
-  const std::string between = root.text("between");
-  if (between == "ignored") return BetweenWaypoints::ignored;
-  if (between != "swept") root.fail("between", "neither ignored nor swept");
-  return BetweenWaypoints::swept;
+  const auto between = detail::valueOf(detail::kBetweenWaypoints, root.text("between"));
+  if (!between) root.fail("between", "neither ignored nor swept");
+  return *between;
 }
 
 /// Times of the waypoints, and of those between them.
@@ -267,15 +265,16 @@ std::vector<std::string> plannedJoints(const RobotScene& scene, const Robot& rob
 
 std::pair<Eigen::VectorXd, Eigen::VectorXd> plannedEnds(const RobotScene& scene,
                                                         const Robot& robot) {
+  const RobotScene::Plan& plan = scene.plan.value();
+  const RobotGroup group = plan.group.empty() ? RobotGroup() : plannedGroup(scene, robot);
   const auto valuesOf = [&](const RobotScene::Plan::State& state) {
     if (const auto* by_name = std::get_if<0>(&state)) return robot.values(*by_name);
     const std::string& name = std::get<std::string>(state);
-    const RobotGroup group = plannedGroup(scene, robot);
     const auto found = group.states.find(name);
     if (found != group.states.end()) return robot.values(found->second);
-    throw InvalidRequest(scene.srdf + ": group " + scene.plan->group + " has no state " + name);
+    throw InvalidRequest(scene.srdf + ": group " + plan.group + " has no state " + name);
   };
-  return {valuesOf(scene.plan->start), valuesOf(scene.plan->goal)};
+  return {valuesOf(plan.start), valuesOf(plan.goal)};
 }
 
 bool isPredicted(const RobotScene& scene) {

@@ -62,32 +62,40 @@ NamedWaypoints readCsv(const std::string& path) {
   return waypoints;
 }
 
-NamedWaypoints readJson(const std::string& path) {
+struct Motion {
+  NamedWaypoints waypoints;
+  std::optional<double> largest_step;
+};
+
+Motion readJson(const std::string& path) {
   const nlohmann::json document = detail::parseJsonFile(path);
   detail::StrictObject root(document, path);
-  NamedWaypoints waypoints;
+  Motion motion;
   for (const detail::StrictObject& waypoint : root.objects("waypoints")) {
-    waypoints.push_back(waypoint.numbersByName());
+    motion.waypoints.push_back(waypoint.numbersByName());
   }
-  return waypoints;
+  if (root.has("largest_step")) motion.largest_step = root.number("largest_step");
+  if (motion.largest_step && !(*motion.largest_step > 0.0)) {
+    root.fail("largest_step", "must be > 0");
+  }
+  return motion;
+}
+
+Motion readMotion(const std::string& path) {
+  Motion motion = std::filesystem::path(path).extension() == ".csv" ? Motion{readCsv(path), {}}
+                                                                    : readJson(path);
+  if (motion.waypoints.empty()) throw FileError(path + ": waypoints: there are none");
+  return motion;
 }
 
 }  // namespace
 
-NamedWaypoints loadWaypoints(const std::string& path) {
-  NamedWaypoints waypoints =
-      std::filesystem::path(path).extension() == ".csv" ? readCsv(path) : readJson(path);
-  if (waypoints.empty()) throw FileError(path + ": waypoints: there are none");
-  return waypoints;
-}
+NamedWaypoints loadWaypoints(const std::string& path) { return readMotion(path).waypoints; }
 
 void loadMotion(const std::string& path, RobotScene& scene) {
-  scene.waypoints = loadWaypoints(path);
-  if (scene.largest_step || std::filesystem::path(path).extension() == ".csv") return;
-  const nlohmann::json document = detail::parseJsonFile(path);
-  detail::StrictObject root(document, path);
-  if (root.has("largest_step")) scene.largest_step = root.number("largest_step");
-  if (scene.largest_step && !(*scene.largest_step > 0.0)) root.fail("largest_step", "must be > 0");
+  Motion motion = readMotion(path);
+  scene.waypoints = std::move(motion.waypoints);
+  if (!scene.largest_step) scene.largest_step = motion.largest_step;
 }
 
 }  // namespace fcl_prob
