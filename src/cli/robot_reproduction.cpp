@@ -23,8 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kAllDigits = std::numeric_limits<double>::max_digits10;
-
 /// Of a file that was read before, within its own limits.
 std::string contentOf(const std::string& path) {
   return detail::fileContent(path, std::numeric_limits<std::size_t>::max());
@@ -93,7 +91,7 @@ class Reproduction {
       if (!renameIn(text, name, mesh)) {
         throw FileError(where + ": the name of its mesh is written so that it cannot be replaced");
       }
-      writeFile((folder_ / mesh).string(), detail::objText(loadMeshIsolated(source), kAllDigits));
+      writeFile((folder_ / mesh).string(), detail::objText(loadMeshIsolated(source), 17));
     }
     writeFile((folder_ / (as + ".urdf")).string(), text);
     json["urdf"] = as + ".urdf";

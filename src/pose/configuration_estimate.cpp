@@ -66,6 +66,8 @@ class Estimator {
       }
     }
     if (isCounting() && request_.gradient) drawGradient();
+    // Pairs that could not begin take nothing's place.
+    if (counting_ && pairs_.samples().count() < 2.0) source_ = counting_.get();
     return resultOf(*status);
   }
 
