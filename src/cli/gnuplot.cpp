@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -24,11 +23,9 @@ class ScriptFile {
       : path_((std::filesystem::temp_directory_path() / "fcl_prob_plot_XXXXXX").string()) {
     const int descriptor = ::mkstemp(path_.data());
     if (descriptor < 0) throw FileError(path_ + ": cannot be created");
-    ::close(descriptor);
+    const detail::FileDescriptor file(descriptor);
     try {
-      std::ofstream file(path_);
-      file << script;
-      flushOutput(file, path_);
+      detail::writeAll(descriptor, script, path_);
     } catch (...) {
       ::unlink(path_.c_str());
       throw;

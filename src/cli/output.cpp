@@ -2,9 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "cli/output.h"
 
-#include <cerrno>
-#include <iostream>
-
 namespace fcl_prob::cli {
 
 std::string onOneLine(const std::string& text) {
@@ -17,16 +14,9 @@ std::string onOneLine(const std::string& text) {
   return result;
 }
 
-void flushOutput(std::ostream& stream, const std::string& name) {
-  errno = 0;
-  stream.flush();
-  if (!stream) detail::failToWrite(name);
-}
-
 void deliver(const std::string& content, const std::string& path) {
   if (path.empty()) {
-    std::cout << content;
-    flushOutput(std::cout, "standard output");
+    detail::writeAll(STDOUT_FILENO, content, "standard output");
   } else {
     writeFile(path, content);
   }

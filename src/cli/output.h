@@ -3,7 +3,6 @@
 // Writing that does not pass half a report off as a whole one.
 #pragma once
 
-#include <ostream>
 #include <string>
 
 #include "io/write_file.h"
@@ -14,9 +13,6 @@ using detail::writeFile;
 
 /// `text` without line breaks and other control characters.
 std::string onOneLine(const std::string& text);
-
-/// \throws FileError if anything that was written to `stream` did not arrive.
-void flushOutput(std::ostream& stream, const std::string& name);
 
 /// Writes `content` to the file at `path`, or to standard output if `path` is empty. \throws
 /// FileError

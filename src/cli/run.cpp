@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <iostream>
+#include <sstream>
 
 #include "cli/commands.h"
 #include "cli/output.h"
@@ -71,9 +72,10 @@ int parseAndRun(int argc, const char* const* argv, const std::vector<AddCommand>
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) return complain(error.what());
-    app.exit(error, std::cout, std::cerr);  // --help, --version
+    std::ostringstream text;  // of --help, --version
+    app.exit(error, text, std::cerr);
+    deliver(text.str(), "");
   }
-  flushOutput(std::cout, "standard output");
   return exit_code;
 }
 
