@@ -3,6 +3,7 @@
 #include "bench/table2_methods.h"
 
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
 
 #include "bench/table2_bounds.h"
 #include "cli/geometry.h"
@@ -114,6 +115,31 @@ class PaddingRow {
   std::map<const Obstacle*, std::shared_ptr<const fcl::CollisionGeometryd>> padded_;
 };
 
+/// Distance from obstacles, by FCL, of less than so many of their largest standard deviations.
+class DistanceRow {
+ public:
+  explicit DistanceRow(double deviations) : deviations_(deviations) {}
+
+  double operator()(const Table2State& state, double) const {
+    const Poses poses = state.query.robot().poses(state.values);
+    const auto& bodies = state.query.robot().bodies();
+    for (const Obstacle& obstacle : state.query.obstacles()) {
+      fcl::DistanceResultd result;
+      result.min_distance = deviations_ * gaussianOf(obstacle).standardDeviations().maxCoeff();
+      const double least = result.min_distance;  // what is farther need not be known
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        fcl::distance(bodies[i].geometry.get(), poses[i], obstacle.geometry.get(), obstacle.pose,
+                      fcl::DistanceRequestd(), result);
+        if (result.min_distance < least) return 1.0;
+      }
+    }
+    return 0.0;
+  }
+
+ private:
+  double deviations_;
+};
+
 constexpr std::size_t kCellsOfDecision = 2'000;
 
 /// Ours: as planCertified() decides.
@@ -165,7 +191,9 @@ std::vector<Table2Method> table2Methods(const Table2Scene& scene, double thresho
       {"certified decision", "", CertifiedRow(threshold), Table2Answer::certified},
       {"probable decision", "", ProbableRow(threshold, seed), Table2Answer::probable},
       {"padding by 2 sigma", "", PaddingRow(scene, 2.0), Table2Answer::padding},
-      {"padding by 3 sigma", "", PaddingRow(scene, 3.0), Table2Answer::padding}};
+      {"padding by 3 sigma", "", PaddingRow(scene, 3.0), Table2Answer::padding},
+      {"distance of 2 sigma", "", DistanceRow(2.0), Table2Answer::padding, false},
+      {"distance of 3 sigma", "", DistanceRow(3.0), Table2Answer::padding, false}};
   for (Table2Method& bound : table2Bounds(scene, known)) methods.push_back(std::move(bound));
   methods.push_back({"Monte Carlo, 10,000 samples", "monte-carlo", MonteCarloRow(scene, seed),
                      Table2Answer::counted});

@@ -35,7 +35,8 @@ struct Table2Method {
   std::function<double(const Table2State& state, double enough)> probability;
 
   Table2Answer answer = Table2Answer::upper_bound;
-  bool plans = true;  ///< a path is looked for with it
+  bool plans = true;    ///< a path is looked for with it
+  int repetitions = 1;  ///< of which its number is the mean; its time is that of one
 };
 
 /// Convex parts of meshes, which several scenes share.

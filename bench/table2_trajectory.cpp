@@ -101,7 +101,7 @@ TrajectoryRow Trajectory::row(const Table2Method& method) const {
   for (std::size_t k = 0; k < states_.size(); ++k) {
     said.push_back(method.probability(scene_.at(states_[k]), enough));
   }
-  row.time_ms = watch.milliseconds();
+  row.time_ms = watch.milliseconds() / method.repetitions;
   for (std::size_t k = 0; k < said.size(); ++k) {
     row.too_small += isTooSmall(method, std::min(1.0, said[k]), certified_[k].lower);
   }
