@@ -4,8 +4,9 @@
 """Runs the commands of pages, as a reader would, and compares the answers with what stands there.
 
 Lines of `sh` blocks that begin with `fcl_prob` are run, one after the other. Where the text right above a block says
-"P = x", the answer of `--json` has to agree with it to the digits given, or to four standard errors. Files that a reader
-would bring along (part.stl, scene.json, ...) are small ones of the project.
+"P = x", the answer of `--json` has to agree with it to the digits given, or to four standard errors. `json` blocks are
+scenes and queries, which are asked. Files that a reader would bring along (part.stl, cloud.pcd, ...) are small ones of
+the project, or made here.
 """
 import json
 import pathlib
@@ -17,10 +18,10 @@ import tempfile
 
 SOURCE_DIR = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ["data/README.md", "README.md"]
-PAGES += [f"docs/{name}.md" for name in ("start", "robots", "planning", "pose", "sweep")]
-# What needs a cloud, models that are not here or GNU parallel, or takes a minute; other tests run it.
-ELSEWHERE = ["reconstruct", "bench", "--shard", "compare"]
-BLOCK = re.compile(r"(?:P = (?P<said>[\d.]+)\.)?\n+```sh\n(?P<lines>.*?)^```", re.DOTALL | re.MULTILINE)
+PAGES += [f"docs/{name}.md" for name in ("start", "robots", "planning", "pose", "sweep", "cloud", "scene_format")]
+# What needs models that are not here or GNU parallel, or takes a minute; other tests run it.
+ELSEWHERE = ["bench", "--shard", "compare"]
+BLOCK = re.compile(r"(?:P = (?P<said>[\d.]+)\.)?\n+```(?P<kind>sh|json)\n(?P<lines>.*?)^```", re.DOTALL | re.MULTILINE)
 
 
 def answer(record):
@@ -46,8 +47,26 @@ def fault_of(command, line, said, folder):
     return None
 
 
+def depth_image():
+    """What a depth camera sees of a box of 10 cm, 0.8 m away, before a wall: an organised cloud."""
+    width, height, focal_length = 160, 120, 131.0
+    points = []
+    for row in range(height):
+        for column in range(width):
+            x, y = (column - 0.5 * width) / focal_length, (row - 0.5 * height) / focal_length
+            z = 0.8 if max(abs(x), abs(y)) < 0.05 / 0.8 else 1.2
+            points.append(f"{x * z:.6f} {y * z:.6f} {z:.6f}")
+    head = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
+    head += f"WIDTH {width}\nHEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(points)}\nDATA ascii\n"
+    return head + "\n".join(points) + "\n"
+
+
 def bring_along(folder):
     data = SOURCE_DIR / "data"
+    for name in ("mug.obj", "gripper_finger.off", "finger_mug.json"):
+        (folder / name).symlink_to(data / name)
+    (folder / "gripper.stl").symlink_to(data / "bracket.stl")
+    (folder / "cloud.pcd").write_text(depth_image())
     (folder / "data").symlink_to(data)
     (folder / "part.stl").symlink_to(data / "bracket.stl")
     (folder / "fixture.obj").symlink_to(data / "mug.obj")
@@ -59,13 +78,23 @@ def bring_along(folder):
     (folder / "queries.jsonl").write_text("".join(json.dumps(query) + "\n" for query in queries))
 
 
+def lines_of(block, folder, number):
+    """The commands of a block; of a scene one that checks it, of queries, a line each, a sweep over them."""
+    if block["kind"] == "json":
+        are_queries = block["lines"].startswith('{"id"')
+        file = f"block_{number}.jsonl" if are_queries else f"block_{number}.json"
+        (folder / file).write_text(block["lines"])
+        return [f"fcl_prob sweep {file} --output {file}.results" if are_queries else f"fcl_prob check --scene {file}"]
+    return block["lines"].replace("\\\n", " ").splitlines()
+
+
 def main(command, without):
     checks = faults = 0
     for page in PAGES:
         with tempfile.TemporaryDirectory() as folder:
             bring_along(pathlib.Path(folder))
-            for block in BLOCK.finditer((SOURCE_DIR / page).read_text()):
-                for line in block["lines"].replace("\\\n", " ").splitlines():
+            for number, block in enumerate(BLOCK.finditer((SOURCE_DIR / page).read_text())):
+                for line in lines_of(block, pathlib.Path(folder), number):
                     if not line.startswith("fcl_prob ") or any(word in line for word in without + ELSEWHERE):
                         continue
                     checks += 1
