@@ -18,8 +18,8 @@ template <typename Query>
 struct Rung {
   const char* name;
 
-  /// Whether it has something to say here.
-  bool (Query::*serves)() const;
+  /// Whether it has something to say here; null: always.
+  bool (*serves)(const Query& query);
 
   /// \return whether the query is answered, or a limit is in the way
   bool (Query::*climb)();
@@ -35,7 +35,7 @@ template <typename Query>
 bool climb(const std::vector<Rung<Query>>& ladder, Query& query, const Known& known,
            std::vector<RungRecord>& records) {
   for (const Rung<Query>& rung : ladder) {
-    if (!(query.*rung.serves)()) continue;
+    if (rung.serves && !rung.serves(query)) continue;
     if (!rung.needed && isLeftOut(rung.name)) continue;
     const Stopwatch watch;
     const bool answered = (query.*rung.climb)();

@@ -23,9 +23,6 @@ constexpr double kSliver = kLayerMargin;
 constexpr double kSettledAccuracy = 1e-11;
 constexpr double kSettledShare = 1e-4;
 
-// Cells wider than this are divided before a mass under a plane is integrated in them.
-constexpr double kWidestIntegrated = 2.5;
-
 // What remains of an open cell is cut back to the box of its front if that holds less than this
 // share of its mass.
 constexpr double kCutBack = 0.8;
@@ -45,12 +42,26 @@ constexpr double kWorthwhileDepth = 0.9;
 // In a cell thinner than this, the slivers below known layers may be all there is.
 constexpr double kThinBesideSlivers = 16 * kSliver;
 
-// Whether masses under a plane may be used in the cell.
-bool mayIntegrate(const Cell& cell) { return cell.largestWidth() <= kWidestIntegrated; }
+// Whether all of the cell below a plane, where no surfaces meet but in slivers at its sides, is
+// free: it is convex, so that one point of it tells, if it lies deeper than those.
+bool isOutsideBelow(const SolidContact& solids, const Cell& cell, const CellPlane& plane) {
+  const Eigen::Vector3d lowest = cell.lowestCorner(plane.m);
+  const double room = plane.s - plane.m.dot(lowest);
+  if (!(room > 0.0)) return true;
+  const Eigen::Vector3d to_middle = 0.5 * (cell.lo + cell.hi) - lowest;
+  const double share = std::min(0.5, 0.25 * room / plane.m.dot(to_middle));
+  return 0.5 * share * cell.leastWidth() > kThinBesideSlivers &&
+         solids.at(lowest + share * to_middle) == Containment::outside;
+}
 
 void include(const Cell& part, Cell& box) {
   box.lo = box.lo.cwiseMin(part.lo);
   box.hi = box.hi.cwiseMax(part.hi);
+}
+
+// Whether what stays open of the cell is only this box.
+bool isCutBack(const Cell& box, const Cell& cell) {
+  return cellMass(box).upper < kCutBack * cellMass(cell).upper;
 }
 
 bool isWhole(const Cell& box, const Cell& cell) { return box.lo == cell.lo && box.hi == cell.hi; }
@@ -111,21 +122,17 @@ Examination CellExaminer::examine(const Cell& cell, const std::vector<FrontPair>
 // The one that is likely to serve is asked first, and the other one only where it is needed.
 std::optional<CuttingPair> CellExaminer::findLeader() {
   std::optional<CuttingPair> leader;
-  const bool topology_first = asksTopologyFirst();
+  // Where hardly any pair of triangles covers much of the cell.
+  const bool topology_first = !front_.coarse().empty() && mayIntegrate(front_.cell()) &&
+                              witness() && witness()->isBesideSmallTriangles(front_.cell());
   if (topology_first) improveByTopology(leader);
   if (leader && leader->depth < kWorthwhileDepth) return leader;
   front_.open();
   if (!mayIntegrate(front_.cell())) return std::nullopt;
-  leader = champion();
+  leader = front_.champion();
   const bool is_long = front_.coarse().size() + front_.cutting().size() > kLongFront;
   if (!topology_first && is_long) improveByTopology(leader);
   return leader;
-}
-
-// Where hardly any pair of triangles covers much of the cell.
-bool CellExaminer::asksTopologyFirst() {
-  if (front_.coarse().empty() || !mayIntegrate(front_.cell())) return false;
-  return witness() && witness()->isBesideSmallTriangles(front_.cell());
 }
 
 void CellExaminer::improveByTopology(std::optional<CuttingPair>& best) {
@@ -232,37 +239,10 @@ void CellExaminer::settleFree(const Cell& cell) {
   }
 }
 
-// Of what is settled of the cell from which an open one is cut out, whose mass that may collide is
-// about its share of P.
-double CellExaminer::accuracyBeside(const OpenCell& open) const {
-  const double mass = cellMass(front_.cell()).upper;
-  const double share = mass > 0.0 ? open.upper / mass : 0.0;
-  return std::clamp(kSettledShare * relative_tolerance_ * share, kSettledAccuracy, kOpenAccuracy);
-}
-
 // What is left of the cell around `box` is free.
 void CellExaminer::settleAround(const Cell& box) {
   if (!solids_ && !observer_) return;
   visitAround(front_.cell(), box, [this](const Cell& part) { settleFree(part); });
-}
-
-// Whether what a plane leaves of the cell is free for certain: not where one object may be inside
-// the other, since what lies below the plane is then not simply free.
-bool CellExaminer::maySkim(const Cell& cell) const {
-  return mayIntegrate(cell) && !(solids_ && solids_->possible(cell));
-}
-
-// The pair that covers most of the cell under a single plane.
-std::optional<CuttingPair> CellExaminer::champion() const {
-  std::optional<CuttingPair> best;
-  for (const CuttingPair& cutting : front_.cutting()) {
-    if (cutting.sides == 1 && cutting.depth < (best ? best->depth : 1.0)) best = cutting;
-  }
-  return best;
-}
-
-double CellExaminer::lowestIn(const Cell& part, const Eigen::Vector3d& m) {
-  return m.dot(part.lowestCorner(m)) - 1e-13;  // less its rounding
 }
 
 void CellExaminer::openWithoutPlane() {
@@ -289,11 +269,6 @@ void CellExaminer::openWithoutPlane() {
   result_.open = std::move(open);
 }
 
-// Whether what stays open of the cell is only this box.
-bool CellExaminer::isCutBack(const Cell& box) const {
-  return cellMass(box).upper < kCutBack * cellMass(front_.cell()).upper;
-}
-
 // What openWithPlane() says of the cell, but for what stays open.
 void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, double settled_from,
                                bool nothing_below) const {
@@ -303,25 +278,12 @@ void CellExaminer::claimBeside(const CuttingPair& leader, const Cell& box, doubl
   if (settled_from < leader.inner.s) observer_->excuse(cell, m, settled_from, leader.inner.s);
   const CellPlane from{m, settled_from};
   if (nothing_below) claimBelow("nothing below a plane", cell, from);
-  if (nothing_below || !isCutBack(box)) return claimAbove(above, cell, leader);
+  if (nothing_below || !isCutBack(box, cell)) return claimAbove(above, cell, leader);
   claimAbove(above, box, leader);
   visitAround(cell, box, [&](const Cell& part) {
     claimAbove(above, part, leader);
     claimBelow("beside what stays open", part, from);
   });
-}
-
-// Whether all of the cell below a plane, where no surfaces meet but in slivers at its sides, is
-// free: it is convex, so that one point of it tells, if it lies deeper than those.
-bool CellExaminer::isOutsideBelow(const CellPlane& plane) const {
-  const Cell& cell = front_.cell();
-  const Eigen::Vector3d lowest = cell.lowestCorner(plane.m);
-  const double room = plane.s - plane.m.dot(lowest);
-  if (!(room > 0.0)) return true;
-  const Eigen::Vector3d to_middle = 0.5 * (cell.lo + cell.hi) - lowest;
-  const double share = std::min(0.5, 0.25 * room / plane.m.dot(to_middle));
-  return 0.5 * share * cell.leastWidth() > kThinBesideSlivers &&
-         solids_->at(lowest + share * to_middle) == Containment::outside;
 }
 
 // The leader covers cell ∩ {m·y >= s}. All that is left to know lies below that plane, in the parts
@@ -368,7 +330,7 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   for (const FrontPair& pair : below_.pairs) keep(pair, below_.lowest);
   if (open.front.size() > 1) box = layerBox(box, m, open.possible_from, leader.inner.s);
   if (solids_ && solids_->possible(cell)) {
-    if (!isOutsideBelow({m, open.possible_from})) return openWithoutPlane();
+    if (!isOutsideBelow(*solids_, cell, {m, open.possible_from})) return openWithoutPlane();
     box = cell;
   }
 
@@ -379,13 +341,23 @@ void CellExaminer::openWithPlane(const CuttingPair& leader) {
   if (observer_) claimBeside(leader, box, settled_from, nothing_below);
   if (nothing_below) return settlePart(cell, leader.inner, 1.0, kSettledAccuracy);
 
+  leaveOpen(std::move(open), leader, box);
+}
+
+// All of the cell, or what may collide below the leader's plane and is not covered: a box.
+void CellExaminer::leaveOpen(OpenCell open, const CuttingPair& leader, const Cell& box) {
+  const Cell& cell = front_.cell();
   open.tells = OpenCell::PlaneTells::covered;
   open.plane = leader.inner;
-  const bool is_cut_back = isCutBack(box);
+  const bool is_cut_back = isCutBack(box, cell);
   open.cell = is_cut_back ? box : cell;
   weigh(open);
   if (is_cut_back) {
-    const double accuracy = accuracyBeside(open);
+    // What may collide of the open cell is about its share of P.
+    const double mass = cellMass(cell).upper;
+    const double share = mass > 0.0 ? open.upper / mass : 0.0;
+    const double accuracy =
+        std::clamp(kSettledShare * relative_tolerance_ * share, kSettledAccuracy, kOpenAccuracy);
     settlePart(cell, leader.inner, 1.0, accuracy);
     settlePart(box, leader.inner, -1.0, accuracy);
   }

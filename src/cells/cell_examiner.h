@@ -34,6 +34,17 @@ struct Examination {
   std::optional<OpenCell> open;
 };
 
+/// No m·y of a part is lower, its rounding included.
+inline double lowestIn(const Cell& part, const Eigen::Vector3d& m) {
+  return m.dot(part.lowestCorner(m)) - 1e-13;
+}
+
+/// Whether masses under a plane may be used in the cell: wider ones are divided before.
+inline bool mayIntegrate(const Cell& cell) {
+  constexpr double kWidestIntegrated = 2.5;
+  return cell.largestWidth() <= kWidestIntegrated;
+}
+
 class CellExaminer {
  public:
   /// Keeps references to all arguments.
@@ -61,34 +72,27 @@ class CellExaminer {
   /// No pair and no layer.
   static constexpr FrontPair kNobody{{FrontPair::kNone, FrontPair::kNone}, FrontPair::kNone};
 
-  static double lowestIn(const Cell& part, const Eigen::Vector3d& m);
   void settle(const Claim& all, const FrontPair& by = kNobody);
   void settlePart(const Cell& cell, const CellPlane& plane, double sign, double accuracy);
-  double accuracyBeside(const OpenCell& open) const;
   void settleFree(const Cell& cell);
   void settleAround(const Cell& box);
   void claim(Claim claim, const FrontPair& by = kNobody) const;
   void claimAbove(const char* method, const Cell& cell, const CuttingPair& leader) const;
   void claimBelow(const char* method, const Cell& cell, const CellPlane& plane) const;
-  std::optional<CuttingPair> champion() const;
   std::optional<CuttingPair> findLeader();
-  bool asksTopologyFirst();
   void improveByTopology(std::optional<CuttingPair>& best);
   CrossingWitness* witness();
   void openWithoutPlane();
-  bool maySkim(const Cell& cell) const;
-  bool isOutsideBelow(const CellPlane& plane) const;
   ObstaclePart largestPart(const OpenCell& open, int most, double& mass);
   std::optional<double> massOfPart(const OpenCell& open, const PartMeasure& measure,
                                    const CoveredPart& part);
-  double lowestOfFront(const OpenCell& open, const CellPlane& level);
   void addPart(OpenCell& open);
   void addPossible(OpenCell& open);
   void weigh(OpenCell& open);
-  bool isCutBack(const Cell& box) const;
   void claimBeside(const CuttingPair& leader, const Cell& box, double settled_from,
                    bool nothing_below) const;
   void openWithPlane(const CuttingPair& leader);
+  void leaveOpen(OpenCell open, const CuttingPair& leader, const Cell& box);
 
   const WhitenedPair& pair_;
   CellFront front_;

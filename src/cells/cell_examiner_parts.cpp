@@ -65,26 +65,10 @@ std::optional<double> CellExaminer::massOfPart(const OpenCell& open, const PartM
   return covered;
 }
 
-// Lower bound of m·y over all that may collide in an open cell, or the level, if that is lower.
-double CellExaminer::lowestOfFront(const OpenCell& open, const CellPlane& level) {
-  const Eigen::Vector3d& m = level.m;
-  const double least = lowestIn(open.cell, m);
-  double result = level.s;
-  for (const FrontPair& pair : open.front) {
-    if (result <= least) return result;
-    double lowest = front_.lowest().ofBox(pair, m);
-    if (lowest < result && pair.hasObstacle()) {
-      if (!pair.isLayer()) lowest = std::max(lowest, front_.lowest().ofVertices(pair.nodes, m));
-      if (lowest < result) lowest = std::max(lowest, front_.lowest().ofSlabs(pair, m));
-    }
-    result = std::min(result, lowest);
-  }
-  return result;
-}
-
 // Tightens an open cell by the pair that covers most of it.
 void CellExaminer::addPart(OpenCell& open) {
-  if (!maySkim(open.cell)) return;
+  // Where one object may be inside the other, what a plane leaves is not simply free.
+  if (!mayIntegrate(open.cell) || (solids_ && solids_->possible(open.cell))) return;
   double mass = kLeastCovered * open.upper;
   const ObstaclePart best = largestPart(open, CoveredPart::kMostPlanes, mass);
   if (best.share <= 0.0) {
@@ -94,7 +78,8 @@ void CellExaminer::addPart(OpenCell& open) {
   // What may collide, along the normals of all planes of the part.
   CoveredPart possible = best.part;
   for (int i = 0; i < possible.count; ++i) {
-    possible.planes[i].s = lowestOfFront(open, possible.planes[i]);
+    const CellPlane& level = possible.planes[i];
+    possible.planes[i].s = front_.lowest().ofFront(open.front, level, lowestIn(open.cell, level.m));
   }
   const Eigen::Vector3d& m = possible.planes[0].m;
   open.possible_from = possible.planes[0].s;
@@ -120,8 +105,9 @@ void CellExaminer::addPossible(OpenCell& open) {
   for (int k = open.cell.rank; k < 3; ++k) m[k] = 0.0;
   if (m.isZero(0.0)) return;
   m.normalize();
-  const double possible_from = lowestOfFront(open, {m, kInfinity});
-  if (!(possible_from > lowestIn(open.cell, m))) return;
+  const double least = lowestIn(open.cell, m);
+  const double possible_from = front_.lowest().ofFront(open.front, {m, kInfinity}, least);
+  if (!(possible_from > least)) return;
   open.possible_from = possible_from;
   open.tells = OpenCell::PlaneTells::possible;
   open.plane = {m, possible_from};

@@ -337,6 +337,14 @@ bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double
   return true;
 }
 
+std::optional<CuttingPair> CellFront::champion() const {
+  std::optional<CuttingPair> best;
+  for (const CuttingPair& cutting : cutting_) {
+    if (cutting.sides == 1 && cutting.depth < (best ? best->depth : 1.0)) best = cutting;
+  }
+  return best;
+}
+
 Eigen::Vector3d CellFront::acrossNearest(const Eigen::Vector3d& point) const {
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
   double nearest = kInfinity;

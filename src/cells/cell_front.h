@@ -67,6 +67,9 @@ class CellFront {
 
   const SlabArrays& slabs(const FrontPair& pair) const { return obstacles_.slabs(pair.obstacle); }
 
+  /// The cutting pair that covers most of the cell under a single plane.
+  std::optional<CuttingPair> champion() const;
+
   /// The inward normal of the plane beyond which a point is, of the cutting pair that is nearest to
   /// it; 0 if there is none.
   Eigen::Vector3d acrossNearest(const Eigen::Vector3d& point) const;

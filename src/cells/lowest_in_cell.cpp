@@ -99,6 +99,22 @@ double LowestInCell::ofVertices(NodePair nodes, const Eigen::Vector3d& m) {
   return b - a - error;
 }
 
+double LowestInCell::ofFront(const std::vector<FrontPair>& front, const CellPlane& level,
+                             double least) {
+  const Eigen::Vector3d& m = level.m;
+  double result = level.s;
+  for (const FrontPair& pair : front) {
+    if (result <= least) return result;
+    double lowest = ofBox(pair, m);
+    if (lowest < result && pair.hasObstacle()) {
+      if (!pair.isLayer()) lowest = std::max(lowest, ofVertices(pair.nodes, m));
+      if (lowest < result) lowest = std::max(lowest, ofSlabs(pair, m));
+    }
+    result = std::min(result, lowest);
+  }
+  return result;
+}
+
 // Lower bound of m·y over the C-obstacle of two nodes ∩ cell: as good as it gets if it is below the
 // level.
 double LowestInCell::ofParts(NodePair nodes, const NodeBox& box, const CellPlane& level) {

@@ -45,6 +45,10 @@ class LowestInCell {
   /// their work until another m is used.
   double ofVertices(NodePair nodes, const Eigen::Vector3d& m);
 
+  /// Over all pairs of a front, or the level, if that is lower; looked at until it is below
+  /// `least`.
+  double ofFront(const std::vector<FrontPair>& front, const CellPlane& level, double least);
+
   /// What reaches below a level, in pairs as large as they came or smaller.
   struct PartsBelow {
     std::vector<FrontPair> pairs;

@@ -55,6 +55,13 @@ Vector rotated(const Vector& rim, double angle) {
   return {c * rim.x() - s * rim.y(), s * rim.x() + c * rim.y(), 0.0};
 }
 
+/// Of n/|n| above the circle.
+double heightOf(const Vector& normal, double lift) { return normal.z() - lift * normal.norm(); }
+
+double radiusOf(const Frustum& frustum, End end) {
+  return end == End::top ? frustum.top : frustum.bottom;
+}
+
 class RimSurfaceBuilder {
  public:
   RimSurfaceBuilder(const CurvedSum& sum, const ConvexMesh& polytope)
@@ -94,11 +101,6 @@ class RimSurfaceBuilder {
  private:
   const Vector& at(int vertex) const { return mesh_.vertices[static_cast<std::size_t>(vertex)]; }
 
-  /// Of n/|n| above the circle.
-  double heightOf(const Vector& normal) const { return normal.z() - lift_ * normal.norm(); }
-
-  double radiusOf(End end) const { return end == End::top ? frustum_.top : frustum_.bottom; }
-
   /// A corner of the polytope at an end of the axis, mapped.
   Vector position(int vertex, End end) const {
     LongVector3 point = at(vertex).cast<long double>();
@@ -108,7 +110,7 @@ class RimSurfaceBuilder {
 
   std::optional<RimNormal> rimNormal(const Vector& normal) const {
     const Vector across(normal.x(), normal.y(), 0.0);
-    const double height = heightOf(normal);
+    const double height = heightOf(normal, lift_);
     if (!(across.norm() > kTie) || !(std::abs(height) > kTie)) return std::nullopt;
     return RimNormal{normal, across.normalized(), height > 0.0 ? End::top : End::bottom};
   }
@@ -138,8 +140,9 @@ class RimSurfaceBuilder {
       // At t = 0 all of it is one corner.
       patch.position = {corner(0), corner(0), corner(k), corner(k + 1)};
       std::swap(patch.position[2], patch.position[3]);
-      if (radiusOf(normal.end) > 0.0) {
-        patch.add(rimTerm(normal.rim, normal.rim, radiusOf(normal.end), radiusOf(normal.end)));
+      if (radiusOf(frustum_, normal.end) > 0.0) {
+        patch.add(rimTerm(normal.rim, normal.rim, radiusOf(frustum_, normal.end),
+                          radiusOf(frustum_, normal.end)));
       }
       result_.patches.push_back(patch);
     }
@@ -226,7 +229,7 @@ class RimSurfaceBuilder {
     auto& turns = from.end == End::top ? top_turn_ : bottom_turn_;
     turns[static_cast<std::size_t>(edge.to)] += turn;
     turns[static_cast<std::size_t>(edge.from)] -= turn;
-    const double radius = radiusOf(from.end);
+    const double radius = radiusOf(frustum_, from.end);
     if (!(radius > 0.0) || turn == 0.0) return;
     forEachPiece(from.rim, to.rim, turn, [&](const Vector& begin, const Vector& end) {
       SurfacePatch patch;
@@ -304,7 +307,7 @@ class RimSurfaceBuilder {
     const auto vertex = farthestCorner(end);
     if (!vertex) return false;
     (end == End::top ? top_ : bottom_) = *vertex;
-    const double radius = radiusOf(end);
+    const double radius = radiusOf(frustum_, end);
     if (!(radius > 0.0)) return true;
     forEachPiece(Vector::UnitX(), Vector::UnitX(), 2.0 * M_PI,
                  [&](const Vector& from, const Vector& to) {

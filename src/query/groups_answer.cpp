@@ -55,7 +55,6 @@ class GroupsAnswer {
   bool mayBeDecidedByPairs() const;
   bool decideByPairs();
 
-  bool always() const { return true; }
   bool divide();
 
   // Without a displacement, where cells cannot tell: what fcl::collide says, as for pairs.
@@ -77,10 +76,13 @@ class GroupsAnswer {
 };
 
 const std::vector<Rung<GroupsAnswer>> GroupsAnswer::kLadder{
-    {"root volumes", &GroupsAnswer::mayBeFar, &GroupsAnswer::sumRootBounds},
-    {"pairs", &GroupsAnswer::mayBeDecidedByPairs, &GroupsAnswer::decideByPairs},
-    {"partition", &GroupsAnswer::always, &GroupsAnswer::divide, true},
-    {"one fcl::collide", &GroupsAnswer::isStillUnknown, &GroupsAnswer::collideAll, true},
+    {"root volumes", [](const GroupsAnswer& q) { return q.mayBeFar(); },
+     &GroupsAnswer::sumRootBounds},
+    {"pairs", [](const GroupsAnswer& q) { return q.mayBeDecidedByPairs(); },
+     &GroupsAnswer::decideByPairs},
+    {"partition", nullptr, &GroupsAnswer::divide, true},
+    {"one fcl::collide", [](const GroupsAnswer& q) { return q.isStillUnknown(); },
+     &GroupsAnswer::collideAll, true},
 };
 
 bool GroupsAnswer::mayBeFar() const {

@@ -36,6 +36,43 @@ constexpr double kLeastFiner = 1.0 / 4, kMostFiner = 1.0 / 64;
 /// Of the sum: what rounding leaves of it, whatever the tolerance.
 constexpr double kRounded = 1e-14;
 
+bool isEstimate(const ProbabilityRequest& request) {
+  return request.method == ProbabilityMethod::estimate;
+}
+
+bool isSampled(const ProbabilityRequest& request) {
+  return request.method == ProbabilityMethod::rare_event;
+}
+
+/// Methods with a tolerance for what they answer of each component.
+bool looksTwice(const ProbabilityRequest& request) {
+  return request.method == ProbabilityMethod::automatic ||
+         request.method == ProbabilityMethod::interval || isEstimate(request);
+}
+
+/// Whether a sum is as accurate as was asked for.
+bool isGoodEnough(const ProbabilityResult& total, const ProbabilityRequest& request) {
+  if (asksForDecision(request)) return false;
+  const auto within = [&request](double error, double probability, double absolute) {
+    return error <= std::max(absolute, request.relative_tolerance * probability);
+  };
+  if (isSampled(request)) {
+    const Bounds& sampled = *total.confidence_interval;
+    return within(0.5 * sampled.width(), sampled.upper, 0.0);
+  }
+  if (isEstimate(request)) {
+    return within(*total.standard_error, *total.estimate, request.absolute_tolerance);
+  }
+  return total.lower && total.upper &&
+         within(*total.upper - *total.lower, *total.upper, request.absolute_tolerance);
+}
+
+std::vector<double> weightsOf(const std::vector<GaussianMixture::Component>& components) {
+  std::vector<double> weights;
+  for (const auto& component : components) weights.push_back(component.weight);
+  return weights;
+}
+
 class MixtureQuery {
  public:
   MixtureQuery(const GaussianMixture& mixture, const ProbabilityRequest& request,
@@ -63,32 +100,17 @@ class MixtureQuery {
       result.plan.insert(result.plan.begin(), "mixture of 1 Gaussian");
       return result;
     }
-    if (looksTwice()) askCoarsely();
+    if (looksTwice(request_)) askCoarsely();
     for (int round = 0; round == 0 || (round < kMostRounds && isEstimateTooCoarse()); ++round) {
       askFinely(toleranceOfOne() / (1 << round));
     }
-    if (asksForDecision(request_) && looksTwice()) decide();
+    if (asksForDecision(request_) && looksTwice(request_)) decide();
     return sum();
   }
 
  private:
-  static std::vector<double> weightsOf(const std::vector<GaussianMixture::Component>& components) {
-    std::vector<double> weights;
-    for (const auto& component : components) weights.push_back(component.weight);
-    return weights;
-  }
-
   /// The best of each component.
   const std::vector<std::optional<ProbabilityResult>>& results() const { return loop_.answers(); }
-
-  bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
-  bool isSampled() const { return request_.method == ProbabilityMethod::rare_event; }
-
-  /// Methods with a tolerance for what they answer of each component.
-  bool looksTwice() const {
-    return request_.method == ProbabilityMethod::automatic ||
-           request_.method == ProbabilityMethod::interval || isEstimate();
-  }
 
   void askCoarsely() {
     ProbabilityRequest coarse = ofOne();
@@ -120,7 +142,7 @@ class MixtureQuery {
   /// \param tolerance  of each, where it has one
   void askFinely(double tolerance) {
     ProbabilityRequest fine = ofOne();
-    if (looksTwice()) {
+    if (looksTwice(request_)) {
       fine.absolute_tolerance = tolerance;
       fine.relative_tolerance = fine.absolute_tolerance > 0.0 ? 0.0 : request_.relative_tolerance;
     }
@@ -134,7 +156,7 @@ class MixtureQuery {
   /// Such that what all components leave open adds up to no more than the tolerance: widths by
   /// their weights, standard errors (independent of each other) by the squares of those.
   double toleranceOfOne() const {
-    if (!isEstimate()) {
+    if (!isEstimate(request_)) {
       return request_.toleranceAt(interval().lower);
     }
     constexpr double kReserve = 0.9;  // for an estimate that turns out smaller
@@ -150,8 +172,8 @@ class MixtureQuery {
     ProbabilityRequest request = request_;
     request.threshold.reset();
     const double error = (1.0 - request_.confidence) / static_cast<double>(components_.size());
-    if (isSampled()) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
-    if (isSampled() && request_.threshold) {
+    if (isSampled(request_)) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
+    if (isSampled(request_) && request_.threshold) {
       request.relative_tolerance = 0.0;
       request.absolute_tolerance = std::numeric_limits<double>::min();
     }
@@ -161,15 +183,17 @@ class MixtureQuery {
   /// The answer so far is good enough.
   bool isFine(std::size_t i, const ProbabilityRequest& fine) const {
     const auto& result = results()[i];
-    if (!result || !looksTwice() || request_.gradient) return false;
-    if (isEstimate()) return errorOf(i) <= fine.absolute_tolerance;
+    if (!result || !looksTwice(request_) || request_.gradient) return false;
+    if (isEstimate(request_)) return errorOf(i) <= fine.absolute_tolerance;
     return result->lower && result->upper &&
            *result->upper - *result->lower <= fine.absolute_tolerance;
   }
 
   bool finished() { return loop_.isOut() || decided(); }
 
-  bool decided() const { return !isSampled() && isDecided(decisionOf(interval(), request_)); }
+  bool decided() const {
+    return !isSampled(request_) && isDecided(decisionOf(interval(), request_));
+  }
 
   template <typename BoundsOf>
   Bounds weightedSum(const BoundsOf& boundsOf) const {
@@ -214,7 +238,7 @@ class MixtureQuery {
   }
 
   bool isEstimateTooCoarse() {
-    if (!isEstimate() || loop_.isOut() || decided()) return false;
+    if (!isEstimate(request_) || loop_.isOut() || decided()) return false;
     const auto [estimate, error] = estimateOfAll();
     return error > request_.toleranceAt(estimate);
   }
@@ -228,7 +252,7 @@ class MixtureQuery {
     const bool stopped = loop_.isOut() || decided();
     ProbabilityResult total;
     const Bounds bounds = interval();
-    if (isSampled()) {
+    if (isSampled(request_)) {
       total.confidence_interval = confidenceInterval();
     } else {
       if (stopped || all([](const auto& one) { return one.lower.has_value(); }))
@@ -237,7 +261,7 @@ class MixtureQuery {
         total.upper = bounds.upper;
     }
     const bool estimates = all([](const auto& one) { return one.estimate.has_value(); });
-    if (isEstimate() || isSampled() || estimates) {
+    if (isEstimate(request_) || isSampled(request_) || estimates) {
       std::tie(total.estimate, total.standard_error) = estimateOfAll();
       if (total.lower) total.estimate = std::clamp(*total.estimate, bounds.lower, bounds.upper);
     }
@@ -264,7 +288,7 @@ class MixtureQuery {
   ProbabilityStatus statusOf(const ProbabilityResult& total) const {
     if (isDecided(total.decision)) return ProbabilityStatus::decided;
     if (loop_.out() == ProbabilityStatus::cancelled) return ProbabilityStatus::cancelled;
-    const bool fine = isGoodEnough(total);
+    const bool fine = isGoodEnough(total, request_);
     if (loop_.out() && !fine) return *loop_.out();
     std::optional<ProbabilityStatus> common;
     for (const auto& result : results()) {
@@ -278,26 +302,10 @@ class MixtureQuery {
     // Bounds below the least normal double add up to more than their parts.
     const bool has_both = total.lower && total.upper;
     const bool claims_tolerance =
-        isEstimate() || asksForDecision(request_) || (looksTwice() && has_both);
+        isEstimate(request_) || asksForDecision(request_) || (looksTwice(request_) && has_both);
     if (claims_tolerance && !fine && *common != ProbabilityStatus::exact)
       return ProbabilityStatus::resolution_limit;
     return *common;
-  }
-
-  bool isGoodEnough(const ProbabilityResult& total) const {
-    if (asksForDecision(request_)) return false;
-    const auto within = [this](double error, double probability, double absolute) {
-      return error <= std::max(absolute, request_.relative_tolerance * probability);
-    };
-    if (isSampled()) {
-      const Bounds& sampled = *total.confidence_interval;
-      return within(0.5 * sampled.width(), sampled.upper, 0.0);
-    }
-    if (isEstimate()) {
-      return within(*total.standard_error, *total.estimate, request_.absolute_tolerance);
-    }
-    return total.lower && total.upper &&
-           within(*total.upper - *total.lower, *total.upper, request_.absolute_tolerance);
   }
 
   void addGradients(ProbabilityResult& total) const {

@@ -51,37 +51,19 @@ class PairAnswer {
   }
 
  private:
-  // Where nothing is random, or nothing but the displacement along one normal matters.
-  bool isStill() const { return plan_.route == Route::single_collide; }
+  // The rungs, in their order.
   bool collideOnce();
-  bool isUnbounded() const { return plan_.route == Route::unbounded_pair; }
   bool answerInClosedForm();
-
-  // Methods that are asked for by name.
-  bool isBoundByName() const {
-    return plan_.route == Route::convex_bound || plan_.route == Route::general_pcd;
-  }
   bool boundFromAbove();
-  bool isSampledByName() const {
-    return plan_.route == Route::monte_carlo || plan_.route == Route::rare_event;
-  }
   bool sample();
-
-  bool isOfFewTriangles() const { return plan_.convex_meshes_first; }
-  bool answerByConvexMeshes();
-  bool mayBeFar() const { return plan_.try_root_bound; }
   bool boundByRoots();
-  bool isExactFirst() const { return plan_.route == Route::exact_mass; }
+  bool answerByConvexMeshes();
   bool answerByExactMass();
-  bool always() const { return true; }
   bool divide();
-  bool mayHaveExactMass() const {
-    return plan_.exact_if_unresolved || plan_.convex_meshes_if_unresolved;
-  }
   bool closeByExactMass();
-  bool hasCellsLeft() const;
   bool divideFurther();
 
+  bool hasCellsLeft() const;
   bool take(ProbabilityResult result);
 
   // Of convex shapes, and of meshes that are convex: nothing in a build without them.
@@ -105,16 +87,36 @@ class PairAnswer {
 };
 
 const std::vector<Rung<PairAnswer>> PairAnswer::kLadder{
-    {"one fcl::collide", &PairAnswer::isStill, &PairAnswer::collideOnce, true},
-    {"closed form", &PairAnswer::isUnbounded, &PairAnswer::answerInClosedForm, true},
-    {"bound", &PairAnswer::isBoundByName, &PairAnswer::boundFromAbove, true},
-    {"sampling", &PairAnswer::isSampledByName, &PairAnswer::sample, true},
-    {"root volumes", &PairAnswer::mayBeFar, &PairAnswer::boundByRoots},
-    {"convex meshes", &PairAnswer::isOfFewTriangles, &PairAnswer::answerByConvexMeshes},
-    {"exact mass", &PairAnswer::isExactFirst, &PairAnswer::answerByExactMass},
-    {"partition", &PairAnswer::always, &PairAnswer::divide, true},
-    {"exact mass", &PairAnswer::mayHaveExactMass, &PairAnswer::closeByExactMass},
-    {"partition", &PairAnswer::hasCellsLeft, &PairAnswer::divideFurther, true},
+    // Where nothing is random, or nothing but the displacement along one normal matters.
+    {"one fcl::collide", [](const PairAnswer& q) { return q.plan_.route == Route::single_collide; },
+     &PairAnswer::collideOnce, true},
+    {"closed form", [](const PairAnswer& q) { return q.plan_.route == Route::unbounded_pair; },
+     &PairAnswer::answerInClosedForm, true},
+    // Methods that are asked for by name.
+    {"bound",
+     [](const PairAnswer& q) {
+       return q.plan_.route == Route::convex_bound || q.plan_.route == Route::general_pcd;
+     },
+     &PairAnswer::boundFromAbove, true},
+    {"sampling",
+     [](const PairAnswer& q) {
+       return q.plan_.route == Route::monte_carlo || q.plan_.route == Route::rare_event;
+     },
+     &PairAnswer::sample, true},
+    {"root volumes", [](const PairAnswer& q) { return q.plan_.try_root_bound; },
+     &PairAnswer::boundByRoots},
+    {"convex meshes", [](const PairAnswer& q) { return q.plan_.convex_meshes_first; },
+     &PairAnswer::answerByConvexMeshes},
+    {"exact mass", [](const PairAnswer& q) { return q.plan_.route == Route::exact_mass; },
+     &PairAnswer::answerByExactMass},
+    {"partition", nullptr, &PairAnswer::divide, true},
+    {"exact mass",
+     [](const PairAnswer& q) {
+       return q.plan_.exact_if_unresolved || q.plan_.convex_meshes_if_unresolved;
+     },
+     &PairAnswer::closeByExactMass},
+    {"partition", [](const PairAnswer& q) { return q.hasCellsLeft(); }, &PairAnswer::divideFurther,
+     true},
 };
 
 bool PairAnswer::take(ProbabilityResult result) {

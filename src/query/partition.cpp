@@ -68,10 +68,6 @@ class PartitionQuery {
     if (claim_observer) claim_observer->frame(scene_.whitening(), given_);
   }
 
-  // Polytope cells: at once for an interval, for a decision where little else helps.
-  bool isIntervalByPolytopes() const { return may_use_polytopes_ && !isDecision(); }
-  bool isNearThreshold() const { return may_use_polytopes_ && near_threshold_; }
-  bool mayUsePolytopes() const { return may_use_polytopes_; }
   bool dividePolytopes();
 
   // A mean over lines, where nothing but P is asked for and an object can be taken whole.
@@ -79,12 +75,10 @@ class PartitionQuery {
   bool estimateByLines();
 
   // Bounds on columns of lines, where an object can be taken whole.
-  bool isForColumns() const { return may_use_polytopes_ && isDecision(); }
   bool boundColumns();
 
   // Boxes: a few where polytopes come after them, else as many as it takes.
   bool divideFirstBoxes();
-  bool always() const { return true; }
   bool divideBoxes();
   bool sampleBoxes();
 
@@ -107,14 +101,24 @@ class PartitionQuery {
 };
 
 const std::vector<Rung<PartitionQuery>> PartitionQuery::kLadder{
-    {"polytope cells", &PartitionQuery::isIntervalByPolytopes, &PartitionQuery::dividePolytopes},
-    {"lines", &PartitionQuery::isForLines, &PartitionQuery::estimateByLines},
-    {"columns", &PartitionQuery::isForColumns, &PartitionQuery::boundColumns},
-    {"polytope cells", &PartitionQuery::isNearThreshold, &PartitionQuery::dividePolytopes},
-    {"first boxes", &PartitionQuery::mayUsePolytopes, &PartitionQuery::divideFirstBoxes},
-    {"polytope cells", &PartitionQuery::mayUsePolytopes, &PartitionQuery::dividePolytopes},
-    {"boxes", &PartitionQuery::always, &PartitionQuery::divideBoxes, true},
-    {"samples of boxes", &PartitionQuery::isEstimate, &PartitionQuery::sampleBoxes, true},
+    // At once for an interval, for a decision where little else helps.
+    {"polytope cells",
+     [](const PartitionQuery& q) { return q.may_use_polytopes_ && !q.isDecision(); },
+     &PartitionQuery::dividePolytopes},
+    {"lines", [](const PartitionQuery& q) { return q.isForLines(); },
+     &PartitionQuery::estimateByLines},
+    {"columns", [](const PartitionQuery& q) { return q.may_use_polytopes_ && q.isDecision(); },
+     &PartitionQuery::boundColumns},
+    {"polytope cells",
+     [](const PartitionQuery& q) { return q.may_use_polytopes_ && q.near_threshold_; },
+     &PartitionQuery::dividePolytopes},
+    {"first boxes", [](const PartitionQuery& q) { return q.may_use_polytopes_; },
+     &PartitionQuery::divideFirstBoxes},
+    {"polytope cells", [](const PartitionQuery& q) { return q.may_use_polytopes_; },
+     &PartitionQuery::dividePolytopes},
+    {"boxes", nullptr, &PartitionQuery::divideBoxes, true},
+    {"samples of boxes", [](const PartitionQuery& q) { return q.isEstimate(); },
+     &PartitionQuery::sampleBoxes, true},
 };
 
 ProbabilityResult PartitionQuery::answer() {
