@@ -21,7 +21,7 @@ bool asksForUnits(double of_a, double of_b, double deviation) {
   const fcl_prob::GaussianDisplacement error(Eigen::Vector3d::Zero(),
                                              deviation * deviation * Eigen::Matrix3d::Identity());
   fcl_prob::ProbabilityRequest request;
-  request.relative_tolerance = 0.5;
+  request.max_cells = 50;  // the lengths are told however wide the interval is
   fcl_prob::ProbabilityResult result;
   fcl_prob::collisionProbability(a.get(), fcl::Transform3d::Identity(), b.get(), beside, error,
                                  request, result);
