@@ -16,8 +16,6 @@ class Toy {
  public:
   explicit Toy(const ProbabilityRequest& request) : known(request) {}
 
-  bool isSmall() const { return small; }
-  bool always() const { return true; }
   bool look() { return narrowTo(0.3); }
   bool lookCloser() { return narrowTo(0.03); }
   bool lookClosest() { return narrowTo(0.003); }
@@ -33,9 +31,9 @@ class Toy {
   }
 };
 
-const std::vector<Rung<Toy>> kToys{{"glance", &Toy::isSmall, &Toy::look},
-                                   {"look", &Toy::always, &Toy::lookCloser},
-                                   {"stare", &Toy::always, &Toy::lookClosest, true}};
+const std::vector<Rung<Toy>> kToys{{"glance", [](const Toy& toy) { return toy.small; }, &Toy::look},
+                                   {"look", nullptr, &Toy::lookCloser},
+                                   {"stare", nullptr, &Toy::lookClosest, true}};
 
 std::vector<std::string> climbed(Toy& toy) {
   climb(kToys, toy, toy.known, toy.records);
