@@ -180,7 +180,7 @@ TEST_CASE("fine balls: the interval agrees with the mass of a ball", "[partition
   }
 }
 
-TEST_CASE("the interval of a bowl and a ball holds a Monte Carlo estimate", "[partition]") {
+TEST_CASE("the interval of a bowl and a ball holds a Monte Carlo estimate", "[partition][slow]") {
   const TriangleMesh bowl = cutOpen(bumpyMesh(1.2, 30, 40, 9), -0.3);
   const TriangleMesh ball = bumpyMesh(0.7, 20, 30, 11);
   const GaussianDisplacement displacement(Eigen::Vector3d(0.4, -0.2, -0.9),
@@ -209,7 +209,7 @@ TEST_CASE("the interval of a bowl and a ball holds a Monte Carlo estimate", "[pa
 
 TEST_CASE(
     "a small body beside a large one: the interval holds a Monte Carlo estimate, in few cells",
-    "[partition]") {
+    "[partition][slow]") {
   const TriangleMesh large = bumpyMesh(1.0, 48, 64, 21);
   const GaussianDisplacement displacement(Eigen::Vector3d(0.9, 0.3, 0.1),
                                           Eigen::Vector3d(0.04, 0.02, 0.01).asDiagonal() * 1.0);

@@ -352,7 +352,7 @@ TEST_CASE("bounds by columns hold, and decide what is clear", "[lines]") {
 // Along the axes of the displacement, so that lines have all or nothing of the C-obstacle, and its
 // edges are along the sides of columns: often none of the few lines of a column misses it. P is a
 // product of tails.
-TEST_CASE("edges along the sides of columns count in the standard error", "[lines]") {
+TEST_CASE("edges along the sides of columns count in the standard error", "[lines][slow]") {
   const Eigen::Vector3d sigma(0.07, 0.06, 0.1);
   const auto displacement = GaussianDisplacement::fromStandardDeviations(sigma);
   // Two corners, of which one is out of reach: not convex.

@@ -96,7 +96,8 @@ double extentAlong(const NodeBox& box, const Eigen::Vector3d& n) {
   return box.highestAlong(n) + box.highestAlong(-n);
 }
 
-TEST_CASE("layers of flat nodes hold their C-obstacles, at any scale and however far apart") {
+TEST_CASE("layers of flat nodes hold their C-obstacles, at any scale and however far apart",
+          "[slow]") {
   RandomBodies random(4711);
   int near = 0, thin = 0, layers = 0;
   for (int i = 0; i < 300; ++i) {
