@@ -276,7 +276,8 @@ void checkScenes(int scenes, int samples, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("carved intervals hold sampled probabilities on random scenes", "[carving][random][slow]") {
+TEST_CASE("carved intervals hold sampled probabilities on random scenes",
+          "[carving][random][slow]") {
   checkScenes(60, 1'500, 11);
 }
 

@@ -37,7 +37,8 @@ bool overlap(const Bounds& x, const Bounds& y) { return x.lower <= y.upper && y.
 
 }  // namespace
 
-TEST_CASE("the interval holds P on the benchmark scenes at every step and tolerance", "[scenes][slow]") {
+TEST_CASE("the interval holds P on the benchmark scenes at every step and tolerance",
+          "[scenes][slow]") {
   for (const std::string& name : fcl_prob_test::benchmarkSceneNames()) {
     const auto scene = fcl_prob_test::benchmarkSceneOrSkip(name);
     if (!scene) continue;

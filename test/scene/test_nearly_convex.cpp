@@ -134,7 +134,8 @@ void checkDentedScenes(int scenes, int samples, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("intervals of dented bodies hold sampled probabilities", "[nearly_convex][random][slow]") {
+TEST_CASE("intervals of dented bodies hold sampled probabilities",
+          "[nearly_convex][random][slow]") {
   checkDentedScenes(60, 1'000, 31);
 }
 
