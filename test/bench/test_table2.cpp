@@ -60,12 +60,13 @@ TEST_CASE("no row of table2 is below what is certain, but padding", "[cli][slow]
     CHECK(scene.partOf(scene.start) == 0.0);
     CHECK(scene.partOf(scene.goal) == 1.0);
     const auto methods = table2Methods(scene, 0.05, 1, known);
-    CHECK(methods.size() == 12);
+    CHECK(methods.size() == 16);
     CHECK(countOf(methods, Table2Answer::certified) == 1);
     CHECK(countOf(methods, Table2Answer::probable) == 1);
-    CHECK(countOf(methods, Table2Answer::padding) == 2);
+    CHECK(countOf(methods, Table2Answer::padding) == 4);
     for (const Eigen::VectorXd& end : {scene.start, scene.goal}) {
       for (const Table2Method& method : methods) {
+        if (!method.plans) continue;
         CAPTURE(scene.name, method.name);
         CHECK(method.probability(scene.at(end), 0.05) < 0.05);
       }
