@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench random-states: whole robots in any state beside a person, as a planner asks.
 #include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 
 #include "base/stopwatch.h"
 #include "bench/benchmark.h"
+#include "bench/least_distance.h"
 #include "bench/uniforms.h"
 #include "cli/geometry.h"
 #include "cli/number_text.h"
@@ -71,26 +71,13 @@ struct StateCosts {
   std::array<int, std::size(kPaddings)> false_alarms{}, missed{};
 };
 
-/// The least distance of any body from the person where it is expected, metres.
-double leastDistance(const RobotQuery& query, const Eigen::VectorXd& values) {
-  const auto poses = query.robot().poses(values);
-  const Obstacle& obstacle = query.obstacles()[0];
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < poses.size() && least > 0.0; ++i) {
-    fcl::DistanceResultd result;
-    result.min_distance = least;  // what is farther need not be known
-    fcl::distance(query.robot().bodies()[i].geometry.get(), poses[i], obstacle.geometry.get(),
-                  obstacle.pose, fcl::DistanceRequestd(), result);
-    least = std::min(least, result.min_distance);
-  }
-  return least;
-}
-
 /// What teams do today: a state is safe where everything is farther than some deviations.
 void addPadding(const RobotQuery& query, const Eigen::VectorXd& values, ProbableDecision decision,
                 StateCosts& costs) {
   const detail::Stopwatch watch;
-  const double distance = leastDistance(query, values);
+  const double distance =
+      leastDistance(query.robot(), query.robot().poses(values), query.obstacles()[0],
+                    std::numeric_limits<double>::infinity());
   costs.distance.push_back(watch.milliseconds());
   const auto& error = std::get<GaussianDisplacement>(query.obstacles()[0].displacement);
   for (std::size_t i = 0; i < std::size(kPaddings); ++i) {

@@ -209,13 +209,14 @@ std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsOfMeshes& 
   };
   const auto hulls = treesOf(*parts, PartVolume::convex);
   const PairUpper sum_of_hulls = overTrees(hulls, balls.share());
-  const auto boundOnly = [&](const char* name, PairUpper upper, int repetitions = 1) {
+  const auto boundOnly = [&](const std::string& name, PairUpper upper, int repetitions = 1) {
     return Table2Method{
         name, "", SumRow(balls, std::move(upper)), Table2Answer::upper_bound, false, repetitions};
   };
   return {{"spheres, printed sum", "sphere", SumRow(balls, sum(PartVolume::sphere))},
           {"AABBs, printed sum", "aabb", SumRow(balls, sum(PartVolume::aabb))},
-          boundOnly("AABBs, sum, 8 turned frames", overFrames(*parts), kFrames),
+          boundOnly("AABBs, sum, " + std::to_string(kFrames) + " turned frames", overFrames(*parts),
+                    kFrames),
           boundOnly("kIOS, printed sum", sum(PartVolume::kios)),
           {"OBBs, printed sum", "obb", SumRow(balls, sum(PartVolume::obb))},
           {"26-DOPs, printed sum", "kdop26", SumRow(balls, sum(PartVolume::kdop26))},

@@ -3,8 +3,8 @@
 #include "bench/table2_methods.h"
 
 #include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 
+#include "bench/least_distance.h"
 #include "bench/table2_bounds.h"
 #include "cli/geometry.h"
 #include "cli/random_displacement.h"
@@ -122,16 +122,9 @@ class DistanceRow {
 
   double operator()(const Table2State& state, double) const {
     const Poses poses = state.query.robot().poses(state.values);
-    const auto& bodies = state.query.robot().bodies();
     for (const Obstacle& obstacle : state.query.obstacles()) {
-      fcl::DistanceResultd result;
-      result.min_distance = deviations_ * gaussianOf(obstacle).standardDeviations().maxCoeff();
-      const double least = result.min_distance;  // what is farther need not be known
-      for (std::size_t i = 0; i < bodies.size(); ++i) {
-        fcl::distance(bodies[i].geometry.get(), poses[i], obstacle.geometry.get(), obstacle.pose,
-                      fcl::DistanceRequestd(), result);
-        if (result.min_distance < least) return 1.0;
-      }
+      const double far = deviations_ * gaussianOf(obstacle).standardDeviations().maxCoeff();
+      if (leastDistance(state.query.robot(), poses, obstacle, far) < far) return 1.0;
     }
     return 0.0;
   }

@@ -424,12 +424,12 @@ TEST_CASE("rare events over poses agree with the estimate, and with a closed for
     const auto estimate =
         answer(query, kIdentity, at(x, 0, 0), error, poseRequest(Method::estimate, 0.01));
     const auto rare =
-        answer(query, kIdentity, at(x, 0, 0), error, poseRequest(Method::rare_event, 0.04));
+        answer(query, kIdentity, at(x, 0, 0), error, poseRequest(Method::rare_event, 0.02));
     CAPTURE(x, *estimate.estimate, *rare.estimate, *rare.standard_error);
     CHECK(rare.method == Method::rare_event);
     CHECK(std::fabs(*rare.estimate - *estimate.estimate) <=
           5.0 * std::hypot(*rare.standard_error, *estimate.standard_error));
-    CHECK(*rare.standard_error <= std::max(0.06 * *rare.estimate, 1e-6));
+    CHECK(*rare.standard_error <= std::max(0.03 * *rare.estimate, 1e-6));
   }
   // A sphere that turns about its centre: rotations change nothing.
   const PreparedPoseQuery ball(std::make_shared<fcl::Sphered>(0.3),
@@ -441,7 +441,7 @@ TEST_CASE("rare events over poses agree with the estimate, and with a closed for
                        std::make_shared<fcl::Boxd>(1, 1, 1).get(), kIdentity, translation,
                        poseRequest(Method::interval, 1e-3), exact);
   const auto far =
-      answer(ball, at(1.5, 0, 0), kIdentity, turning, poseRequest(Method::rare_event, 0.06));
+      answer(ball, at(1.5, 0, 0), kIdentity, turning, poseRequest(Method::rare_event, 0.02));
   CAPTURE(*far.estimate, *far.standard_error, *exact.lower, *exact.upper);
   CHECK(*exact.upper < 1e-9);
   CHECK(*far.estimate - 5.0 * *far.standard_error <= *exact.upper);

@@ -79,7 +79,7 @@ void checkProbability(const GradientScene& scene, const MotionGradient& gradient
 
 /// A that moves as one is displaced.
 void checkTranslation(const GradientScene& scene, const MotionGradient& gradient) {
-  const ProbabilityResult certified = scene.certified(scene.poses_a, 1e-3, true);
+  const ProbabilityResult certified = scene.certified(scene.poses_a, 1e-4, true);
   REQUIRE(certified.gradient);
   for (int axis = 0; axis < 3; ++axis) {
     double sum = 0.0;
@@ -181,7 +181,7 @@ TEST_CASE("moved all together, members have the certified gradient of the displa
     scene.displacement =
         GaussianDisplacement::fromStandardDeviations({0.3, 0.2, 0.1}, random.quaternion());
     CAPTURE(static_cast<int>(shape->getNodeType()), beside_mesh);
-    const MotionGradient gradient = scene.gradient(1024);
+    const MotionGradient gradient = scene.gradient(4096);
     checkProbability(scene, gradient);
     checkTranslation(scene, gradient);
   }

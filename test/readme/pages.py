@@ -5,7 +5,7 @@
 
 Lines of `sh` blocks that begin with `fcl_prob` are run, one after the other. Where the text right above a block says
 "P = x", the answer of `--json` has to agree with it to the digits given, or to four standard errors. `json` blocks are
-scenes and queries, which are asked. Files that a reader would bring along (part.stl, cloud.pcd, ...) are small ones of
+scenes, which are asked. Files that a reader would bring along (part.stl, cloud.pcd, ...) are small ones of
 the project, or made here.
 """
 import json
@@ -63,7 +63,7 @@ def depth_image():
 
 def bring_along(folder):
     data = SOURCE_DIR / "data"
-    for name in ("mug.obj", "gripper_finger.off", "finger_mug.json"):
+    for name in ("mug.obj", "gripper_finger.off"):
         (folder / name).symlink_to(data / name)
     (folder / "gripper.stl").symlink_to(data / "bracket.stl")
     (folder / "cloud.pcd").write_text(depth_image())
@@ -79,12 +79,11 @@ def bring_along(folder):
 
 
 def lines_of(block, folder, number):
-    """The commands of a block; of a scene one that checks it, of queries, a line each, a sweep over them."""
+    """The commands of a block; of a scene one that checks it. (Queries of a sweep: test/python.)"""
     if block["kind"] == "json":
-        are_queries = block["lines"].startswith('{"id"')
-        file = f"block_{number}.jsonl" if are_queries else f"block_{number}.json"
-        (folder / file).write_text(block["lines"])
-        return [f"fcl_prob sweep {file} --output {file}.results" if are_queries else f"fcl_prob check --scene {file}"]
+        scene = f"block_{number}.json"
+        (folder / scene).write_text(block["lines"])
+        return [] if block["lines"].startswith('{"id"') else [f"fcl_prob check --scene {scene}"]
     return block["lines"].replace("\\\n", " ").splitlines()
 
 

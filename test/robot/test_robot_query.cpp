@@ -347,7 +347,7 @@ TEST_CASE("bodies that are left out as far away do not keep a threshold from bei
   one[0].pose = at(0.55, 0.25, 0.75);
   const RobotQuery query(arm, one);
   const Eigen::VectorXd values = sweep(arm, 3)[0];
-  ProbabilityRequest fine = withTolerance(5e-4);
+  ProbabilityRequest fine = withTolerance(1e-6);
   fine.absolute_tolerance = 0.0;
   const RobotResult known = query.state(values, fine);
   REQUIRE(known.any.lower > 0.0);

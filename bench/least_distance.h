@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the fcl_prob authors
+// What teams ask in place of a probability: how far a robot is from an obstacle.
+#pragma once
+
+#include <fcl/narrowphase/distance.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "fcl_prob/robot_query.h"
+
+namespace fcl_prob::cli {
+
+/// The least distance of any body from the obstacle where it is expected, metres; no more than
+/// `least`: what is farther need not be known. 0 or below: they touch.
+inline double leastDistance(const Robot& robot, const std::vector<fcl::Transform3d>& poses,
+                            const Obstacle& obstacle, double least) {
+  for (std::size_t i = 0; i < poses.size() && least > 0.0; ++i) {
+    fcl::DistanceResultd result;
+    result.min_distance = least;
+    fcl::distance(robot.bodies()[i].geometry.get(), poses[i], obstacle.geometry.get(),
+                  obstacle.pose, fcl::DistanceRequestd(), result);
+    least = std::min(least, result.min_distance);
+  }
+  return least;
+}
+
+}  // namespace fcl_prob::cli
