@@ -40,7 +40,7 @@ bool isEstimate(const ProbabilityRequest& request) {
   return request.method == ProbabilityMethod::estimate;
 }
 
-bool isSampled(const ProbabilityRequest& request) {
+bool isOfRareEvents(const ProbabilityRequest& request) {
   return request.method == ProbabilityMethod::rare_event;
 }
 
@@ -56,7 +56,7 @@ bool isGoodEnough(const ProbabilityResult& total, const ProbabilityRequest& requ
   const auto within = [&request](double error, double probability, double absolute) {
     return error <= std::max(absolute, request.relative_tolerance * probability);
   };
-  if (isSampled(request)) {
+  if (isOfRareEvents(request)) {
     const Bounds& sampled = *total.confidence_interval;
     return within(0.5 * sampled.width(), sampled.upper, 0.0);
   }
@@ -172,8 +172,8 @@ class MixtureQuery {
     ProbabilityRequest request = request_;
     request.threshold.reset();
     const double error = (1.0 - request_.confidence) / static_cast<double>(components_.size());
-    if (isSampled(request_)) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
-    if (isSampled(request_) && request_.threshold) {
+    if (isOfRareEvents(request_)) request.confidence = std::min(1.0 - error, 1.0 - 0x1p-53);
+    if (isOfRareEvents(request_) && request_.threshold) {
       request.relative_tolerance = 0.0;
       request.absolute_tolerance = std::numeric_limits<double>::min();
     }
@@ -192,7 +192,7 @@ class MixtureQuery {
   bool finished() { return loop_.isOut() || decided(); }
 
   bool decided() const {
-    return !isSampled(request_) && isDecided(decisionOf(interval(), request_));
+    return !isOfRareEvents(request_) && isDecided(decisionOf(interval(), request_));
   }
 
   template <typename BoundsOf>
@@ -252,7 +252,7 @@ class MixtureQuery {
     const bool stopped = loop_.isOut() || decided();
     ProbabilityResult total;
     const Bounds bounds = interval();
-    if (isSampled(request_)) {
+    if (isOfRareEvents(request_)) {
       total.confidence_interval = confidenceInterval();
     } else {
       if (stopped || all([](const auto& one) { return one.lower.has_value(); }))
@@ -261,7 +261,7 @@ class MixtureQuery {
         total.upper = bounds.upper;
     }
     const bool estimates = all([](const auto& one) { return one.estimate.has_value(); });
-    if (isEstimate(request_) || isSampled(request_) || estimates) {
+    if (isEstimate(request_) || isOfRareEvents(request_) || estimates) {
       std::tie(total.estimate, total.standard_error) = estimateOfAll();
       if (total.lower) total.estimate = std::clamp(*total.estimate, bounds.lower, bounds.upper);
     }
