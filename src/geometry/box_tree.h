@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace fcl_prob::detail {
@@ -25,6 +26,11 @@ class BoxTree {
   /// Stops and returns false as soon as one call returns false.
   template <typename Function>
   bool visitBox(const Box& other, Function&& function) const;
+
+  /// Calls `function(index)`, which returns how far what is sought may be, for boxes that are nearer
+  /// to the point, near ones first.
+  template <typename Function>
+  void visitNearest(const Eigen::Vector3d& point, Function&& function) const;
 
   /// Bytes.
   std::size_t memory() const {
@@ -76,6 +82,32 @@ bool BoxTree::visitBox(const Box& other, Function&& function) const {
     }
   }
   return true;
+}
+
+template <typename Function>
+void BoxTree::visitNearest(const Eigen::Vector3d& point, Function&& function) const {
+  struct Waiting {
+    double distance;
+    int node;
+  };
+  std::array<Waiting, kStackSize> stack;
+  std::size_t size = 0;
+  double most = std::numeric_limits<double>::infinity();
+  if (!nodes_.empty()) stack[size++] = {0.0, 0};
+  while (size > 0) {
+    const auto [distance, index] = stack[--size];
+    if (distance >= most) continue;
+    const Node& node = nodes_[index];
+    for (int i = node.first; i < node.last; ++i) {
+      if (items_[i].box.exteriorDistance(point) < most) most = function(items_[i].index);
+    }
+    if (node.isLeaf()) continue;
+    const Waiting low{nodes_[index + 1].box.exteriorDistance(point), index + 1};
+    const Waiting high{nodes_[node.right].box.exteriorDistance(point), node.right};
+    const bool low_first = low.distance < high.distance;
+    stack[size++] = low_first ? high : low;
+    stack[size++] = low_first ? low : high;
+  }
 }
 
 }  // namespace fcl_prob::detail

@@ -88,6 +88,20 @@ double BodyBounds::together(double enough) const {
   return std::min(sum(), sumAbove(of_near, apart));
 }
 
+double BodyBounds::lower(ContactMeaning contact, double enough) const {
+  const std::vector<fcl::Transform3d> poses = obstacle_.poses(pose_);
+  for (const auto& [placed, upper] : bounds_) {
+    if (upper <= enough) break;
+    const PlacedBalls body{robot_.hulls.ballsOf(placed.body), placed.pose};
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const PlacedBalls other{obstacle_.hulls().ballsOf(i), poses[i]};
+      const double lower = lowerByMedialBalls(body, other, of_bodies_, contact, enough);
+      if (lower > enough) return lower;
+    }
+  }
+  return 0.0;
+}
+
 std::vector<PlacedBody> BodyBounds::likelier(double most, double& left_out) const {
   left_out = 0.0;
   std::size_t count = bounds_.size();

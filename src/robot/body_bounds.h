@@ -45,6 +45,10 @@ class BodyBounds {
   /// millisecond. Stops when it is below `enough`, or when that is out of reach.
   double together(double enough) const;
 
+  /// Certainly not above P that one of them touches it: see medial_balls.h. The first that is above
+  /// `enough`, else 0.
+  double lower(ContactMeaning contact, double enough) const;
+
   /// The bodies but for those that are least likely to touch it.
   /// \param most      what those left out may add up to
   /// \param left_out  what they do

@@ -168,4 +168,11 @@ const NodeHulls& HullsOfBodies::of(std::size_t body) const {
   return *kept.hulls;
 }
 
+const MedialBalls& HullsOfBodies::ballsOf(std::size_t body) const {
+  Kept& kept = kept_[body];
+  std::call_once(kept.balls_once,
+                 [&] { kept.balls = std::make_unique<const MedialBalls>(*geometries_[body]); });
+  return *kept.balls;
+}
+
 }  // namespace fcl_prob::detail

@@ -12,6 +12,7 @@
 
 #include "query/prepared_geometry.h"
 #include "robot/body_balls.h"
+#include "robot/medial_balls.h"
 
 namespace fcl_prob::detail {
 
@@ -41,10 +42,14 @@ class HullsOfBodies {
   /// \pre  geometries[body] has a root body
   const NodeHulls& of(std::size_t body) const;
 
+  const MedialBalls& ballsOf(std::size_t body) const;
+
  private:
   struct Kept {
     std::once_flag once;
     std::unique_ptr<const NodeHulls> hulls;
+    std::once_flag balls_once;
+    std::unique_ptr<const MedialBalls> balls;
   };
 
   PreparedGeometries geometries_;

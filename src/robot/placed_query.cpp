@@ -85,6 +85,17 @@ ProbabilityResult allUnlikely(double upper) {
   return result;
 }
 
+/// One of them is deep in it, or it in one of them.
+ProbabilityResult oneIsDeep(double lower) {
+  ProbabilityResult result;
+  result.lower = lower;
+  result.upper = 1.0;
+  result.status = ProbabilityStatus::decided;
+  result.decision = Decision::above;
+  result.plan.push_back("above the threshold by a ball within one body or the obstacle");
+  return result;
+}
+
 /// A body that touches the obstacle where it is expected is often above the threshold alone, and
 /// one that is convex beside a mesh takes a part of the time of all. Nothing where it is not.
 /// \param bodies  the likeliest first
@@ -133,6 +144,8 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
   const double together = bounds.together(threshold - far);
   if (sumAbove(together, far) < threshold) return allUnlikely(together);
+  const double lower = bounds.lower(request.contact, threshold);
+  if (lower > threshold) return oneIsDeep(lower);
   double left_out = 0.0;
   const auto likelier = bounds.likelier(kShareOfThreshold * threshold, left_out);
   if (bodies.size() > 1) {
