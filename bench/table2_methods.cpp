@@ -145,7 +145,8 @@ class CertifiedRow {
   }
 
   double operator()(const Table2State& state, double enough) const {
-    if (const auto told = state.screen.tell(state.values, enough)) return *told ? 0.0 : 1.0;
+    const auto told = state.screen.isBelow(state.values, enough, ContactMeaning::fcl);
+    if (told) return *told ? 0.0 : 1.0;
     return state.query.state(state.values, request_).decision == Decision::below ? 0.0 : 1.0;
   }
 
@@ -163,7 +164,8 @@ class ProbableRow {
   }
 
   double operator()(const Table2State& state, double enough) const {
-    if (const auto told = state.screen.tell(state.values, enough)) return *told ? 0.0 : 1.0;
+    const auto told = state.screen.isBelow(state.values, enough, ContactMeaning::fcl);
+    if (told) return *told ? 0.0 : 1.0;
     const ProbableDecision decision =
         state.query.decideProbably({state.values}, threshold_, kChanceOfError, request_).decision;
     const bool below = decision == ProbableDecision::certainly_below ||

@@ -27,8 +27,8 @@ class BoxTree {
   template <typename Function>
   bool visitBox(const Box& other, Function&& function) const;
 
-  /// Calls `function(index)`, which returns how far what is sought may be, for boxes that are nearer
-  /// to the point, near ones first.
+  /// Calls `function(index)`, which returns how far what is sought may be, for boxes that are
+  /// nearer to the point, near ones first.
   template <typename Function>
   void visitNearest(const Eigen::Vector3d& point, Function&& function) const;
 

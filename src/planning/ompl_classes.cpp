@@ -68,7 +68,7 @@ Eigen::VectorXd RobotRisk::valuesOf(const ompl::base::State* state) const {
 bool RobotRisk::isValid(const Eigen::VectorXd& values) const {
   const Implementation& of = *implementation_;
   if (!of.query->robot().isWithinLimits(values) || of.touchesItself(values)) return false;
-  if (const auto told = of.screen.tell(values, threshold())) return *told;
+  if (const auto told = of.screen.isBelow(values, threshold(), of.request.contact)) return *told;
   return of.query->state(values, of.request).decision == Decision::below;
 }
 

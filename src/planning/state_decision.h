@@ -26,7 +26,9 @@ class StateDecision {
   /// \param request  with a threshold
   bool isBelow(const Eigen::VectorXd& values, const ProbabilityRequest& request) const {
     if (!errors_.none()) return upper(values, *request.threshold) < *request.threshold;
-    if (const auto told = screen_.tell(values, *request.threshold)) return *told;
+    if (const auto told = screen_.isBelow(values, *request.threshold, request.contact)) {
+      return *told;
+    }
     return query_.state(values, request).decision == Decision::below;
   }
 
@@ -34,7 +36,7 @@ class StateDecision {
   std::optional<Bounds> above(const Eigen::VectorXd& values, double least,
                               ProbabilityRequest request) const {
     if (!errors_.none()) return Bounds{0.0, upper(values, least)};
-    if (screen_.isBelow(values, least)) return std::nullopt;
+    if (screen_.isBelow(values, least, request.contact) == true) return std::nullopt;
     request.threshold.reset();
     return query_.state(values, request).any;
   }

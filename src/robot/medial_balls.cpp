@@ -43,7 +43,9 @@ Eigen::Vector3d nearestOn(const std::array<Eigen::Vector3d, 3>& triangle,
   const Eigen::Vector3d ab = b - a, ac = c - a;
   const double along_b[3] = {ab.dot(p - a), ab.dot(p - b), ab.dot(p - c)};
   const double along_c[3] = {ac.dot(p - a), ac.dot(p - b), ac.dot(p - c)};
-  const auto share = [](double x, double of) { return of > 0.0 ? std::clamp(x / of, 0.0, 1.0) : 0.0; };
+  const auto share = [](double x, double of) {
+    return of > 0.0 ? std::clamp(x / of, 0.0, 1.0) : 0.0;
+  };
   const auto at = [&](double s, double t) -> Eigen::Vector3d { return a + s * ab + t * ac; };
   if (along_b[0] <= 0.0 && along_c[0] <= 0.0) return a;
   if (along_b[1] >= 0.0 && along_c[1] <= along_b[1]) return b;
@@ -99,7 +101,8 @@ MedialBalls::MedialBalls(const PreparedGeometry& geometry) : around_(ballAround(
   slack_ = kRoundedPlace * (around_.centre.norm() + around_.radius);
   std::vector<BoxTree::Box> boxes(static_cast<std::size_t>(mesh_.triangle_count));
   for (int t = 0; t < mesh_.triangle_count; ++t) {
-    for (const auto& corner : cornersOf(mesh_, t)) boxes[static_cast<std::size_t>(t)].extend(corner);
+    for (const auto& corner : cornersOf(mesh_, t))
+      boxes[static_cast<std::size_t>(t)].extend(corner);
   }
   triangles_ = BoxTree(boxes);
   findExtremes();
@@ -148,8 +151,8 @@ MedialBalls::SurfacePoint MedialBalls::nearestTo(const Eigen::Vector3d& point) c
     if (distance < nearest.distance) nearest = {found, triangle, distance};
     return nearest.distance;
   });
-  nearest.distance = std::max(0.0, (1.0 - kRoundedPlace) * nearest.distance - slack_ -
-                                       kRoundedPlace * point.norm());
+  nearest.distance = std::max(
+      0.0, (1.0 - kRoundedPlace) * nearest.distance - slack_ - kRoundedPlace * point.norm());
   return nearest;
 }
 
@@ -241,9 +244,9 @@ class BallSearch {
     ContactBall found;
     found.centre = sign_ * (to - from) - of_a_.mean();
     found.radius = (1.0 - kUnrotated) * ball.radius - of_.balls.slack() - other_.balls.slack();
-    found.error = kRoundedPlace * (of_.pose.translation().norm() + ball.centre.norm() +
-                               other_.pose.translation().norm() + near.point.norm() +
-                               of_a_.mean().norm());
+    found.error = kRoundedPlace *
+                  (of_.pose.translation().norm() + ball.centre.norm() +
+                   other_.pose.translation().norm() + near.point.norm() + of_a_.mean().norm());
     found.mass = roughMass(of_a_, found.centre, found.radius);
     if (!(found.radius > 0.0) || !(found.mass > best_.mass)) return false;
     if (contact_ != ContactMeaning::solid && !reachesOut(ball, near)) return false;

@@ -142,10 +142,10 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   const BodyBounds bounds(scene.robot, bodies, scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
   if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
-  const double together = bounds.together(threshold - far);
-  if (sumAbove(together, far) < threshold) return allUnlikely(together);
   const double lower = bounds.lower(request.contact, threshold);
   if (lower > threshold) return oneIsDeep(lower);
+  const double together = bounds.together(threshold - far);
+  if (sumAbove(together, far) < threshold) return allUnlikely(together);
   double left_out = 0.0;
   const auto likelier = bounds.likelier(kShareOfThreshold * threshold, left_out);
   if (bodies.size() > 1) {

@@ -22,6 +22,7 @@
 #include "robot/probable_answer.h"
 #include "robot/robot_among_obstacles.h"
 #include "robot/robot_notes.h"
+#include "robot/state_screen.h"
 #include "robot/state_with_errors.h"
 #include "robot/swept_motion.h"
 
@@ -453,7 +454,11 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
   if (!errors.none()) {
     return detail::decideWithErrors(*this, states, errors, request, chance_of_error);
   }
+  const detail::StateScreen screen(implementation_->among);
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
+    if (const auto told = screen.isBelow(values, *request.threshold, request.contact)) {
+      return *told ? ProbableDecision::certainly_below : ProbableDecision::certainly_above;
+    }
     if (!chance_of_error) {
       return certainly(implementation_->ofUnion({values}, -1, of_one)).decision;
     }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/random_words.h"
 #include "base/rounded_sum.h"
 
 namespace fcl_prob::detail {
@@ -13,18 +12,6 @@ namespace {
 
 /// Of the threshold: a bound by balls that is smaller is not looked at more closely.
 constexpr double kNegligible = 1e-4;
-
-/// Displacements that are drawn of each obstacle. With P at a threshold of 5 % a state is taken for
-/// hardly below it once in a thousand times.
-constexpr int kDraws = 160;
-
-/// A state is hardly below the threshold where draws hit this many times as often, and so many
-/// more.
-constexpr double kTimesAsOften = 1.6;
-constexpr double kMoreHits = 5.0;
-
-/// Of the threshold: displaced obstacles of a pair that is less likely are not tried.
-constexpr double kShareOfPair = 0.05;
 
 }  // namespace
 
@@ -42,39 +29,28 @@ StateScreen::StateScreen(const RobotAmongObstacles& among) : among_(among) {
   }
   if (!is_usable_) return;
   for (std::size_t j = 0; j < among.obstacles().size(); ++j) {
-    const Obstacle& obstacle = among.obstacles()[j];
-    draw(obstacle, j);
-    of_bodies_.push_back(std::get<GaussianDisplacement>(obstacle.displacement).reversed());
+    const Displacement& displacement = among.obstacles()[j].displacement;
+    of_bodies_.push_back(std::get<GaussianDisplacement>(displacement).reversed());
   }
 }
 
-void StateScreen::draw(const Obstacle& obstacle, std::uint64_t stream) {
-  const auto& gaussian = std::get<GaussianDisplacement>(obstacle.displacement);
-  const Eigen::Matrix3d factor = gaussian.axes() * gaussian.standardDeviations().asDiagonal();
-  std::vector<Eigen::Vector3d> moved;
-  for (std::uint64_t i = 0; i < kDraws; ++i) {
-    const Eigen::Vector3d normal = standardNormalFrom(randomWords({kDraws, stream}, i));
-    moved.push_back(gaussian.mean() + factor * normal);
-  }
-  moved_.push_back(std::move(moved));
-}
-
-std::optional<bool> StateScreen::tell(const Eigen::VectorXd& values, double threshold) const {
+std::optional<bool> StateScreen::isBelow(const Eigen::VectorXd& values, double threshold,
+                                         ContactMeaning contact) const {
   if (!is_usable_) return std::nullopt;
   const Near near = nearOf(values, kNegligible * threshold);
-  if (isBelow(near, threshold)) return true;
-  if (isHardlyBelow(near, threshold)) return false;
-  return std::nullopt;
-}
-
-bool StateScreen::isBelow(const Eigen::VectorXd& values, double threshold) const {
-  return is_usable_ && isBelow(nearOf(values, kNegligible * threshold), threshold);
-}
-
-bool StateScreen::isBelow(const Near& near, double threshold) const {
+  const auto isAbove = [&](const BodyBounds& one) {
+    return one.lower(contact, threshold) > threshold;
+  };
   const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
   const auto& all = near.of_obstacles;
   if (std::accumulate(all.begin(), all.end(), near.far, sumOf) < threshold) return true;
+  if (std::any_of(all.begin(), all.end(), isAbove)) return false;
+  return isBelow(near, threshold) ? std::make_optional(true) : std::nullopt;
+}
+
+bool StateScreen::isBelow(const Near& near, double threshold) {
+  const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
+  const auto& all = near.of_obstacles;
   // What is left of the threshold to the next obstacle, while the others have what is known.
   double so_far = near.far;
   for (auto next = all.begin(); next != all.end() && so_far < threshold; ++next) {
@@ -82,30 +58,6 @@ bool StateScreen::isBelow(const Near& near, double threshold) const {
     so_far = sumAbove(so_far, next->together(std::max(0.0, threshold - others)));
   }
   return so_far < threshold;
-}
-
-bool StateScreen::isHardlyBelow(const Near& near, double threshold) const {
-  const double enough = kTimesAsOften * threshold * kDraws + kMoreHits;
-  const auto isHitBy = [&](std::size_t draw, std::size_t obstacle) {
-    fcl::Transform3d moved = among_.obstacles()[obstacle].pose;
-    moved.translation() += moved_[obstacle][draw];
-    const auto& bounds = near.of_obstacles[obstacle].bounds();
-    return std::any_of(bounds.begin(), bounds.end(), [&](const BodyBounds::Bound& bound) {
-      return bound.upper >= kShareOfPair * threshold &&
-             among_.preparedObstacle(obstacle).touches(
-                 among_.geometries()[bound.body.body]->geometry(), bound.body.pose, moved);
-    });
-  };
-  int hits = 0;
-  for (int i = 0; i < kDraws && hits + (kDraws - i) >= enough; ++i) {
-    bool is_hit = false;
-    for (std::size_t j = 0; j < near.of_obstacles.size() && !is_hit; ++j) {
-      is_hit = isHitBy(static_cast<std::size_t>(i), j);
-    }
-    hits += is_hit;
-    if (hits >= enough) return true;
-  }
-  return false;
 }
 
 StateScreen::Near StateScreen::nearOf(const Eigen::VectorXd& values, double negligible) const {
