@@ -22,10 +22,6 @@ constexpr double kClearlyFar = 1e-6;
 /// Of the threshold: what bodies that are left out of a decision as unlikely may add up to.
 constexpr double kShareOfThreshold = 0.02;
 
-/// What one body may take that is to be above the threshold alone: about what all of them need
-/// where that is far off.
-constexpr std::size_t kCellsOfOne = 500;
-
 ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
   ProbabilityResult result;
   result.lower = 0.0;
@@ -96,35 +92,6 @@ ProbabilityResult oneIsDeep(double lower) {
   return result;
 }
 
-/// A body that touches the obstacle where it is expected is often above the threshold alone, and
-/// one that is convex beside a mesh takes a part of the time of all. Nothing where it is not.
-/// \param bodies  the likeliest first
-std::optional<ProbabilityResult> aboveByOne(const ObstacleAmongBodies& scene,
-                                            const ObstacleState& state,
-                                            const std::vector<PlacedBody>& bodies,
-                                            const GaussianDisplacement& displacement,
-                                            ProbabilityRequest request,
-                                            ProbabilityStatistics& spent) {
-  fcl::Transform3d expected = state.pose;
-  expected.translation() += displacement.mean();
-  const auto touching = std::find_if(bodies.begin(), bodies.end(), [&](const PlacedBody& body) {
-    return scene.obstacle.touches(scene.robot.geometries[body.body]->geometry(), body.pose,
-                                  expected);
-  });
-  if (touching == bodies.end()) return std::nullopt;
-  request.max_cells = std::min(request.max_cells, kCellsOfOne);
-  request.on_progress = tellingOfAll(request, 1.0).on_progress;
-  ProbabilityResult result = ofGroup(scene, state, {*touching}, request);
-  if (result.decision != Decision::above) {
-    spent = std::move(result.statistics);
-    return std::nullopt;
-  }
-  result.upper = 1.0;
-  result.plan.push_back("one of " + std::to_string(bodies.size()) +
-                        " bodies is above the threshold by itself: the others left out");
-  return result;
-}
-
 /// Without the bodies that hardly matter for the threshold; nothing where all are needed after all,
 /// for which the request then has what is left of the limits.
 /// \param far    of what is left out
@@ -148,11 +115,6 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   if (sumAbove(together, far) < threshold) return allUnlikely(together);
   double left_out = 0.0;
   const auto likelier = bounds.likelier(kShareOfThreshold * threshold, left_out);
-  if (bodies.size() > 1) {
-    if (auto above = aboveByOne(scene, state, likelier, *gaussian, request, spent)) return above;
-    budget.spend(spent);
-    budget.share(1, request);
-  }
   const double left = threshold - sumAbove(left_out, far);
   if (likelier.size() == bodies.size() || !(left > 0.0)) return std::nullopt;
   ProbabilityRequest of_likelier = request;
