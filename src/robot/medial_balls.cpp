@@ -95,10 +95,15 @@ const ClosedMesh* solidOf(const PreparedGeometry& geometry) {
 }  // namespace
 
 MedialBalls::MedialBalls(const PreparedGeometry& geometry) : around_(ballAround(geometry)) {
-  if (kindOf(geometry.geometry()) != GeometryKind::mesh) return;
+  slack_ = kRoundedPlace * (around_.centre.norm() + around_.radius);
+  const GeometryKind kind = kindOf(geometry.geometry());
+  if (kind == GeometryKind::mesh) searchMesh(geometry);
+  if (kind == GeometryKind::convex) searchShape(geometry);
+}
+
+void MedialBalls::searchMesh(const PreparedGeometry& geometry) {
   mesh_ = meshView(geometry.geometry());
   solid_ = solidOf(geometry);
-  slack_ = kRoundedPlace * (around_.centre.norm() + around_.radius);
   std::vector<BoxTree::Box> boxes(static_cast<std::size_t>(mesh_.triangle_count));
   for (int t = 0; t < mesh_.triangle_count; ++t) {
     for (const auto& corner : cornersOf(mesh_, t))
@@ -107,6 +112,22 @@ MedialBalls::MedialBalls(const PreparedGeometry& geometry) : around_(ballAround(
   triangles_ = BoxTree(boxes);
   findExtremes();
   if (solid_) findLargest();
+}
+
+// Of a cylinder that is flat, too, a capsule along its radius is in it.
+void MedialBalls::searchShape(const PreparedGeometry& geometry) {
+  const fcl::NODE_TYPE type = geometry.geometry().getNodeType();
+  const bool is_known = type == fcl::GEOM_BOX || type == fcl::GEOM_SPHERE ||
+                        type == fcl::GEOM_CAPSULE || type == fcl::GEOM_CYLINDER;
+  if (!is_known) return;
+  const Eigen::Vector3d half = 0.5 * geometry.localBox().sizes();
+  int axis = 0;
+  const double longest = half.maxCoeff(&axis), radius = half.minCoeff();
+  const Eigen::Vector3d half_axis = (longest - radius) * Eigen::Vector3d::Unit(axis);
+  core_ = {half_axis, radius};
+  largest_ = {{Eigen::Vector3d::Zero(), radius}, {half_axis, radius}, {-half_axis, radius}};
+  const Eigen::Vector3d end = longest * Eigen::Vector3d::Unit(axis);
+  extremes_.push_back({end, -end, end, -end, end, -end});
 }
 
 void MedialBalls::findExtremes() {
@@ -142,8 +163,14 @@ void MedialBalls::findLargest() {
   }
 }
 
-MedialBalls::SurfacePoint MedialBalls::nearestTo(const Eigen::Vector3d& point) const {
-  SurfacePoint nearest{point, -1, kInfinity};
+MedialBalls::NearPoint MedialBalls::nearestTo(const Eigen::Vector3d& point) const {
+  if (core_) {
+    const Ball ball = ballNear(point);
+    const Eigen::Vector3d way = point - ball.centre;
+    const double length = way.norm();
+    return {length > ball.radius ? ball.centre + ball.radius / length * way : point};
+  }
+  NearPoint nearest{point, -1, kInfinity};
   triangles_.visitNearest(point, [&](int triangle) {
     const auto corners = cornersOf(mesh_, triangle);
     const Eigen::Vector3d found = nearestOn(corners, point);
@@ -156,12 +183,19 @@ MedialBalls::SurfacePoint MedialBalls::nearestTo(const Eigen::Vector3d& point) c
   return nearest;
 }
 
-const Eigen::Vector3d& MedialBalls::farFrom(const SurfacePoint& point) const {
-  const int part = part_of_vertex_[mesh_.triangles[point.triangle][0]];
+const Eigen::Vector3d& MedialBalls::farFrom(const NearPoint& point) const {
+  const int part = core_ ? 0 : part_of_vertex_[mesh_.triangles[point.triangle][0]];
   const Extremes& extremes = extremes_[static_cast<std::size_t>(part)];
   return *std::max_element(extremes.begin(), extremes.end(), [&](const auto& x, const auto& y) {
     return (x - point.point).squaredNorm() < (y - point.point).squaredNorm();
   });
+}
+
+Ball MedialBalls::ballNear(const Eigen::Vector3d& point) const {
+  if (!core_) return ballAt(nearestTo(point).triangle);
+  const double square = core_->half_axis.squaredNorm();
+  const double share = square > 0.0 ? core_->half_axis.dot(point) / square : 0.0;
+  return {std::clamp(share, -1.0, 1.0) * core_->half_axis, core_->radius};
 }
 
 // The shrinking ball of Ma, Bae and Choi (2012): it touches the triangle, and the nearest point of
@@ -225,12 +259,11 @@ class BallSearch {
         contact_(contact) {}
 
   ContactBall best() {
-    if (!of_.balls.isClosed()) return {};
+    if (!of_.balls.hasBalls() || !other_.balls.hasPoints()) return {};
     point_ = other_.balls.nearestTo(to_other_ * of_.balls.around().centre).point;
     for (const Ball& ball : of_.balls.largest()) look(ball);
     for (int i = 0; i < kSteps; ++i) {
-      const auto near = of_.balls.nearestTo(to_other_.inverse() * point_);
-      if (near.triangle < 0 || !look(of_.balls.ballAt(near.triangle))) break;
+      if (!look(of_.balls.ballNear(to_other_.inverse() * point_))) break;
     }
     return best_;
   }
@@ -239,7 +272,6 @@ class BallSearch {
   /// Whether it is better than those before.
   bool look(const Ball& ball) {
     const auto near = other_.balls.nearestTo(to_other_ * ball.centre);
-    if (near.triangle < 0) return false;
     const Eigen::Vector3d from = of_.pose * ball.centre, to = other_.pose * near.point;
     ContactBall found;
     found.centre = sign_ * (to - from) - of_a_.mean();
@@ -249,14 +281,14 @@ class BallSearch {
                    other_.pose.translation().norm() + near.point.norm() + of_a_.mean().norm());
     found.mass = roughMass(of_a_, found.centre, found.radius);
     if (!(found.radius > 0.0) || !(found.mass > best_.mass)) return false;
-    if (contact_ != ContactMeaning::solid && !reachesOut(ball, near)) return false;
+    if (of_.balls.isSurface(contact_) && !reachesOut(ball, near)) return false;
     best_ = found;
     point_ = near.point;
     return true;
   }
 
   /// Whether what hangs together with the point is not all in the solid while that is in the ball.
-  bool reachesOut(const Ball& ball, const MedialBalls::SurfacePoint& point) const {
+  bool reachesOut(const Ball& ball, const MedialBalls::NearPoint& point) const {
     const Eigen::Vector3d reach = other_.balls.farFrom(point) - point.point;
     const double margin = kUnrotated * reach.norm() + other_.balls.slack();
     return of_.balls.isOutside(

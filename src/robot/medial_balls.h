@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// What is deep in something else is likely in contact: proofs in tens of microseconds.
+// What is deep in something else is likely in contact: proofs in some tens of microseconds.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "fcl_prob/gaussian_displacement.h"
@@ -15,34 +16,41 @@
 
 namespace fcl_prob::detail {
 
-/// A mesh, searched for points of its surface and, if it is closed, for medial balls: balls in its
-/// solid that touch the surface from inside. There is nothing to search in other geometries. Keeps
+/// A geometry, searched for its points and for medial balls: balls in its solid that touch the
+/// surface from inside. A mesh has points of its surface, and balls if it is closed; of a box,
+/// sphere, capsule or cylinder a capsule in it is searched. Others have neither. Keeps
 /// references. Const calls are safe on several threads.
 class MedialBalls {
  public:
   explicit MedialBalls(const PreparedGeometry& geometry);
 
-  struct SurfacePoint {
-    Eigen::Vector3d point;  ///< of the surface up to slack(); metres, frame of the mesh
-    int triangle = -1;      ///< none where there is no mesh
-    double distance = 0.0;  ///< certainly no more than that of the surface
+  /// Whether there are points to be found.
+  bool hasPoints() const { return mesh_.triangle_count > 0 || core_; }
+  bool hasBalls() const { return !largest_.empty(); }
+
+  struct NearPoint {
+    Eigen::Vector3d point;  ///< one of it, up to slack(); metres, frame of the geometry
+    int triangle = -1;      ///< of a mesh
+    double distance = 0.0;  ///< of a mesh: certainly no more than that of the surface
   };
-  SurfacePoint nearestTo(const Eigen::Vector3d& point) const;
+  NearPoint nearestTo(const Eigen::Vector3d& point) const;
 
-  /// Of the connected part of the surface that a point is of, one far away from it.
-  const Eigen::Vector3d& farFrom(const SurfacePoint& point) const;
+  /// One far away that hangs together with a point.
+  const Eigen::Vector3d& farFrom(const NearPoint& point) const;
 
-  /// That touches a triangle, about: certainly within the solid. Without one its radius is not
-  /// above 0.
-  Ball ballAt(int triangle) const;
+  /// A ball that touches the surface near a point, certainly within the solid. Without one its
+  /// radius is not above 0.
+  Ball ballNear(const Eigen::Vector3d& point) const;
 
   /// A few large ones that are apart from each other.
   const std::vector<Ball>& largest() const { return largest_; }
 
-  /// Certainly in no point of the solid.
+  /// Whether its surface is all that counts: then what is in a ball has to reach out of it.
+  bool isSurface(ContactMeaning contact) const { return !core_ && contact == ContactMeaning::fcl; }
+
+  /// Of a closed mesh: certainly in no point of the solid.
   bool isOutside(const Ball& ball) const;
 
-  bool isClosed() const { return solid_ != nullptr; }
   const Ball& around() const { return around_; }
 
   /// More than what is rounded in places on it: metres.
@@ -51,10 +59,19 @@ class MedialBalls {
  private:
   using Extremes = std::array<Eigen::Vector3d, 6>;
 
+  struct Capsule {
+    Eigen::Vector3d half_axis;  ///< from its middle, the origin, to the centre of an end
+    double radius;
+  };
+
+  void searchMesh(const PreparedGeometry& geometry);
+  void searchShape(const PreparedGeometry& geometry);
   void findExtremes();
   void findLargest();
+  Ball ballAt(int triangle) const;
 
   MeshView mesh_;
+  std::optional<Capsule> core_;  ///< of a shape
   const ClosedMesh* solid_ = nullptr;
   Ball around_;
   double slack_ = 0.0;
@@ -71,9 +88,9 @@ struct PlacedBalls {
 
 /// Certainly not above P that a and b are in contact. While a point of one surface is in a ball of
 /// the other solid, and a point that hangs together with it is out of that solid, the surfaces
-/// cross; solids overlap wherever the second point is. So the C-obstacle contains a ball, whose
-/// mass is known.
-/// \param enough  where no more than this is in sight, 0 is told
+/// cross; with solids and shapes it does not matter where the second point is. So the C-obstacle
+/// contains a ball, whose mass is known. \param enough  where no more than this is in sight, 0 is
+/// told
 double lowerByMedialBalls(const PlacedBalls& a, const PlacedBalls& b,
                           const GaussianDisplacement& of_a, ContactMeaning contact, double enough);
 
