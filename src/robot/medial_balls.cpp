@@ -31,6 +31,9 @@ constexpr double kApart = 0.7;
 // Steps from a ball to the nearest point of the other surface, and to the ball that touches there.
 constexpr int kSteps = 3;
 
+// By this factor a mass that is only about known is clearly more or less than another number.
+constexpr double kClearly = 2.0;
+
 // A ball shrinks until nothing is within it, to this share of its radius, or so many times.
 constexpr double kTouching = 0.98;
 constexpr int kMostShrinking = 12;
@@ -225,14 +228,6 @@ bool MedialBalls::isOutside(const Ball& ball) const {
 
 namespace {
 
-/// A ball of displacements, seen from their mean, world frame, and about what it has of mass.
-struct ContactBall {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0.0;
-  double error = 0.0;  ///< of the centre
-  double mass = 0.0;
-};
-
 /// About: across the way to it as a slab, along it as a disc.
 double roughMass(const GaussianDisplacement& displacement, const Eigen::Vector3d& centre,
                  double radius) {
@@ -307,21 +302,25 @@ class BallSearch {
 
 }  // namespace
 
+ContactBall contactBall(const PlacedBalls& a, const PlacedBalls& b,
+                        const GaussianDisplacement& of_a, ContactMeaning contact, double enough) {
+  const ContactBall of_balls_of_a = BallSearch(a, b, 1.0, of_a, contact).best();
+  if (of_balls_of_a.mass >= kClearly * enough) return of_balls_of_a;
+  const ContactBall of_balls_of_b = BallSearch(b, a, -1.0, of_a, contact).best();
+  return of_balls_of_a.mass >= of_balls_of_b.mass ? of_balls_of_a : of_balls_of_b;
+}
+
 double lowerByMedialBalls(const PlacedBalls& a, const PlacedBalls& b,
                           const GaussianDisplacement& of_a, ContactMeaning contact, double enough) {
   if (of_a.rank() == 0) return 0.0;
-  ContactBall best = BallSearch(a, b, 1.0, of_a, contact).best();
-  if (best.mass < 2.0 * enough) {
-    const ContactBall other = BallSearch(b, a, -1.0, of_a, contact).best();
-    if (other.mass > best.mass) best = other;
-  }
-  if (best.mass < 0.5 * enough) return 0.0;
+  const ContactBall found = contactBall(a, b, of_a, contact, enough);
+  if (!(kClearly * found.mass > enough)) return 0.0;
+  const Eigen::Vector3d along = of_a.axes().transpose() * found.centre;
   PrincipalBall ball;
-  const Eigen::Vector3d along = of_a.axes().transpose() * best.centre;
-  for (std::size_t k = 0; k < 3; ++k) ball.centre[k] = along[static_cast<Eigen::Index>(k)];
-  ball.centre_error = best.error + kRoundedPlace * best.centre.norm();
-  ball.radius = best.radius;
-  ball.radius_error = kRoundedPlace * best.radius;
+  ball.centre = {along[0], along[1], along[2]};
+  ball.centre_error = found.error + kRoundedPlace * found.centre.norm();
+  ball.radius = found.radius;
+  ball.radius_error = kRoundedPlace * found.radius;
   return principalBallMass(ball, of_a).lower;
 }
 

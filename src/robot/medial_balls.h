@@ -86,11 +86,24 @@ struct PlacedBalls {
   const fcl::Transform3d& pose;
 };
 
-/// Certainly not above P that a and b are in contact. While a point of one surface is in a ball of
+/// Displacements of a, seen from their mean (metres, world frame), at all of which a and b are in
+/// contact.
+struct ContactBall {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+  double error = 0.0;  ///< of the centre
+  double mass = 0.0;   ///< about
+};
+
+/// The heaviest that is soon found; none has no mass. While a point of one surface is in a ball of
 /// the other solid, and a point that hangs together with it is out of that solid, the surfaces
-/// cross; with solids and shapes it does not matter where the second point is. So the C-obstacle
-/// contains a ball, whose mass is known. \param enough  where no more than this is in sight, 0 is
-/// told
+/// cross; with solids and shapes it does not matter where the second point is.
+/// \param enough  about the mass that is sought
+ContactBall contactBall(const PlacedBalls& a, const PlacedBalls& b,
+                        const GaussianDisplacement& of_a, ContactMeaning contact, double enough);
+
+/// Certainly not above P that a and b are in contact: the mass of contactBall(), 0 where that is
+/// hardly `enough`.
 double lowerByMedialBalls(const PlacedBalls& a, const PlacedBalls& b,
                           const GaussianDisplacement& of_a, ContactMeaning contact, double enough);
 
