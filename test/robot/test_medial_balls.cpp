@@ -23,16 +23,16 @@ using namespace fcl_prob;
 using namespace fcl_prob::detail;
 using Shape = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-const fcl::Transform3d kStill = fcl::Transform3d::Identity();
+const fcl::Transform3d kUnmoved = fcl::Transform3d::Identity();
 
 /// A mesh without a few of its triangles.
-TriangleMesh opened(TriangleMesh mesh) {
+TriangleMesh withHole(TriangleMesh mesh) {
   mesh.triangles.resize(mesh.triangles.size() - 3);
   return mesh;
 }
 
 /// Thin needles, and vertices far from the origin.
-TriangleMesh needles() {
+TriangleMesh farNeedle() {
   return transformed(boxMesh({1.0, 1e-7, 0.3}),
                      Eigen::Isometry3d(Eigen::Translation3d(3e4, -1e4, 2e4)));
 }
@@ -54,7 +54,7 @@ std::vector<Searched> searchedOnes() {
        {torusMesh(1.0, 0.15, 40, 12), bumpyMesh(0.6, 16, 24, 5), boxMesh({0.3, 0.5, 1.4}),
         joined(boxMesh({0.4, 0.4, 0.4}), transformed(sphereMesh(0.2, 8, 12), apart(0.1))),
         joined(boxMesh({2.0, 2.0, 0.1}), transformed(torusMesh(0.4, 0.1, 20, 8), apart(1.5))),
-        opened(bumpyMesh(0.6, 12, 16, 3)), opened(boxMesh({0.2, 0.2, 0.9})), needles()}) {
+        withHole(bumpyMesh(0.6, 12, 16, 3)), withHole(boxMesh({0.2, 0.2, 0.9})), farNeedle()}) {
     all.emplace_back(mesh);
   }
   all.emplace_back(std::make_shared<fcl::Boxd>(0.3, 0.8, 0.1));
@@ -84,14 +84,14 @@ fcl::Transform3d drawnPose(RandomBodies& random, const Searched& a, const Search
 ProbabilityResult answer(const Searched& a, const fcl::Transform3d& pose, const Searched& b,
                          const GaussianDisplacement& error, const ProbabilityRequest& request) {
   ProbabilityResult result;
-  collisionProbability(&a.geometry->geometry(), pose, &b.geometry->geometry(), kStill, error,
+  collisionProbability(&a.geometry->geometry(), pose, &b.geometry->geometry(), kUnmoved, error,
                        request, result);
   return result;
 }
 
 bool touches(const Searched& a, const fcl::Transform3d& pose, const Searched& b) {
   fcl::CollisionResultd result;
-  return fcl::collide(&a.geometry->geometry(), pose, &b.geometry->geometry(), kStill,
+  return fcl::collide(&a.geometry->geometry(), pose, &b.geometry->geometry(), kUnmoved,
                       fcl::CollisionRequestd(), result) > 0;
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("every displacement of a ball of contacts is a contact") {
     const fcl::Transform3d pose = drawnPose(random, a, b);
     const GaussianDisplacement error = drawnError(random, 1 + scene % 3);
     const ContactBall ball =
-        contactBall({a.balls, pose}, {b.balls, kStill}, error, ContactMeaning::fcl, 0.1);
+        contactBall({a.balls, pose}, {b.balls, kUnmoved}, error, ContactMeaning::fcl, 0.1);
     if (!(ball.mass > 0.0)) continue;
     ++found;
     by_surface += a.balls.isSurface(ContactMeaning::fcl) && b.balls.isSurface(ContactMeaning::fcl);
@@ -168,7 +168,7 @@ TEST_CASE("masses by medial balls are not above P") {
     for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
       if (contact == ContactMeaning::solid && !both_closed) continue;
       const double lower =
-          lowerByMedialBalls({a.balls, pose}, {b.balls, kStill}, error, contact, 0.05);
+          lowerByMedialBalls({a.balls, pose}, {b.balls, kUnmoved}, error, contact, 0.05);
       if (!(lower > 0.0)) continue;
       ProbabilityRequest request;
       request.method = ProbabilityMethod::interval;
@@ -190,10 +190,10 @@ TEST_CASE("a ball in a ball has the mass of the ball that both have as C-obstacl
   const Searched a(Shape(std::make_shared<fcl::Sphered>(0.3)));
   const Searched b(Shape(std::make_shared<fcl::Sphered>(0.2)));
   const GaussianDisplacement error(Eigen::Vector3d(0.1, 0, 0), 0.04 * Eigen::Matrix3d::Identity());
-  fcl::Transform3d pose = kStill;
+  fcl::Transform3d pose = kUnmoved;
   pose.translation() = Eigen::Vector3d(-0.1, 0.05, 0);
   const double lower =
-      lowerByMedialBalls({a.balls, pose}, {b.balls, kStill}, error, ContactMeaning::fcl, 0.05);
+      lowerByMedialBalls({a.balls, pose}, {b.balls, kUnmoved}, error, ContactMeaning::fcl, 0.05);
   const ProbabilityResult whole = answer(a, pose, b, error, ProbabilityRequest());
   CHECK(lower <= *whole.upper);
   CHECK(lower > 0.4 * *whole.lower);  // of the larger of the two alone
