@@ -24,16 +24,6 @@ ObstacleSampling::ObstacleSampling(const ProbableScene& scene, const PreparedRob
   probable_ = certified_;
 }
 
-std::size_t ObstacleSampling::cells() const {
-  return partition_ ? partition_->statistics().cells : 0;
-}
-
-std::size_t ObstacleSampling::columns() const { return lines_ ? lines_->columns() : 0; }
-
-std::size_t ObstacleSampling::samples() const {
-  return (lines_ ? lines_->lines() : 0) + (partition_ ? partition_->statistics().samples : 0);
-}
-
 void ObstacleSampling::boundByHalfSpaces(double most_left_out, double enough) {
   if (scene_.bodies.empty()) return;
   const BodyBounds bounds(robot_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
@@ -64,23 +54,6 @@ bool ObstacleSampling::improveByLines(bool above, double target) {
   certified_ = within(lines_->certified(), certified_);
   probable_ = within(lines_->probable(), probable_);
   return goes_on;
-}
-
-std::optional<ProbabilityStatus> ObstacleSampling::improve(const ProbabilityRequest& request,
-                                                           double chance,
-                                                           const std::function<bool()>& enough) {
-  if (!partition_) {
-    place(request);
-    partition_ =
-        std::make_unique<ProbablePartition>(bodies_, obstacle_, displacement_, request, chance);
-  }
-  const auto stopped = partition_->improve([&] {
-    certified_ = within(partition_->certified(), certified_);
-    probable_ = within(partition_->probable(), probable_);
-    return enough();
-  });
-  done_ = stopped.has_value();
-  return stopped == ProbabilityStatus::exact ? std::nullopt : stopped;
 }
 
 void ObstacleSampling::place(const ProbabilityRequest& request) {

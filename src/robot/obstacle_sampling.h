@@ -3,11 +3,9 @@
 // Placed bodies against one obstacle, as far as they have been looked at for a probable decision.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
-#include "cells/probable_partition.h"
 #include "lines/line_bets.h"
 #include "robot/probable_answer.h"
 
@@ -20,10 +18,9 @@ class ObstacleSampling {
 
   Bounds certified() const { return certified_; }
   Bounds probable() const { return probable_; }
-  bool isDone() const { return done_ || scene_.bodies.empty(); }
-  std::size_t cells() const;
-  std::size_t columns() const;  ///< of lines
-  std::size_t samples() const;
+  bool isDone() const { return scene_.bodies.empty(); }
+  std::size_t columns() const { return lines_ ? lines_->columns() : 0; }
+  std::size_t samples() const { return lines_ ? lines_->lines() : 0; }
 
   /// Half-spaces between bodies and obstacle; those that hardly matter need no samples.
   /// \param most_left_out  what they may add up to
@@ -41,11 +38,6 @@ class ObstacleSampling {
   /// As LineBets::improve().
   bool improveByLines(bool above, double target);
 
-  /// By cells and samples. \param chance  of an error of theirs
-  /// \return  why it stopped, if that is a limit
-  std::optional<ProbabilityStatus> improve(const ProbabilityRequest& request, double chance,
-                                           const std::function<bool()>& enough);
-
  private:
   void place(const ProbabilityRequest& request);
   Bounds within(const Bounds& of_near, const Bounds& known) const;
@@ -58,8 +50,6 @@ class ObstacleSampling {
   PartitionObject bodies_{};
   PartitionObject obstacle_{};
   std::unique_ptr<LineBets> lines_;
-  std::unique_ptr<ProbablePartition> partition_;
-  bool done_ = false;
   Bounds certified_;
   Bounds probable_;
 };

@@ -20,32 +20,14 @@ constexpr double kFarOfThreshold = 1e-3;
 /// Of the threshold: what other bodies that samples are not drawn for may add up to.
 constexpr double kUnlikelyOfThreshold = 0.01;
 
-/// A probable decision that needs more cells is tried to be proven, with no more cells than those.
-constexpr std::size_t kCellsBeforeProof = 64;
-constexpr std::size_t kCellsOfProof = 4'000;
-
 /// Of what the others leave open, obstacles that half-spaces bound so well need no lines.
 constexpr double kHardlyOpen = 0.3;
-
-/// Lines and cells may each be wrong with this part of the chance.
-constexpr double kShareOfMethod = 0.5;
-
-/// What samples may be drawn of.
-struct Sampling {
-  bool by_lines;
-  std::size_t most_cells;
-};
 
 class AnyProbably {
  public:
   AnyProbably(const std::vector<ProbableScene>& scenes, const PreparedRobot& robot,
-              double threshold, double chance, const ProbabilityRequest& request,
-              const Sampling& sampling)
-      : threshold_(threshold),
-        chance_(chance),
-        request_(request),
-        sampling_(sampling),
-        budget_(request_) {
+              double threshold, double chance, const ProbabilityRequest& request)
+      : threshold_(threshold), chance_(chance), request_(request), budget_(request_) {
     const double far = kFarOfThreshold * threshold / static_cast<double>(scenes.size());
     for (const ProbableScene& scene : scenes) {
       obstacles_.push_back(std::make_unique<ObstacleSampling>(scene, robot, far));
@@ -60,24 +42,9 @@ class AnyProbably {
     for (const auto& obstacle : obstacles_) {
       obstacle->boundByHalfSpaces(kUnlikelyOfThreshold * share, share);
     }
-    share_ = kShareOfMethod * chance_ / static_cast<double>(obstacles_.size());
-    if (sampling_.by_lines) {
-      if (const auto ended = tryLines()) return finished(*ended);
-    }
-    while (!decide()) {
-      ObstacleSampling* next = widest();
-      if (next == nullptr) return finished(stopped_.value_or(ProbabilityStatus::exact));
-      const auto limit = next->improve(request_, share_, [this] { return decide(); });
-      if (limit && !decide()) {
-        stopped_ = limit;
-        if (*limit == ProbabilityStatus::cancelled) return finished(*limit);
-      }
-      if (const auto out = budget_.exhausted(); out && !decide()) return finished(*out);
-      if (cells() >= sampling_.most_cells && !decide()) {
-        return finished(ProbabilityStatus::cell_limit);
-      }
-    }
-    return finished(ProbabilityStatus::decided);
+    share_ = chance_ / static_cast<double>(obstacles_.size());
+    // Undecided where there are no lines, or no more of them to be had.
+    return finished(tryLines());
   }
 
  private:
@@ -88,15 +55,16 @@ class AnyProbably {
     double value = 0.0;
   };
 
-  /// Lines, as long as they pay. \return  why that ends all; nothing if there are none to be had
-  std::optional<ProbabilityStatus> tryLines() {
+  /// Lines, as long as they pay. \return  why they ended
+  ProbabilityStatus tryLines() {
     for (;;) {
       if (decide()) return ProbabilityStatus::decided;
-      if (const auto stopped = budget_.look(result_.certified, 0.0)) return stopped;
+      if (const auto stopped = budget_.look(result_.certified, 0.0)) return *stopped;
       const LineTarget next = nextTarget();
-      if (next.obstacle == nullptr) return std::nullopt;
+      if (next.obstacle == nullptr) return ProbabilityStatus::cell_limit;
       if (!next.obstacle->hasLines()) {
-        if (!next.obstacle->beginLines(withNextSeed(), share_)) return std::nullopt;
+        if (!next.obstacle->beginLines(withNextSeed(), share_))
+          return ProbabilityStatus::cell_limit;
       } else if (!next.obstacle->improveByLines(next.above, next.value)) {
         return ProbabilityStatus::cell_limit;
       }
@@ -162,18 +130,6 @@ class AnyProbably {
     return above ? obstacle.probable().lower : obstacle.probable().upper;
   }
 
-  /// The obstacle that leaves most open and is not done.
-  ObstacleSampling* widest() {
-    ObstacleSampling* found = nullptr;
-    for (const auto& obstacle : obstacles_) {
-      if (obstacle->isDone()) continue;
-      if (!found || obstacle->probable().width() > found->probable().width()) {
-        found = obstacle.get();
-      }
-    }
-    return found;
-  }
-
   bool decide() {
     std::vector<Bounds> certified, probable;
     for (const auto& obstacle : obstacles_) {
@@ -198,12 +154,6 @@ class AnyProbably {
     return result_.decision != ProbableDecision::undecided;
   }
 
-  std::size_t cells() const {
-    std::size_t sum = 0;
-    for (const auto& obstacle : obstacles_) sum += obstacle->cells();
-    return sum;
-  }
-
   std::size_t columns() const {
     std::size_t sum = 0;
     for (const auto& obstacle : obstacles_) sum += obstacle->columns();
@@ -212,7 +162,7 @@ class AnyProbably {
 
   ProbableResult finished(ProbabilityStatus status) {
     result_.status = status;
-    result_.cells = cells() + columns();
+    result_.cells = columns();
     for (const auto& obstacle : obstacles_) result_.samples += obstacle->samples();
     return result_;
   }
@@ -220,12 +170,10 @@ class AnyProbably {
   double threshold_;
   double chance_;
   ProbabilityRequest request_;
-  Sampling sampling_;
   std::uint64_t seeds_ = 0;
-  double share_ = 0.0;  ///< of an obstacle and a method in the chance
+  double share_ = 0.0;  ///< of an obstacle in the chance
   Budget budget_;
   std::vector<std::unique_ptr<ObstacleSampling>> obstacles_;
-  std::optional<ProbabilityStatus> stopped_;
   ProbableResult result_;
 };
 
@@ -238,44 +186,28 @@ bool canBeSampled(const PreparedObstacle& obstacle, const ObstacleState& state) 
          !group.tree().isEmpty();
 }
 
-// Where P is close to the threshold a proof takes less than samples do: it is tried before more of
-// them are drawn. Those that have been drawn are drawn again then, the same ones, so that the
-// chance of being wrong is that of the last run alone.
+// What lines do not decide is proven.
 ProbableResult probablyAny(const std::vector<ProbableScene>& scenes, const PreparedRobot& robot,
                            double threshold, double chance, const Proof& prove,
                            const ProbabilityRequest& request) {
   Budget budget(request);
+  const ProbableResult soon = AnyProbably(scenes, robot, threshold, chance, request).run();
   ProbabilityStatistics spent;
-  const auto counted = [&](ProbableResult result) {
-    ProbabilityStatistics of_one;
-    of_one.cells = result.cells;
-    of_one.samples = result.samples;
-    budget.spend(of_one);
-    result.cells = spent.cells += of_one.cells;
-    result.samples = spent.samples += of_one.samples;
-    return result;
-  };
-  const auto within = [&](std::size_t most_cells) {
-    ProbabilityRequest part = request;
-    budget.share(1, part);
-    part.max_cells = std::min(part.max_cells, most_cells);
-    return part;
-  };
-  const auto sampled = [&](const Sampling& sampling) {
-    return counted(
-        AnyProbably(scenes, robot, threshold, chance, within(request.max_cells), sampling).run());
-  };
-  const ProbableResult soon = sampled({true, std::min(kCellsBeforeProof, request.max_cells)});
+  spent.cells = soon.cells;
+  spent.samples = soon.samples;
+  budget.spend(spent);
   if (soon.status != ProbabilityStatus::cell_limit || budget.exhausted()) return soon;
-  ProbableResult proven = counted(prove(within(kCellsOfProof)));
-  if (proven.decision != ProbableDecision::undecided) return proven;
-  if (proven.status == ProbabilityStatus::cancelled || budget.exhausted()) {
+  ProbabilityRequest rest = request;
+  budget.share(1, rest);
+  ProbableResult proven = prove(rest);
+  proven.cells += soon.cells;
+  proven.samples += soon.samples;
+  if (proven.decision == ProbableDecision::undecided) {
     const auto [lower, upper] = proven.certified;
     proven.probable = {std::clamp(soon.probable.lower, lower, upper),
                        std::clamp(soon.probable.upper, lower, upper)};
-    return proven;
   }
-  return sampled({false, request.max_cells});
+  return proven;
 }
 
 }  // namespace fcl_prob::detail
