@@ -155,11 +155,14 @@ NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody&
   return tree;
 }
 
-HullsOfBodies::HullsOfBodies(PreparedGeometries geometries)
-    : geometries_(std::move(geometries)), kept_(geometries_.size()) {}
+HullsOfBodies::HullsOfBodies(PreparedGeometries geometries, const HullsOfBodies* before)
+    : geometries_(std::move(geometries)) {
+  if (before != nullptr) kept_ = before->kept_;
+  while (kept_.size() < geometries_.size()) kept_.push_back(std::make_shared<Kept>());
+}
 
 const NodeHulls& HullsOfBodies::of(std::size_t body) const {
-  Kept& kept = kept_[body];
+  Kept& kept = *kept_[body];
   std::call_once(kept.once, [&] {
     const PreparedGeometry& geometry = *geometries_[body];
     kept.hulls =
@@ -169,7 +172,7 @@ const NodeHulls& HullsOfBodies::of(std::size_t body) const {
 }
 
 const MedialBalls& HullsOfBodies::ballsOf(std::size_t body) const {
-  Kept& kept = kept_[body];
+  Kept& kept = *kept_[body];
   std::call_once(kept.balls_once,
                  [&] { kept.balls = std::make_unique<const MedialBalls>(*geometries_[body]); });
   return *kept.balls;

@@ -5,7 +5,6 @@
 
 #include <fcl/geometry/collision_geometry.h>
 
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -37,7 +36,8 @@ NodeHulls nodeHullsOf(const fcl::CollisionGeometryd& geometry, const ConvexBody&
 /// Of several geometries, each when first asked for. Const calls are safe on several threads.
 class HullsOfBodies {
  public:
-  explicit HullsOfBodies(PreparedGeometries geometries);
+  /// \param before  of the first of them: what it made is shared; null: nothing is
+  explicit HullsOfBodies(PreparedGeometries geometries, const HullsOfBodies* before = nullptr);
 
   /// \pre  geometries[body] has a root body
   const NodeHulls& of(std::size_t body) const;
@@ -53,7 +53,7 @@ class HullsOfBodies {
   };
 
   PreparedGeometries geometries_;
-  mutable std::deque<Kept> kept_;
+  std::vector<std::shared_ptr<Kept>> kept_;
 };
 
 }  // namespace fcl_prob::detail

@@ -14,7 +14,9 @@ namespace fcl_prob::detail {
 /// Kept by the robot, and shared by its queries. Const calls are safe on several threads.
 struct PreparedRobot {
   /// \throws InvalidGeometry, UnsupportedGeometry
-  explicit PreparedRobot(const std::vector<RobotBody>& bodies);
+  /// \param before  of the first of them: what it prepared is shared; null: nothing is
+  explicit PreparedRobot(const std::vector<RobotBody>& bodies,
+                         const PreparedRobot* before = nullptr);
 
   PreparedGeometries geometries;  ///< of the bodies
   std::vector<Ball> balls;        ///< in their frames

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <mutex>
+#include <utility>
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
@@ -35,6 +36,16 @@ struct Robot::Implementation {
   struct Kept {
     std::once_flag once;
     std::shared_ptr<const detail::PreparedRobot> bodies;
+    std::shared_ptr<Kept> before;  ///< of the robot with all bodies but the last one
+
+    const std::shared_ptr<const detail::PreparedRobot>& of(const std::vector<RobotBody>& all) {
+      std::call_once(once, [&] {
+        const bool has_more = before != nullptr;
+        const auto fewer = has_more ? before->of({all.begin(), all.end() - 1}) : nullptr;
+        bodies = std::make_shared<const detail::PreparedRobot>(all, fewer.get());
+      });
+      return bodies;
+    }
   };
 
   Implementation(detail::UrdfModel model, detail::UrdfSource of, const RobotOptions& given)
@@ -119,7 +130,8 @@ struct Robot::Implementation {
     }
     detail::validateGeometry(object.geometry.get(), what);
     detail::validatePose(object.in_link, what);
-    kept = std::make_shared<Kept>();
+    const auto before = std::exchange(kept, std::make_shared<Kept>());
+    kept->before = before;
     bodies.push_back(
         {object.link, object.geometry, object.in_link, object.name, object.coordinate_error});
     links.push_back(link);
@@ -152,11 +164,7 @@ Robot::Robot(std::shared_ptr<const Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 
 std::shared_ptr<const detail::PreparedRobot> Robot::prepared() const {
-  Implementation::Kept& kept = *implementation_->kept;
-  std::call_once(kept.once, [&] {
-    kept.bodies = std::make_shared<const detail::PreparedRobot>(implementation_->bodies);
-  });
-  return kept.bodies;
+  return implementation_->kept->of(implementation_->bodies);
 }
 
 Robot Robot::withAttached(AttachedObject object) const {

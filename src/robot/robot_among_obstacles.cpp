@@ -34,19 +34,21 @@ void validatePoses(const Obstacle& obstacle) {
   }
 }
 
-PreparedGeometries geometriesOf(const std::vector<RobotBody>& bodies) {
+PreparedGeometries geometriesOf(const std::vector<RobotBody>& bodies, const PreparedRobot* before) {
   PreparedGeometries geometries;
-  for (const RobotBody& body : bodies) {
-    geometries.push_back(
-        std::make_shared<const PreparedGeometry>(body.geometry, "a body of " + body.name()));
+  if (before != nullptr) geometries = before->geometries;
+  for (std::size_t i = geometries.size(); i < bodies.size(); ++i) {
+    geometries.push_back(std::make_shared<const PreparedGeometry>(bodies[i].geometry,
+                                                                  "a body of " + bodies[i].name()));
   }
   return geometries;
 }
 
 }  // namespace
 
-PreparedRobot::PreparedRobot(const std::vector<RobotBody>& bodies)
-    : geometries(geometriesOf(bodies)), hulls(geometries) {
+PreparedRobot::PreparedRobot(const std::vector<RobotBody>& bodies, const PreparedRobot* before)
+    : geometries(geometriesOf(bodies, before)),
+      hulls(geometries, before != nullptr ? &before->hulls : nullptr) {
   for (const auto& geometry : geometries) balls.push_back(ballAround(*geometry));
 }
 

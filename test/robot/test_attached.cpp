@@ -10,6 +10,7 @@
 #include "fcl_prob/collision_probability.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/robot_scene.h"
+#include "robot/robot_among_obstacles.h"
 #include "temporary_folder.h"
 
 using namespace fcl_prob;
@@ -72,6 +73,20 @@ TEST_CASE("an attached object is part of the robot for obstacles") {
   CHECK(with.lower > 0.1);
   CHECK(with.lower <= *alone.upper + without.upper);
   CHECK(with.upper >= *alone.lower);
+}
+
+TEST_CASE("an attached object leaves what was prepared of the robot as it was") {
+  const Robot arm = shippedArm();
+  const Obstacle ball{"ball", std::make_shared<fcl::Sphered>(0.02), fcl::Transform3d::Identity(),
+                      GaussianDisplacement::fromStandardDeviations({0.01, 0.01, 0.01})};
+  const RobotQuery without(arm, {ball}), with(arm.withAttached(rod()), {ball});
+  const auto &before = without.among().prepared(), &after = with.among().prepared();
+  REQUIRE(after.geometries.size() == before.geometries.size() + 1);
+  for (std::size_t i = 0; i < before.geometries.size(); ++i) {
+    CHECK(after.geometries[i] == before.geometries[i]);
+    CHECK(&after.hulls.ballsOf(i) == &before.hulls.ballsOf(i));
+    CHECK(&after.hulls.of(i) == &before.hulls.of(i));
+  }
 }
 
 TEST_CASE("an attached object touches the robot unless it may") {
