@@ -3,9 +3,12 @@
 // Probable decisions: against certified ones, wrong no more often than stated.
 #include <fcl/geometry/shape/halfspace.h>
 
+#include <sstream>
+
 #include "arm_motions.h"
 #include "fcl_prob/exceptions.h"
 #include "mesh_shapes.h"
+#include "temporary_folder.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
@@ -27,15 +30,49 @@ bool isProbable(const ProbableResult& result) {
          result.decision == ProbableDecision::probably_above;
 }
 
-/// States in which the arm is near what it may touch.
-Eigen::VectorXd nearbyValues(const Robot& arm, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return arm.values({{"turn", 0.7 * uniform(random)},
-                     {"shoulder", 0.1 + 0.3 * uniform(random)},
-                     {"elbow", 0.3 + 0.4 * uniform(random)},
-                     {"roll", uniform(random)},
-                     {"bend", uniform(random)},
-                     {"grip", 0.02}});
+std::string objText(const TriangleMesh& mesh) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const auto& v : mesh.vertices) text << "v " << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
+  for (const auto& t : mesh.triangles) {
+    text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+  return text.str();
+}
+
+/// Two convex meshes on a carriage that moves along three axes, by 0.4 m.
+Robot gantry(const TemporaryFolder& folder) {
+  folder.write("hand.obj", objText(sphereMesh(0.06, 8, 12)));
+  folder.write("tool.obj", objText(boxMesh({0.02, 0.03, 0.15})));
+  std::string urdf = "<robot name=\"gantry\"><link name=\"world\"/>";
+  std::string parent = "world";
+  for (const char axis : {'x', 'y', 'z'}) {
+    const std::string name(1, axis);
+    const std::string direction = axis == 'x' ? "1 0 0" : axis == 'y' ? "0 1 0" : "0 0 1";
+    urdf += "<link name=\"along_" + name + "\">";
+    if (axis == 'z') {
+      urdf += R"(<collision><geometry><mesh filename="hand.obj"/></geometry></collision>
+        <collision><origin xyz="0 0 0.1"/><geometry><mesh filename="tool.obj"/></geometry></collision>)";
+    }
+    urdf += "</link><joint name=\"" + name + "\" type=\"prismatic\"><parent link=\"" + parent +
+            "\"/><child link=\"along_" + name + "\"/><axis xyz=\"" + direction +
+            "\"/><limit lower=\"-0.4\" upper=\"0.4\" velocity=\"1\" effort=\"1\"/></joint>";
+    parent = "along_" + name;
+  }
+  return Robot::fromText(urdf + "</robot>", {}, folder.path(""));
+}
+
+/// What a gantry is among: a rock and a ring.
+std::vector<Obstacle> rockAndRing() {
+  return {{"rock", makeModel<fcl::OBBRSSd>(bumpyMesh(0.12, 12, 16, 3)), at(0.1, 0.1, 0.0),
+           sigma(0.03, 0.02, 0.04)},
+          {"ring", makeModel<fcl::OBBRSSd>(torusMesh(0.15, 0.03, 24, 10)), at(-0.2, -0.1, 0.1),
+           sigma(0.02, 0.05, 0.01)}};
+}
+
+Eigen::VectorXd nearbyValues(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-0.35, 0.35);
+  return Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
 }
 
 struct Calibration {
@@ -51,7 +88,7 @@ Calibration calibrate(const RobotQuery& query, double threshold, double chance, 
   std::mt19937_64 random(seed);
   Calibration found;
   for (int i = 0; i < states; ++i) {
-    const Eigen::VectorXd values = nearbyValues(query.robot(), random);
+    const Eigen::VectorXd values = nearbyValues(random);
     ProbabilityRequest request;
     request.seed = 1'000 + static_cast<std::uint64_t>(i);
     const ProbableResult probable = query.decideProbably({values}, threshold, chance, request);
@@ -80,7 +117,8 @@ double mostOf(int states, double chance) {
 }  // namespace
 
 TEST_CASE("probable decisions are wrong no more often than stated", "[slow]") {
-  const RobotQuery query(shippedArm(), ballAndBox());
+  const TemporaryFolder folder;
+  const RobotQuery query(gantry(folder), rockAndRing());
   for (const double chance : {0.1, 1e-4}) {
     const Calibration found = calibrate(query, 0.05, chance, 1'000, 51);
     CAPTURE(chance, found.probable, found.decided, found.wrong, found.outside);
@@ -92,12 +130,13 @@ TEST_CASE("probable decisions are wrong no more often than stated", "[slow]") {
 
 TEST_CASE("probable decisions just beside a threshold are wrong no more often than stated",
           "[slow]") {
-  const RobotQuery query(shippedArm(), ballAndBox());
+  const TemporaryFolder folder;
+  const RobotQuery query(gantry(folder), rockAndRing());
   std::mt19937_64 random(61);
   constexpr double kChance = 0.2;
   int probable = 0, wrong = 0;
   for (int state = 0; state < 40; ++state) {
-    const Eigen::VectorXd values = nearbyValues(query.robot(), random);
+    const Eigen::VectorXd values = nearbyValues(random);
     const Bounds truth = query.state(values, withTolerance(0.004)).any;
     if (truth.upper < 1e-3 || truth.lower > 0.9) continue;
     const bool below = state % 2 == 0;
@@ -116,14 +155,12 @@ TEST_CASE("probable decisions just beside a threshold are wrong no more often th
 }
 
 TEST_CASE("probable decisions beside a mesh, as a surface and as a solid") {
-  std::vector<Obstacle> obstacles = ballAndBox();
-  obstacles.pop_back();
-  obstacles[0].geometry = makeModel<fcl::OBBRSSd>(boxMesh(Eigen::Vector3d(0.3, 0.3, 0.3)));
-  const RobotQuery query(shippedArm(), obstacles);
+  const TemporaryFolder folder;
+  const RobotQuery query(gantry(folder), {rockAndRing()[0]});
   std::mt19937_64 random(7);
   int probable = 0;
   for (int i = 0; i < 60; ++i) {
-    const Eigen::VectorXd values = nearbyValues(query.robot(), random);
+    const Eigen::VectorXd values = nearbyValues(random);
     for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
       ProbabilityRequest request = withTolerance(1e-3);
       request.contact = contact;
