@@ -120,7 +120,7 @@ TEST_CASE("probable decisions are wrong no more often than stated", "[slow]") {
   const TemporaryFolder folder;
   const RobotQuery query(gantry(folder), rockAndRing());
   for (const double chance : {0.1, 1e-4}) {
-    const Calibration found = calibrate(query, 0.05, chance, 1'000, 51);
+    const Calibration found = calibrate(query, 0.05, chance, 5'000, 51);
     CAPTURE(chance, found.probable, found.decided, found.wrong, found.outside);
     CHECK(found.probable > 200);
     CHECK(found.wrong <= mostOf(found.decided, chance));
