@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/known.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -72,8 +73,8 @@ Bounds ColumnLooks::look(bool above) {
     const double seen = above ? middle - least : most - middle;
     node.weight = std::max({0.0, seen, kUnseen * (most - least)}) * node.measure;
   }
-  bounds_.lower = std::max(bounds_.lower, lower * (1.0 - kRounded));
-  bounds_.upper = std::min({bounds_.upper, columns_.most(), upper * (1.0 + kRounded) + kUnderflow});
+  upper = std::min(columns_.most(), upper * (1.0 + kRounded) + kUnderflow);
+  bounds_ = agreed(bounds_, {lower * (1.0 - kRounded), upper});
   return bounds_;
 }
 

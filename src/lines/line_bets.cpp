@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/known.h"
 #include "base/random_words.h"
 #include "lines/column_draw.h"
 
@@ -116,7 +117,7 @@ void LineBets::look(End& end, bool above) {
   columns_ += end.looked_at - before;
   if (!end.bets) likely_ = looks.likely();
   const Bounds bounds = looks.look(above);
-  certified_ = {std::max(certified_.lower, bounds.lower), std::min(certified_.upper, bounds.upper)};
+  certified_ = agreed(certified_, bounds);
   narrow(certified_);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/bisection.h"
+#include "base/known.h"
 #include "fcl_prob/normal_mass.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/normal_density.h"
@@ -290,11 +291,11 @@ Bounds ellipsoidMass(const WhitenedBall& ball) {
   double about = 0.0;
   for (int attempt = 0; attempt < kSliceAttempts; ++attempt) {
     const Bounds mass = slices.mass(about);
-    best = {std::max(best.lower, mass.lower), std::min(best.upper, mass.upper)};
+    best = agreed(best, mass);
     if (slices.remainder() <= kEnough * mass.middle() || !(mass.upper < 1.0)) break;
     about = mass.middle() > 0.0 && mass.lower > 0.0 ? mass.middle() : 1e-6 * mass.upper;
   }
-  return best.lower <= best.upper ? best : Bounds{0.0, 1.0};
+  return best;
 }
 
 }  // namespace fcl_prob::detail

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/known.h"
 #include "base/rounded_sum.h"
 #include "robot/body_bounds.h"
 
@@ -72,8 +73,7 @@ void ObstacleSampling::place(const ProbabilityRequest& request) {
 
 /// What is far is besides.
 Bounds ObstacleSampling::within(const Bounds& of_near, const Bounds& known) const {
-  const double upper = std::min(known.upper, sumAbove(of_near.upper, far_));
-  return {std::min(upper, std::max(known.lower, of_near.lower)), upper};
+  return agreed(known, {of_near.lower, sumAbove(of_near.upper, far_)});
 }
 
 }  // namespace fcl_prob::detail

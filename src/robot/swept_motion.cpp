@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/decision.h"
+#include "base/known.h"
 #include "base/rounded_sum.h"
 #include "query/parts_loop.h"
 
@@ -179,8 +180,7 @@ class SweptMotion {
 
   /// What is known, with what steps tell that are not far.
   Bounds narrowed(const Bounds& of_near) const {
-    return {std::max(known_.lower, of_near.lower),
-            std::min(known_.upper, sumAbove(of_near.upper, far_upper_))};
+    return agreed(known_, {of_near.lower, sumAbove(of_near.upper, far_upper_)});
   }
 
   /// The best bounds of all rounds.
