@@ -16,6 +16,10 @@ namespace {
 /// Of what would be enough: a body that is less likely to touch is not looked at more closely.
 constexpr double kUnlikely = 1e-3;
 
+/// Beyond this the hulls of a body and the obstacle meet where they are expected. Bodies of which
+/// they do not are above few thresholds, and the search would take longer than all else.
+constexpr double kHullsMeet = 0.5;
+
 double upperOfPair(const PreparedGeometry& body, const fcl::Transform3d& pose,
                    const PreparedGeometry& other, const fcl::Transform3d& other_pose,
                    const GaussianDisplacement& of_bodies) {
@@ -91,7 +95,7 @@ double BodyBounds::together(double enough) const {
 double BodyBounds::lower(ContactMeaning contact, double enough) const {
   const std::vector<fcl::Transform3d> poses = obstacle_.poses(pose_);
   for (const auto& [placed, upper] : bounds_) {
-    if (upper <= enough) break;
+    if (upper <= std::max(enough, kHullsMeet)) break;
     const PlacedBalls body{robot_.hulls.ballsOf(placed.body), placed.pose};
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const PlacedBalls other{obstacle_.hulls().ballsOf(i), poses[i]};
