@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fcl_prob/probability_request.h"
+#include "fcl_prob/probability_result.h"
 #include "fcl_prob/robot.h"
 
 namespace fcl_prob {
@@ -32,8 +34,8 @@ struct BodyPair {
   std::size_t second;
 };
 
-/// A robot's bodies against each other, by fcl::collide: no errors, no probability. As there,
-/// meshes are surfaces, of which one inside another does not touch it.
+/// A robot's bodies against each other, by fcl::collide, and how likely they touch where joints
+/// have errors. As there, meshes are surfaces, of which one inside another does not touch it.
 ///
 /// Left out are pairs that may touch, pairs of one link or of two links with a joint between them,
 /// and pairs of bodies that do not move relative to each other. For an attached object only the
@@ -56,6 +58,21 @@ class SelfCollision {
 
   /// Which of pairs() touch. \throws as collides()
   std::vector<BodyPair> collisions(const Eigen::VectorXd& values) const;
+
+  /// The same of poses (metres, world frame) as Robot::poses() gives them, whatever the joints are.
+  bool collidesAt(const std::vector<fcl::Transform3d>& poses) const;
+
+  /// P that any of pairs() touch, where joints have Gaussian errors: counted, with its standard
+  /// error and an interval that covers P with the request's confidence; against a threshold until
+  /// that is decided. What is drawn may be beyond limits.
+  /// \param values            about which the joints are, within their limits
+  /// \param joint_covariance  radians, metres; in the order of Robot::joints(), of any rank: see
+  ///                          jointCovariance()
+  /// \throws InvalidRequest as collides(), and for a method other than automatic and monte_carlo, a
+  ///         gradient, a band, or a contact other than fcl; InvalidDistribution
+  ProbabilityResult probability(const Eigen::VectorXd& values,
+                                const Eigen::MatrixXd& joint_covariance,
+                                const ProbabilityRequest& request) const;
 
  private:
   struct Implementation;

@@ -57,6 +57,7 @@ struct PathReport {
   std::string gradient_text;
   ProbabilityStatus gradient_status = ProbabilityStatus::sampled;
   std::vector<TouchingBodies> self_collisions;
+  std::optional<ProbabilityResult> touches_itself;  ///< with errors of joints
   std::size_t waypoints = 0;
   double build_ms = 0.0;
   double time_ms = 0.0;
@@ -156,7 +157,14 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
     report.gradient = jsonOf(gradient, query.robot());
     report.gradient_text = textOf(gradient, query.robot());
   }
-  report.self_collisions = selfCollisionsOf(loadSelfCollision(scene, query.robot()), waypoints);
+  const SelfCollision self = loadSelfCollision(scene, query.robot());
+  report.self_collisions = selfCollisionsOf(self, waypoints);
+  if (errors.joints.size() > 0) {
+    ProbabilityRequest counting = scene.request;
+    counting.method = ProbabilityMethod::automatic;
+    counting.contact = ContactMeaning::fcl;
+    report.touches_itself = self.probability(waypoints[0], errors.joints, counting);
+  }
   return report;
 }
 
@@ -222,6 +230,7 @@ ordered_json jsonOf(const PathReport& report, const RobotScene& scene) {
                     {"plan", result.plan},
                     {"links_without_body", report.links_without_body},
                     {"self_collisions", jsonOf(report.self_collisions)}};
+  if (report.touches_itself) json["touches_itself"] = touchesItselfJson(*report.touches_itself);
   addWaypoints(result, json);
   if (report.gradient) json["gradient"] = *report.gradient;
   for (std::size_t i = 0; i < report.by_body.size(); ++i) {
@@ -262,6 +271,7 @@ std::string textOf(const PathReport& report, const RobotScene& scene) {
     text += "  " + report.bodies[i].name() + ": " + intervalText(report.by_body[i].any) + "\n";
   }
   text += report.gradient_text + textOf(report.self_collisions);
+  if (report.touches_itself) text += touchesItselfText(*report.touches_itself);
   if (result.swept_band) {
     text += "at all times: " + std::to_string(result.swept_steps) + " steps of bodies, within " +
             numberText(*result.swept_band, 3) + " m of the states looked at\n";

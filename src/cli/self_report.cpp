@@ -4,6 +4,9 @@
 
 #include <map>
 
+#include "cli/json_values.h"
+#include "cli/number_text.h"
+
 namespace fcl_prob::cli {
 
 std::vector<TouchingBodies> selfCollisionsOf(const SelfCollision& self,
@@ -39,6 +42,22 @@ std::string textOf(const std::vector<TouchingBodies>& touching) {
             std::to_string(pair.waypoint) + "\n";
   }
   return text;
+}
+
+nlohmann::ordered_json touchesItselfJson(const ProbabilityResult& result) {
+  return {{"estimate", orNull(result.estimate)},
+          {"standard_error", orNull(result.standard_error)},
+          {"confidence_interval", orNull(result.confidence_interval)},
+          {"samples", result.statistics.samples},
+          {"hits", result.statistics.hits},
+          {"status", toString(result.status)}};
+}
+
+std::string touchesItselfText(const ProbabilityResult& result) {
+  const Bounds interval = result.confidence_interval.value_or(Bounds{0.0, 1.0});
+  return "P that it touches itself: " + numberText(result.estimate.value_or(0.0), 4) +
+         ", confidence interval " + intervalText(interval) + ", " +
+         std::to_string(result.statistics.samples) + " samples\n";
 }
 
 }  // namespace fcl_prob::cli

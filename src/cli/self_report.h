@@ -28,4 +28,8 @@ nlohmann::ordered_json jsonOf(const std::vector<TouchingBodies>& touching);
 /// A line a pair; nothing where nothing touches.
 std::string textOf(const std::vector<TouchingBodies>& touching);
 
+/// Of P that a robot whose joints have errors touches itself.
+nlohmann::ordered_json touchesItselfJson(const ProbabilityResult& result);
+std::string touchesItselfText(const ProbabilityResult& result);
+
 }  // namespace fcl_prob::cli

@@ -28,10 +28,6 @@ constexpr double kReserve = 1.1;
 
 constexpr std::size_t kMostColumnsOfEstimate = 1 << 16;
 
-// Looks are independent: where two are farther apart than so many standard errors, the later one,
-// too, may not have seen all. The first one, with which none agrees yet, does not end the query.
-constexpr double kFarApart = 3.0;
-
 // Deviations up to which few degrees of freedom count as the normal distribution.
 constexpr double kDeviations = 3.0;
 
@@ -58,21 +54,16 @@ constexpr int kNearby = 2;
 
 // ... and where a line of a column has less than this share of its bound, an edge of the
 // C-obstacle may pass between its lines, however wide that is. Chosen such that standard errors
-// are of the size of the errors: what may be unseen of a line at an edge, of one that a segment of
-// something reaches into, and of one that something smaller may be beside.
+// are of the size of the errors: what may be unseen of a line at an edge, and of one that something
+// smaller may be beside.
 constexpr double kNearlyMissed = 0.02;
 constexpr double kUnseenEdge = 0.18;
-constexpr double kUnseenSegment = 0.35;
 constexpr double kUnseenPiece = 0.7;
 
 // The same of an edge in a strip along a side of the column, for each share of the column that the
 // strip is. Beside boxes along the axes, at 0.3 %, one seed in 250 was off by more than 4 standard
 // errors without it, up to 15 of them.
 constexpr double kUnseenStrip = 1.0;
-
-// Two looks that agree are believed with so many columns, times the reciprocal of the relative
-// tolerance: where edges are along the sides of a few columns both may miss the same.
-constexpr double kColumnsOfTolerance = 0.3;
 
 // What is seen of the error falls about with this power of the number of columns. What a look tells
 // of that of the next one counts half, if it is more: either may happen to see little.
@@ -107,9 +98,8 @@ struct PairsOfColumn {
   double lowest = 1.0;
   double highest = 0.0;
   std::array<LineOfColumn, kLines> lines;
-  int count = 0;         ///< of `lines` so far
-  double segment = 0.0;  ///< share of a line that reaches between two of them, at most
-  double hidden = 0.0;   ///< chance that something as small as can be is between them
+  int count = 0;        ///< of `lines` so far
+  double hidden = 0.0;  ///< chance that something as small as can be is between them
 };
 
 // As far from an end of [0, 1] as leaves one of x, this and what mirrors them in each quarter.
@@ -123,7 +113,7 @@ double turned(double x, bool to_other_half) {
 class ColumnSampler {
  public:
   ColumnSampler(WholeBodyLines& lines, const ProbabilityRequest& request)
-      : lines_(lines), request_(request), least_(lines.leastSilhouette()) {}
+      : lines_(lines), request_(request), least_(lines.leastArea()) {}
 
   PairsOfColumn draw(const LineColumns::Node& node, int index) {
     const std::array<std::uint64_t, 4> words =
@@ -157,20 +147,18 @@ class ColumnSampler {
     return mass;
   }
 
-  // What sticks out is no smaller than the smallest member, a disc of radius r at least: of that, a
-  // segment of the area d³/12r reaches into the gap between two lines at the distance d, a share
-  // d/12r of a line's own. All of it may be between lines with the chance that none of them, of the
-  // density 1/d² (of two that are mirrored one counts), meets its area.
+  // What sticks out is no smaller than the smallest member. All of it may be between lines with the
+  // chance that none of them, of the density 1/d² at the distance d from each other (of two that
+  // are mirrored one counts), meets its area.
   void countUnseen(const LineColumns::Node& node, const Eigen::Vector2d& u,
                    PairsOfColumn& drawn) const {
     const double square = node.measure / (kPairs * normalDensity(u[0]) * normalDensity(u[1]));
-    drawn.segment += std::min(1.0, std::sqrt(square) / (12.0 * least_.radius)) / kLines;
-    drawn.hidden += std::exp(-least_.area / square) / kLines;
+    drawn.hidden += std::exp(-least_ / square) / kLines;
   }
 
   WholeBodyLines& lines_;
   const ProbabilityRequest& request_;
-  Silhouette least_;
+  double least_;  ///< area of the smallest member
   std::uint64_t looks_ = 0;
 };
 
@@ -194,11 +182,6 @@ struct Look {
   }
 
   double weight() const { return std::pow(static_cast<double>(columns), 2.0 * kConvergence); }
-
-  bool isFarFrom(const Look& other) const {
-    return std::fabs(mass - other.mass) >
-           kFarApart * std::hypot(standardError(), other.standardError());
-  }
 };
 
 /// Looks together. Their weights follow from their numbers of columns alone: by their own errors
@@ -235,8 +218,6 @@ class LineEstimation {
       if (!(columns_.most() > std::numeric_limits<double>::min())) return std::nullopt;
       result.upper = std::min(result.upper, columns_.most());
       const Look look = lookAt(result.upper);
-      const bool is_confirmed = before && !look.isFarFrom(*before);
-      if (!is_confirmed) together = {};
       together.add(look, before ? look.standardErrorAfter(*before) : look.standardError());
       result.columns = look.columns;
       result.lines += kLines * look.columns;
@@ -245,12 +226,9 @@ class LineEstimation {
       const double target = request_.toleranceAt(result.value);
       const double least = leastError(look.columns) * target;
       result.standard_error = std::hypot(together.standard_error, least);
-      const auto most = static_cast<double>(most_columns_);
-      const double fewest = std::min(most, kColumnsOfTolerance * result.value / target);
-      const bool is_enough = static_cast<double>(look.columns) >= fewest;
-      const bool is_known = is_confirmed && is_enough && result.standard_error <= target;
+      const bool is_known = before && result.standard_error <= target;
       if (look.interrupted || is_known) return result;
-      if (!divide(look, together, target, fewest)) return std::nullopt;
+      if (!divide(look, together, target)) return std::nullopt;
       before = look;
     }
   }
@@ -302,8 +280,7 @@ class LineEstimation {
     const double of_nearby =
         may_be_far_out ? node.most : std::min(node.most, kHigherThanSeen * highest);
     const bool has_edge = pairs.lowest < kNearlyMissed * node.most;
-    const double of_known = std::max(kUnseenSegment * pairs.segment, has_edge ? kUnseenEdge : 0.0);
-    return of_known * of_nearby + kUnseenPiece * pairs.hidden * node.most;
+    return (has_edge ? kUnseenEdge * of_nearby : 0.0) + kUnseenPiece * pairs.hidden * node.most;
   }
 
   // Of the strips between a side of the column and the line nearest to it the widest, as a share of
@@ -349,8 +326,7 @@ class LineEstimation {
 
   // So many that with the next look the error is likely small enough. What may be unseen of it
   // falls with the square of the number of columns. False where that would be too many.
-  // \param fewest  columns of the next look
-  bool divide(const Look& look, const Looks& together, double target, double fewest) {
+  bool divide(const Look& look, const Looks& together, double target) {
     SampledVariance seen = look.spread;
     seen.jumps = 0.0;
     const double of_seen = seen.standardError(kDeviations);
@@ -371,7 +347,6 @@ class LineEstimation {
       growth *= kStepOfGrowth;
     }
     if (growth * now > most) return false;
-    growth = std::max(growth, fewest / now);
     const double count = std::ceil(std::min(growth, kMostGrowth) * now);
     columns_.divide(static_cast<std::size_t>(count), kVarianceOfHalf);
     return columns_.inOrder().size() > static_cast<std::size_t>(now);

@@ -332,8 +332,8 @@ void WholeBodyLines::joinContained(const Eigen::Vector2d& u) {
 }
 
 // The hull of a disc and two points opposite each other has at least the area r·L.
-Silhouette WholeBodyLines::leastSilhouette() const {
-  Silhouette least{kInfinity, kInfinity};
+double WholeBodyLines::leastArea() const {
+  double least = kInfinity;
   for (const Member& member : members_) {
     double radius = kInfinity, length = 0.0;
     for (int i = 0; i < kWidths; ++i) {
@@ -343,8 +343,7 @@ Silhouette WholeBodyLines::leastSilhouette() const {
       radius = std::min({radius, ahead, behind});
       length = std::max(length, ahead + behind);
     }
-    least.radius = std::min(least.radius, radius);
-    least.area = std::min(least.area, radius * length);
+    least = std::min(least, radius * length);
   }
   return least;
 }

@@ -22,12 +22,6 @@ struct LeftOut {
   double mass;
 };
 
-/// What a convex body covers of a plane, about.
-struct Silhouette {
-  double radius;  ///< of a disc in it
-  double area;    ///< no less
-};
-
 /// What members that are nearly convex are taken for on a line: their hulls, with which a line has
 /// no less, or their cores, with which it has no more, as of surfaces.
 enum class Taken { hulls, cores };
@@ -121,9 +115,9 @@ class WholeBodyLines {
   /// What the line at u has of collisions, under N(0, 1), but for the larger of both.
   double massOn(const Eigen::Vector2d& u, const Met& met, const LeftOut& negligible, Taken taken);
 
-  /// Of what lines can meet of the smallest member in one place: nothing smaller sticks out of the
-  /// C-obstacle.
-  Silhouette leastSilhouette() const;
+  /// No less than the area across the lines of the smallest member, about: nothing smaller sticks
+  /// out of the C-obstacle.
+  double leastArea() const;
 
  private:
   /// Where it is nearly convex, all of it is within the fan, and the body is its core.

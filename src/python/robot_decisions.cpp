@@ -9,6 +9,7 @@
 #include "python/arrays.h"
 #include "python/results.h"
 #include "python/robot_values.h"
+#include "python/running.h"
 
 namespace fcl_prob::python {
 namespace {
@@ -33,7 +34,7 @@ void bindSelfCollision(py::module_& module) {
   py::class_<SelfCollision, std::shared_ptr<SelfCollision>>(
       module, "SelfCollision",
       "SelfCollision(robot, srdf=None): a robot's bodies against each other by fcl::collide,\n"
-      "without errors. srdf: a file that tells which links may touch. Raises FileError.")
+      "and how likely they touch. srdf: a file that tells which links may touch. Raises FileError.")
       .def(py::init(&makeSelfCollision), py::arg("robot"), py::arg("srdf") = py::none())
       .def_property_readonly(
           "pairs", [](const SelfCollision& self) { return namesOf(self.robot(), self.pairs()); },
@@ -50,7 +51,22 @@ void bindSelfCollision(py::module_& module) {
             return namesOf(self.robot(),
                            self.collisions(jointValues(self.robot(), values, "values")));
           },
-          py::arg("values"), "Names of the bodies that touch.");
+          py::arg("values"), "Names of the bodies that touch.")
+      .def(
+          "probability",
+          [](const SelfCollision& self, const py::object& values, const py::object& joint_error,
+             const py::kwargs& request) {
+            const Eigen::VectorXd at = jointValues(self.robot(), values, "values");
+            const RobotErrors errors = robotErrorsFrom(self.robot(), joint_error, py::none());
+            return answer(questionFrom(request),
+                          [&](const ProbabilityRequest& of, ProbabilityResult& result) {
+                            result = self.probability(at, errors.joints, of);
+                          });
+          },
+          py::arg("values"), py::arg("joint_error"),
+          "ProbabilityResult: how likely any of the pairs touch, counted over errors of the "
+          "joints\n"
+          "(as of RobotQuery.state). Keywords: those of a request.");
 }
 
 void bindGroups(py::module_& module) {

@@ -102,9 +102,7 @@ struct SelfCollision::Implementation {
 
   /// Calls `found` with each pair that touches, until it returns false.
   template <typename Found>
-  void look(const Eigen::VectorXd& values, const Found& found) const {
-    robot.requireWithinLimits(values);
-    const std::vector<fcl::Transform3d> poses = robot.poses(values);
+  void look(const std::vector<fcl::Transform3d>& poses, const Found& found) const {
     std::vector<Ball> placed;
     for (std::size_t i = 0; i < poses.size(); ++i) placed.push_back(balls[i].placed(poses[i]));
     const auto& bodies = robot.bodies();
@@ -130,8 +128,13 @@ const Robot& SelfCollision::robot() const { return implementation_->robot; }
 const std::vector<BodyPair>& SelfCollision::pairs() const { return implementation_->pairs; }
 
 bool SelfCollision::collides(const Eigen::VectorXd& values) const {
+  robot().requireWithinLimits(values);
+  return collidesAt(robot().poses(values));
+}
+
+bool SelfCollision::collidesAt(const std::vector<fcl::Transform3d>& poses) const {
   bool any = false;
-  implementation_->look(values, [&any](const BodyPair&) {
+  implementation_->look(poses, [&any](const BodyPair&) {
     any = true;
     return false;
   });
@@ -139,8 +142,9 @@ bool SelfCollision::collides(const Eigen::VectorXd& values) const {
 }
 
 std::vector<BodyPair> SelfCollision::collisions(const Eigen::VectorXd& values) const {
+  robot().requireWithinLimits(values);
   std::vector<BodyPair> touching;
-  implementation_->look(values, [&touching](const BodyPair& pair) {
+  implementation_->look(robot().poses(values), [&touching](const BodyPair& pair) {
     touching.push_back(pair);
     return true;
   });

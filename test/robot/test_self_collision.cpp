@@ -11,6 +11,8 @@
 #include "arm_cases.h"
 #include "catch.h"
 #include "fcl_prob/exceptions.h"
+#include "fcl_prob/normal_mass.h"
+#include "fcl_prob/robot_errors.h"
 #include "fcl_prob/robot_scene.h"
 #include "models.h"
 #include "temporary_folder.h"
@@ -197,4 +199,77 @@ TEST_CASE("scenes of robots name an SRDF") {
   RobotScene without = scene;
   without.srdf.clear();
   CHECK(loadSelfCollision(without, robot).collides(robot.values({})));
+}
+
+namespace {
+
+/// Two balls of radius 0.1 m on carriages of their own along one line.
+Robot twoCarriages() {
+  std::string urdf = "<robot name=\"carriages\"><link name=\"rail\"/>";
+  for (const std::string name : {"left", "right"}) {
+    urdf += "<link name=\"" + name +
+            "\"><collision><geometry><sphere radius=\"0.1\"/></geometry></collision></link>"
+            "<joint name=\"" +
+            name + "\" type=\"prismatic\"><parent link=\"rail\"/><child link=\"" + name +
+            "\"/><axis xyz=\"1 0 0\"/>"
+            "<limit lower=\"-2\" upper=\"2\" velocity=\"1\" effort=\"1\"/></joint>";
+  }
+  return Robot::fromText(urdf + "</robot>");
+}
+
+}  // namespace
+
+// Their distance is Gaussian: P has a closed form.
+TEST_CASE("a robot with errors of its joints touches itself as often as it should") {
+  const Robot robot = twoCarriages();
+  const SelfCollision self(robot);
+  REQUIRE(self.pairs().size() == 1);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int outside = 0, wrong = 0, decided = 0;
+  constexpr int kScenes = 60;
+  for (int scene = 0; scene < kScenes; ++scene) {
+    const Eigen::Vector2d deviations(0.02 + 0.1 * uniform(random), 0.02 + 0.1 * uniform(random));
+    const double correlation = scene % 5 == 0 ? 1.0 : 1.8 * uniform(random) - 0.9;
+    Eigen::Matrix2d covariance = deviations.cwiseAbs2().asDiagonal();
+    covariance(0, 1) = covariance(1, 0) = correlation * deviations[0] * deviations[1];
+    const double apart = 0.4 * uniform(random);
+    const double spread = std::sqrt(std::max(0.0, covariance.trace() - 2.0 * covariance(0, 1)));
+    const double truth = normalIntervalMass((-0.2 - apart) / spread, (0.2 - apart) / spread);
+    const Eigen::VectorXd values = robot.values({{"left", 0.5}, {"right", 0.5 + apart}});
+    ProbabilityRequest request;
+    request.seed = 100 + static_cast<std::uint64_t>(scene);
+    const ProbabilityResult counted = self.probability(values, covariance, request);
+    CAPTURE(scene, truth, *counted.estimate, *counted.standard_error);
+    CHECK(std::fabs(*counted.estimate - truth) < 5.0 * *counted.standard_error + 1e-12);
+    outside += truth < counted.confidence_interval->lower - 1e-12 ||
+               truth > counted.confidence_interval->upper + 1e-12;
+    request.threads = 2;
+    CHECK(self.probability(values, covariance, request).estimate == counted.estimate);
+    request.threshold = truth < 0.5 ? 0.3 : 0.7;
+    const ProbabilityResult against = self.probability(values, covariance, request);
+    decided += against.decision != Decision::undecided;
+    wrong += against.decision == (truth < *request.threshold ? Decision::above : Decision::below);
+  }
+  CHECK(outside <= 4);  // of 99 % intervals
+  CHECK(wrong <= 3);
+  CHECK(decided > kScenes / 2);
+}
+
+TEST_CASE("what cannot be counted of a robot against itself is refused") {
+  const Robot robot = twoCarriages();
+  const SelfCollision self(robot);
+  const Eigen::VectorXd values = robot.values({});
+  const Eigen::MatrixXd covariance = jointCovariance(robot, {{"left", 0.1}});
+  ProbabilityRequest request;
+  CHECK_THROWS_AS(self.probability(values, Eigen::Matrix3d::Identity(), request),
+                  InvalidDistribution);
+  CHECK_THROWS_AS(self.probability(values, -Eigen::Matrix2d::Identity(), request),
+                  InvalidDistribution);
+  CHECK_THROWS_AS(self.probability(Eigen::Vector2d(3.0, 0.0), covariance, request), InvalidRequest);
+  request.method = ProbabilityMethod::interval;
+  CHECK_THROWS_AS(self.probability(values, covariance, request), InvalidRequest);
+  request = {};
+  request.contact = ContactMeaning::solid;
+  CHECK_THROWS_AS(self.probability(values, covariance, request), InvalidRequest);
 }

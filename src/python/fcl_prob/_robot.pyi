@@ -261,6 +261,21 @@ class SelfCollision:
     def pairs(self) -> list[Tuple[str, str]]: ...
     def collides(self, values: Values) -> bool: ...
     def collisions(self, values: Values) -> list[Tuple[str, str]]: ...
+    def probability(
+        self,
+        values: Values,
+        joint_error: Union[Numbers, Mapping[str, float]],
+        *,
+        relative_tolerance: float = 0.01,
+        absolute_tolerance: float = 1e-6,
+        threshold: Optional[float] = None,
+        time_limit: Optional[float] = None,
+        confidence: float = 0.99,
+        samples: int = 10000,
+        seed: int = 1,
+        threads: int = 1,
+        on_progress: Optional[QueryProgress] = None,
+    ) -> ProbabilityResult: ...
 
 class RobotGroup:
     @property
