@@ -24,19 +24,11 @@ double upperTogether(const PreparedRobot& robot, const std::vector<PlacedBody>& 
 /// that any of them does.
 class BodyBounds {
  public:
-  struct Bound {
-    PlacedBody body;
-    double upper;  ///< certainly not below P that it touches the obstacle
-  };
-
   /// \param pose       of the obstacle, which must outlive this, as the robot must
   /// \param of_bodies  their displacement relative to it
   BodyBounds(const PreparedRobot& robot, const std::vector<PlacedBody>& bodies,
              const PreparedObstacle& obstacle, const fcl::Transform3d& pose,
              const GaussianDisplacement& of_bodies);
-
-  /// The likeliest first.
-  const std::vector<Bound>& bounds() const { return bounds_; }
 
   /// Certainly not below P that any of them touches it.
   double sum() const;
@@ -55,6 +47,11 @@ class BodyBounds {
   std::vector<PlacedBody> likelier(double most, double& left_out) const;
 
  private:
+  struct Bound {
+    PlacedBody body;
+    double upper;  ///< certainly not below P that it touches the obstacle
+  };
+
   /// \param poses  of the bodies of the obstacle
   double upperOf(const PlacedBody& body, const std::vector<fcl::Transform3d>& poses) const;
 
@@ -62,7 +59,7 @@ class BodyBounds {
   const PreparedObstacle& obstacle_;
   fcl::Transform3d pose_;  ///< of the obstacle
   GaussianDisplacement of_bodies_;
-  std::vector<Bound> bounds_;
+  std::vector<Bound> bounds_;  ///< the likeliest first
 };
 
 }  // namespace fcl_prob::detail

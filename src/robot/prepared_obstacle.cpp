@@ -2,12 +2,9 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "robot/prepared_obstacle.h"
 
-#include <fcl/narrowphase/collision.h>
-
 #include <algorithm>
 #include <memory>
 
-#include "fcl_prob/monte_carlo.h"
 #include "geometry/occupancy.h"
 
 namespace fcl_prob::detail {
@@ -41,20 +38,6 @@ std::vector<fcl::Transform3d> PreparedObstacle::poses(const fcl::Transform3d& po
   std::vector<fcl::Transform3d> poses{pose};
   for (std::size_t i = 1; i < in_obstacle_.size(); ++i) poses.push_back(pose * in_obstacle_[i]);
   return poses;
-}
-
-bool PreparedObstacle::touches(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& at,
-                               const fcl::Transform3d& pose) const {
-  for (std::size_t i = 0; i < geometries().size(); ++i) {
-    const fcl::CollisionGeometryd& body = geometries()[i]->geometry();
-    if (!fclSupportsPair(geometry, body)) continue;
-    fcl::CollisionResultd result;
-    if (fcl::collide(&geometry, at, &body, pose * in_obstacle_[i], fcl::CollisionRequestd(),
-                     result) > 0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 bool PreparedObstacle::mayMeet(const fcl::CollisionGeometryd& geometry) const {

@@ -29,10 +29,6 @@ class PreparedObstacle {
   /// Around all of it, in its frame.
   const Ball& around() const { return around_; }
 
-  /// Whether fcl::collide finds a geometry in contact with it, where it supports the pair.
-  bool touches(const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& at,
-               const fcl::Transform3d& pose) const;
-
   /// Whether fcl::collide may ever find a geometry in contact with it.
   bool mayMeet(const fcl::CollisionGeometryd& geometry) const;
 

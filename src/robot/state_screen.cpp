@@ -37,27 +37,19 @@ StateScreen::StateScreen(const RobotAmongObstacles& among) : among_(among) {
 std::optional<bool> StateScreen::isBelow(const Eigen::VectorXd& values, double threshold,
                                          ContactMeaning contact) const {
   if (!is_usable_) return std::nullopt;
-  const Near near = nearOf(values, kNegligible * threshold);
-  const auto isAbove = [&](const BodyBounds& one) {
-    return one.lower(contact, threshold) > threshold;
-  };
+  const auto [all, far] = nearOf(values, kNegligible * threshold);
   const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
-  const auto& all = near.of_obstacles;
-  if (std::accumulate(all.begin(), all.end(), near.far, sumOf) < threshold) return true;
-  if (std::any_of(all.begin(), all.end(), isAbove)) return false;
-  return isBelow(near, threshold) ? std::make_optional(true) : std::nullopt;
-}
-
-bool StateScreen::isBelow(const Near& near, double threshold) {
-  const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
-  const auto& all = near.of_obstacles;
+  if (std::accumulate(all.begin(), all.end(), far, sumOf) < threshold) return true;
+  for (const BodyBounds& one : all) {
+    if (one.lower(contact, threshold) > threshold) return false;
+  }
   // What is left of the threshold to the next obstacle, while the others have what is known.
-  double so_far = near.far;
+  double so_far = far;
   for (auto next = all.begin(); next != all.end() && so_far < threshold; ++next) {
     const double others = std::accumulate(next + 1, all.end(), so_far, sumOf);
     so_far = sumAbove(so_far, next->together(std::max(0.0, threshold - others)));
   }
-  return so_far < threshold;
+  return so_far < threshold ? std::make_optional(true) : std::nullopt;
 }
 
 StateScreen::Near StateScreen::nearOf(const Eigen::VectorXd& values, double negligible) const {

@@ -29,8 +29,6 @@ class StateScreen {
     double far = 0.0;
   };
 
-  static bool isBelow(const Near& near, double threshold);
-
   /// \param negligible  what one that is left out may add
   Near nearOf(const Eigen::VectorXd& values, double negligible) const;
 
