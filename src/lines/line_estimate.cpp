@@ -28,6 +28,10 @@ constexpr double kReserve = 1.1;
 
 constexpr std::size_t kMostColumnsOfEstimate = 1 << 16;
 
+// Looks are independent: where two are farther apart than so many standard errors, the later one,
+// too, may not have seen all. The first one, with which none agrees yet, does not end the query.
+constexpr double kFarApart = 3.0;
+
 // Deviations up to which few degrees of freedom count as the normal distribution.
 constexpr double kDeviations = 3.0;
 
@@ -64,6 +68,10 @@ constexpr double kUnseenPiece = 0.7;
 // strip is. Beside boxes along the axes, at 0.3 %, one seed in 250 was off by more than 4 standard
 // errors without it, up to 15 of them.
 constexpr double kUnseenStrip = 1.0;
+
+// Two looks that agree are believed with so many columns, times the reciprocal of the relative
+// tolerance: where edges are along the sides of a few columns both may miss the same.
+constexpr double kColumnsOfTolerance = 0.3;
 
 // What is seen of the error falls about with this power of the number of columns. What a look tells
 // of that of the next one counts half, if it is more: either may happen to see little.
@@ -182,6 +190,11 @@ struct Look {
   }
 
   double weight() const { return std::pow(static_cast<double>(columns), 2.0 * kConvergence); }
+
+  bool isFarFrom(const Look& other) const {
+    return std::fabs(mass - other.mass) >
+           kFarApart * std::hypot(standardError(), other.standardError());
+  }
 };
 
 /// Looks together. Their weights follow from their numbers of columns alone: by their own errors
@@ -218,6 +231,8 @@ class LineEstimation {
       if (!(columns_.most() > std::numeric_limits<double>::min())) return std::nullopt;
       result.upper = std::min(result.upper, columns_.most());
       const Look look = lookAt(result.upper);
+      const bool is_confirmed = before && !look.isFarFrom(*before);
+      if (!is_confirmed) together = {};
       together.add(look, before ? look.standardErrorAfter(*before) : look.standardError());
       result.columns = look.columns;
       result.lines += kLines * look.columns;
@@ -226,9 +241,12 @@ class LineEstimation {
       const double target = request_.toleranceAt(result.value);
       const double least = leastError(look.columns) * target;
       result.standard_error = std::hypot(together.standard_error, least);
-      const bool is_known = before && result.standard_error <= target;
+      const auto most = static_cast<double>(most_columns_);
+      const double fewest = std::min(most, kColumnsOfTolerance * result.value / target);
+      const bool is_enough = static_cast<double>(look.columns) >= fewest;
+      const bool is_known = is_confirmed && is_enough && result.standard_error <= target;
       if (look.interrupted || is_known) return result;
-      if (!divide(look, together, target)) return std::nullopt;
+      if (!divide(look, together, target, fewest)) return std::nullopt;
       before = look;
     }
   }
@@ -326,7 +344,8 @@ class LineEstimation {
 
   // So many that with the next look the error is likely small enough. What may be unseen of it
   // falls with the square of the number of columns. False where that would be too many.
-  bool divide(const Look& look, const Looks& together, double target) {
+  // \param fewest  columns of the next look
+  bool divide(const Look& look, const Looks& together, double target, double fewest) {
     SampledVariance seen = look.spread;
     seen.jumps = 0.0;
     const double of_seen = seen.standardError(kDeviations);
@@ -347,6 +366,7 @@ class LineEstimation {
       growth *= kStepOfGrowth;
     }
     if (growth * now > most) return false;
+    growth = std::max(growth, fewest / now);
     const double count = std::ceil(std::min(growth, kMostGrowth) * now);
     columns_.divide(static_cast<std::size_t>(count), kVarianceOfHalf);
     return columns_.inOrder().size() > static_cast<std::size_t>(now);
