@@ -54,9 +54,8 @@ nlohmann::ordered_json touchesItselfJson(const ProbabilityResult& result) {
 }
 
 std::string touchesItselfText(const ProbabilityResult& result) {
-  const Bounds interval = result.confidence_interval.value_or(Bounds{0.0, 1.0});
-  return "P that it touches itself: " + numberText(result.estimate.value_or(0.0), 4) +
-         ", confidence interval " + intervalText(interval) + ", " +
+  return "P that it touches itself: " + numberText(result.estimate.value(), 4) +
+         ", confidence interval " + intervalText(result.confidence_interval.value()) + ", " +
          std::to_string(result.statistics.samples) + " samples\n";
 }
 

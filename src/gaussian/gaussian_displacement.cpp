@@ -14,10 +14,7 @@
 namespace fcl_prob {
 namespace {
 
-using detail::kDefinitenessTolerance;
-using detail::kLargestCovariance;
-using detail::kSymmetryTolerance;
-using detail::numberText;
+using namespace detail;
 
 constexpr double kIsotropyTolerance = 1e-12;
 

@@ -15,10 +15,7 @@
 namespace fcl_prob {
 namespace {
 
-using detail::kDefinitenessTolerance;
-using detail::kLargestCovariance;
-using detail::kSymmetryTolerance;
-using detail::numberText;
+using namespace detail;
 using Vector6 = PoseError::Vector6;
 using Matrix6 = PoseError::Matrix6;
 

@@ -10,7 +10,6 @@
 #include "robot/common_half_spaces.h"
 
 namespace fcl_prob::detail {
-
 namespace {
 
 /// Of what would be enough: a body that is less likely to touch is not looked at more closely.

@@ -70,25 +70,14 @@ bool isLimited(ProbabilityStatus status) {
   return !isAnswered(status) && status != ProbabilityStatus::resolution_limit;
 }
 
-/// Far apart as far as half-spaces tell.
-ProbabilityResult allUnlikely(double upper) {
+/// Known well enough by bounds alone.
+ProbabilityResult decidedBy(const Bounds& bounds, Decision decision, std::string how) {
   ProbabilityResult result;
-  result.lower = 0.0;
-  result.upper = upper;
+  result.lower = bounds.lower;
+  result.upper = bounds.upper;
   result.status = ProbabilityStatus::decided;
-  result.decision = Decision::below;
-  result.plan.push_back("below the threshold by half-spaces between the bodies and it");
-  return result;
-}
-
-/// One of them is deep in it, or it in one of them.
-ProbabilityResult oneIsDeep(double lower) {
-  ProbabilityResult result;
-  result.lower = lower;
-  result.upper = 1.0;
-  result.status = ProbabilityStatus::decided;
-  result.decision = Decision::above;
-  result.plan.push_back("above the threshold by a ball within one body or the obstacle");
+  result.decision = decision;
+  result.plan.push_back(std::move(how));
   return result;
 }
 
@@ -108,11 +97,18 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   Budget budget(request);
   const BodyBounds bounds(scene.robot, bodies, scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
-  if (sumAbove(bounds.sum(), far) < threshold) return allUnlikely(bounds.sum());
+  const auto unlikely = [](double upper) {
+    return decidedBy({0.0, upper}, Decision::below,
+                     "below the threshold by half-spaces between the bodies and it");
+  };
+  if (sumAbove(bounds.sum(), far) < threshold) return unlikely(bounds.sum());
   const double lower = bounds.lower(request.contact, threshold);
-  if (lower > threshold) return oneIsDeep(lower);
+  if (lower > threshold) {
+    return decidedBy({lower, 1.0}, Decision::above,
+                     "above the threshold by a ball within one body or the obstacle");
+  }
   const double together = bounds.together(threshold - far);
-  if (sumAbove(together, far) < threshold) return allUnlikely(together);
+  if (sumAbove(together, far) < threshold) return unlikely(together);
   double left_out = 0.0;
   const auto likelier = bounds.likelier(kShareOfThreshold * threshold, left_out);
   const double left = threshold - sumAbove(left_out, far);

@@ -7,9 +7,12 @@
 #include <memory>
 
 #include "base/budget.h"
+#include "base/known.h"
 #include "base/random_words.h"
+#include "base/rounded_sum.h"
 #include "fcl_prob/combined_bounds.h"
-#include "robot/obstacle_sampling.h"
+#include "lines/line_bets.h"
+#include "robot/body_bounds.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -22,6 +25,107 @@ constexpr double kUnlikelyOfThreshold = 0.01;
 
 /// Of what the others leave open, obstacles that half-spaces bound so well need no lines.
 constexpr double kHardlyOpen = 0.3;
+
+/// One obstacle: what is certain, and what lines tell of it.
+class ObstacleSampling {
+ public:
+  /// \param most_far  what bodies that balls show to be far may add up to
+  ObstacleSampling(const ProbableScene& scene, const PreparedRobot& robot, double most_far);
+
+  Bounds certified() const { return certified_; }
+  Bounds probable() const { return probable_; }
+  bool isDone() const { return scene_.bodies.empty(); }
+  std::size_t columns() const { return lines_ ? lines_->columns() : 0; }
+  std::size_t samples() const { return lines_ ? lines_->lines() : 0; }
+
+  /// Half-spaces between bodies and obstacle; those that hardly matter need no samples.
+  /// \param most_left_out  what they may add up to
+  /// \param enough         a bound that is lower is of no more use
+  void boundByHalfSpaces(double most_left_out, double enough);
+
+  /// Makes what tells by lines. False where there are no lines.
+  /// \param chance  of an error of theirs
+  bool beginLines(const ProbabilityRequest& request, double chance);
+  bool hasLines() const { return lines_ != nullptr; }
+
+  /// P, about; before there are lines, half of its upper bound.
+  double likely() const;
+
+  /// As LineBets::improve().
+  bool improveByLines(bool above, double target);
+
+ private:
+  Bounds within(const Bounds& of_near, const Bounds& known) const;
+
+  ProbableScene scene_;
+  const PreparedRobot& robot_;
+  GaussianDisplacement displacement_;  ///< of the bodies
+  double far_ = 0.0;
+  std::shared_ptr<const PieceTree> tree_;
+  PartitionObject bodies_{};
+  PartitionObject obstacle_{};
+  std::unique_ptr<LineBets> lines_;
+  Bounds certified_;
+  Bounds probable_;
+};
+
+GaussianDisplacement displacementOfBodies(const ProbableScene& scene) {
+  return std::get<GaussianDisplacement>(scene.state.displacement).reversed();
+}
+
+ObstacleSampling::ObstacleSampling(const ProbableScene& scene, const PreparedRobot& robot,
+                                   double most_far)
+    : scene_(scene), robot_(robot), displacement_(displacementOfBodies(scene)) {
+  far_ = leaveOutFar(robot.balls, scene.obstacle->around(), scene.state, most_far, scene_.bodies);
+  certified_ = {0.0, scene_.bodies.empty() ? far_ : 1.0};
+  probable_ = certified_;
+}
+
+void ObstacleSampling::boundByHalfSpaces(double most_left_out, double enough) {
+  if (scene_.bodies.empty()) return;
+  const BodyBounds bounds(robot_, scene_.bodies, *scene_.obstacle, scene_.state.pose,
+                          displacement_);
+  double left_out = 0.0;
+  scene_.bodies = bounds.likelier(most_left_out, left_out);
+  certified_.upper = std::min(certified_.upper, sumAbove(bounds.together(enough - far_), far_));
+  probable_.upper = std::min(probable_.upper, certified_.upper);
+  far_ = sumAbove(far_, left_out);
+}
+
+bool ObstacleSampling::beginLines(const ProbabilityRequest& request, double chance) {
+  std::vector<const PieceTree*> trees;
+  for (const PlacedBody& body : scene_.bodies) {
+    const PreparedGeometry& geometry = *robot_.geometries[body.body];
+    trees.push_back(&geometry.pieces());
+    bodies_.parts.push_back({body.pose, geometry.solid(request.contact)});
+  }
+  tree_ = joinPieceTrees(trees);
+  bodies_.tree = tree_.get();
+  const PreparedObstacle& obstacle = *scene_.obstacle;
+  obstacle_ = obstacle.group().placed(obstacle.poses(scene_.state.pose), request.contact);
+  lines_ = LineBets::of(bodies_, obstacle_, displacement_, request, chance);
+  if (!lines_) return false;
+  certified_ = within(lines_->certified(), certified_);
+  probable_ = within(lines_->probable(), probable_);
+  return true;
+}
+
+double ObstacleSampling::likely() const {
+  if (!lines_) return 0.5 * (probable_.lower + probable_.upper);
+  return std::clamp(lines_->likely(), probable_.lower, probable_.upper);
+}
+
+bool ObstacleSampling::improveByLines(bool above, double target) {
+  const bool goes_on = lines_->improve(above, above ? target : std::max(0.0, target - far_));
+  certified_ = within(lines_->certified(), certified_);
+  probable_ = within(lines_->probable(), probable_);
+  return goes_on;
+}
+
+/// What is far is besides.
+Bounds ObstacleSampling::within(const Bounds& of_near, const Bounds& known) const {
+  return agreed(known, {of_near.lower, sumAbove(of_near.upper, far_)});
+}
 
 class AnyProbably {
  public:
@@ -154,16 +258,12 @@ class AnyProbably {
     return result_.decision != ProbableDecision::undecided;
   }
 
-  std::size_t columns() const {
-    std::size_t sum = 0;
-    for (const auto& obstacle : obstacles_) sum += obstacle->columns();
-    return sum;
-  }
-
   ProbableResult finished(ProbabilityStatus status) {
     result_.status = status;
-    result_.cells = columns();
-    for (const auto& obstacle : obstacles_) result_.samples += obstacle->samples();
+    for (const auto& obstacle : obstacles_) {
+      result_.cells += obstacle->columns();
+      result_.samples += obstacle->samples();
+    }
     return result_;
   }
 

@@ -76,11 +76,6 @@ Bounds ofAnyDependence(const std::vector<Bounds>& events, std::size_t obstacles)
   return anyOfIndependent(by_obstacle);
 }
 
-ProbabilityRequest withThreshold(ProbabilityRequest request, double threshold) {
-  request.threshold = threshold;
-  return request;
-}
-
 /// A certified answer as one that might have been probable.
 ProbableResult certainly(const RobotResult& result) {
   ProbableResult same;
@@ -227,8 +222,9 @@ struct RobotQuery::Implementation {
   ProbableResult ofUnionProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
                                  double chance, const ProbabilityRequest& request) const {
     const std::vector<detail::ProbableScene> scenes = probableScenes(waypoints);
-    const auto prove = [&](const ProbabilityRequest& part) {
-      return certainly(ofUnion(waypoints, -1, withThreshold(part, threshold)));
+    const auto prove = [&](ProbabilityRequest part) {
+      part.threshold = threshold;
+      return certainly(ofUnion(waypoints, -1, part));
     };
     if (scenes.empty()) return prove(request);
     return detail::probablyAny(scenes, among.prepared(), threshold, chance, prove, request);
@@ -428,7 +424,9 @@ RobotResult RobotQuery::certified(const std::vector<Eigen::VectorXd>& waypoints,
 ProbableResult RobotQuery::decideProbably(const std::vector<Eigen::VectorXd>& waypoints,
                                           double threshold, double chance_of_error,
                                           const ProbabilityRequest& request) const {
-  implementation_->validate(waypoints, withThreshold(request, threshold));
+  ProbabilityRequest against = request;
+  against.threshold = threshold;
+  implementation_->validate(waypoints, against);
   detail::requireChance(chance_of_error);
   if (request.method != ProbabilityMethod::automatic) {
     throw InvalidRequest("a probable decision has its own method, not " + toString(request.method));

@@ -30,26 +30,19 @@ class SelfCollisionRun : public detail::CountingRun {
   std::uint64_t seed_;
 };
 
-void requireCounting(const ProbabilityRequest& request) {
-  validateRequest(request);
-  detail::refuseBand(request, "robots");
-  if (request.contact != ContactMeaning::fcl) {
-    throw InvalidRequest("a robot against itself is asked of surfaces: contact = fcl");
-  }
-  const bool counts = request.method == ProbabilityMethod::automatic ||
-                      request.method == ProbabilityMethod::monte_carlo;
-  if (counts && !request.gradient) return;
-  throw InvalidRequest(
-      "a robot against itself is counted: method auto or monte-carlo, without a "
-      "gradient");
-}
-
 }  // namespace
 
 ProbabilityResult SelfCollision::probability(const Eigen::VectorXd& values,
                                              const Eigen::MatrixXd& joint_covariance,
                                              const ProbabilityRequest& request) const {
-  requireCounting(request);
+  validateRequest(request);
+  detail::refuseBand(request, "robots");
+  const bool counts = request.method == ProbabilityMethod::automatic ||
+                      request.method == ProbabilityMethod::monte_carlo;
+  if (!counts || request.contact != ContactMeaning::fcl || request.gradient) {
+    throw InvalidRequest(
+        "a robot against itself is counted: method auto or monte-carlo, contact fcl, no gradient");
+  }
   robot().requireWithinLimits(values);
   const auto kinematics = [this](const Eigen::VectorXd& drawn) { return robot().poses(drawn); };
   const RandomJoints joints(values, joint_covariance, kinematics, {}, GaussianDisplacement());

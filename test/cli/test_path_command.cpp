@@ -155,7 +155,12 @@ TEST_CASE("path answers where joints and base have errors of their own", "[cli]"
   const double estimate = answer.at("estimate");
   CHECK(answer.at("confidence_interval")[0].get<double>() < estimate);
   CHECK(answer.at("confidence_interval")[1].get<double>() > estimate);
-  CHECK(runCommand(path, folder).out.find("\nconfidence interval [") != std::string::npos);
+  const json itself = answer.at("touches_itself");
+  CHECK(itself.at("estimate") == 0.0);
+  CHECK(itself.at("confidence_interval")[1].get<double>() < 0.01);
+  const std::string text = runCommand(path, folder).out;
+  CHECK(text.find("\nconfidence interval [") != std::string::npos);
+  CHECK(text.find("\nP that it touches itself: 0, ") != std::string::npos);
   const CommandResult refused = run("--by-body");
   CHECK(refused.exit_code == 2);
   CHECK(refused.err.find("errors of joints") != std::string::npos);

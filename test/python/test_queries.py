@@ -317,6 +317,12 @@ def test_attached_objects_and_self_collision():
     strict = fcl_prob.SelfCollision(robot.with_attached("rod", "hand", rod, [0.09, 0, 0]))
     assert ("left_finger", "rod") in strict.collisions(straight)
     assert ("left_finger", "rod") in strict.pairs and strict.collides(straight)
+    counted = lenient.probability(straight, {"grip": 0.02, "bend": 0.2}, samples=500, seed=4)
+    assert counted.method == "monte-carlo" and counted.statistics["samples"] <= 500
+    low, high = counted.confidence_interval
+    assert low <= counted.estimate <= high and counted.standard_error > 0
+    with pytest.raises(fcl_prob.InvalidRequest, match="counted"):
+        lenient.probability(straight, {"grip": 0.02}, method="interval")
     with pytest.raises(fcl_prob.InvalidRequest, match="foot"):
         robot.with_attached("rod", "foot", rod)
     with pytest.raises(fcl_prob.FileError):
