@@ -42,7 +42,7 @@ constexpr int kMostShrinking = 12;
 /// Real-Time Collision Detection, 5.1.5). Whatever is rounded, it is one of the triangle.
 Eigen::Vector3d nearestOn(const std::array<Eigen::Vector3d, 3>& triangle,
                           const Eigen::Vector3d& p) {
-  const auto& [a, b, c] = triangle;
+  const Eigen::Vector3d &a = triangle[0], &b = triangle[1], &c = triangle[2];
   const Eigen::Vector3d ab = b - a, ac = c - a;
   const double along_b[3] = {ab.dot(p - a), ab.dot(p - b), ab.dot(p - c)};
   const double along_c[3] = {ac.dot(p - a), ac.dot(p - b), ac.dot(p - c)};
@@ -304,9 +304,9 @@ class BallSearch {
 
 ContactBall contactBall(const PlacedBalls& a, const PlacedBalls& b,
                         const GaussianDisplacement& of_a, ContactMeaning contact, double enough) {
-  const ContactBall of_balls_of_a = BallSearch(a, b, 1.0, of_a, contact).best();
+  ContactBall of_balls_of_a = BallSearch(a, b, 1.0, of_a, contact).best();
   if (of_balls_of_a.mass >= kClearly * enough) return of_balls_of_a;
-  const ContactBall of_balls_of_b = BallSearch(b, a, -1.0, of_a, contact).best();
+  ContactBall of_balls_of_b = BallSearch(b, a, -1.0, of_a, contact).best();
   return of_balls_of_a.mass >= of_balls_of_b.mass ? of_balls_of_a : of_balls_of_b;
 }
 
