@@ -214,12 +214,12 @@ class RobotQuery {
                      BetweenWaypoints between = BetweenWaypoints::ignored) const;
 
   /// On which side of a threshold P is at any of the waypoints, with persistent errors, from
-  /// whatever tells it first: bounds, cells, or samples of what the cells leave open. What samples
-  /// decided is wrong with a chance of at most `chance_of_error`, however often they were looked
-  /// at; a certain decision is never. (Obstacles that cannot be sampled, unbounded ones and those
-  /// with a displacement that is not Gaussian, are decided by motion().) \param request  method
-  /// automatic; its limits and its seed count, tolerances do not \throws InvalidRequest for a
-  /// chance that is not in (0, 1), another method, and as motion()
+  /// whatever tells it first: bounds, lines drawn beside bodies that are convex meshes (or nearly),
+  /// or motion(). What lines decided is wrong with a chance of at most `chance_of_error`, however
+  /// often they were looked at; a certain decision is never. (Obstacles without such lines,
+  /// unbounded ones and those with a displacement that is not Gaussian are decided by motion().)
+  /// \param request  method automatic; its limits and its seed count, tolerances do not \throws
+  /// InvalidRequest for a chance that is not in (0, 1), another method, and as motion()
   ProbableResult decideProbably(const std::vector<Eigen::VectorXd>& waypoints, double threshold,
                                 double chance_of_error, const ProbabilityRequest& request) const;
 
