@@ -95,8 +95,10 @@ double BodyBounds::lower(ContactMeaning contact, double enough) const {
   const std::vector<fcl::Transform3d> poses = obstacle_.poses(pose_);
   for (const auto& [placed, upper] : bounds_) {
     if (upper <= std::max(enough, kHullsMeet)) break;
+    const fcl::CollisionGeometryd& geometry = robot_.geometries[placed.body]->geometry();
     const PlacedBalls body{robot_.hulls.ballsOf(placed.body), placed.pose};
     for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (whyNeverInContact(geometry, obstacle_.geometries()[i]->geometry())) continue;
       const PlacedBalls other{obstacle_.hulls().ballsOf(i), poses[i]};
       const double lower = lowerByMedialBalls(body, other, of_bodies_, contact, enough);
       if (lower > enough) return lower;

@@ -24,7 +24,6 @@ class MedialBalls {
  public:
   explicit MedialBalls(const PreparedGeometry& geometry);
 
-  /// Whether there are points to be found.
   bool hasPoints() const { return mesh_.triangle_count > 0 || core_; }
   bool hasBalls() const { return !largest_.empty(); }
 

@@ -102,8 +102,7 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
                      "below the threshold by half-spaces between the bodies and it");
   };
   if (sumAbove(bounds.sum(), far) < threshold) return unlikely(bounds.sum());
-  const double lower = bounds.lower(request.contact, threshold);
-  if (lower > threshold) {
+  if (const double lower = bounds.lower(request.contact, threshold); lower > threshold) {
     return decidedBy({lower, 1.0}, Decision::above,
                      "above the threshold by a ball within one body or the obstacle");
   }

@@ -9,6 +9,7 @@
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/group.h"
 #include "fcl_prob/robot_scene.h"
+#include "mesh_shapes.h"
 #include "temporary_folder.h"
 
 using namespace fcl_prob;
@@ -35,6 +36,27 @@ ProbabilityRequest below(double threshold) {
 }
 
 }  // namespace
+
+// One that fcl::collide never touches makes no state unsafe, however deep the robot is in it. The
+// hull of the ring is around the robot, so that half-spaces tell nothing.
+TEST_CASE("a body of an obstacle that is not occupied tells nothing") {
+  const Robot robot = Robot::fromText(
+      R"(<robot name="ball"><link name="ball"><collision><geometry><sphere radius="0.05"/>)"
+      R"(</geometry></collision></link></robot>)");
+  Obstacle ring{"ring", makeModel<fcl::OBBRSSd>(torusMesh(0.5, 0.05, 24, 10)), at(0, 0, 0),
+                sigma(0.02, 0.03, 0.02)};
+  const auto around = std::make_shared<fcl::Boxd>(2.0, 2.0, 2.0);
+  around->cost_density = 0.0;
+  around->threshold_occupied = 1.0;
+  ring.more.push_back({around, fcl::Transform3d::Identity()});
+  const RobotQuery query(robot, {ring});
+  const Eigen::VectorXd values = robot.values({});
+  CHECK(query.decideStates(values, below(0.05))[0] == ProbableDecision::certainly_below);
+  CHECK(query.state(values, below(0.05)).decision == Decision::below);
+  around->cost_density = 1.0;
+  const RobotQuery occupied(robot, {ring});
+  CHECK(occupied.decideStates(values, below(0.05))[0] == ProbableDecision::certainly_above);
+}
 
 TEST_CASE("an obstacle of several bodies is displaced as one") {
   const RobotQuery query(shippedArm(), {lamp()});
