@@ -8,7 +8,6 @@
 #include "base/budget.h"
 #include "base/decision.h"
 #include "base/rounded_sum.h"
-#include "base/statistics.h"
 #include "query/groups_query.h"
 #include "robot/body_bounds.h"
 #include "robot/reversed.h"
@@ -18,9 +17,6 @@ namespace {
 
 /// What bodies that balls around them show to be far may add up to in a first bound.
 constexpr double kClearlyFar = 1e-6;
-
-/// Of the threshold: what bodies that are left out of a decision as unlikely may add up to.
-constexpr double kShareOfThreshold = 0.02;
 
 ProbabilityResult allFar(double far, const ProbabilityRequest& request) {
   ProbabilityResult result;
@@ -81,20 +77,14 @@ ProbabilityResult decidedBy(const Bounds& bounds, Decision decision, std::string
   return result;
 }
 
-/// Without the bodies that hardly matter for the threshold; nothing where all are needed after all,
-/// for which the request then has what is left of the limits.
-/// \param far    of what is left out
-/// \param spent  on an answer that was of no use
-std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scene,
+/// By bounds on single bodies and half-spaces that they have in common; nothing where these do not
+/// tell. \param far  of bodies that are left out
+std::optional<ProbabilityResult> decidedByBounds(const ObstacleAmongBodies& scene,
                                                  const ObstacleState& state,
                                                  const std::vector<PlacedBody>& bodies, double far,
-                                                 ProbabilityRequest& request,
-                                                 ProbabilityStatistics& spent) {
+                                                 const ProbabilityRequest& request) {
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
-  if (!request.threshold || request.method == ProbabilityMethod::estimate || !gaussian) {
-    return std::nullopt;
-  }
-  Budget budget(request);
+  if (!asksForDecision(request) || !gaussian) return std::nullopt;
   const BodyBounds bounds(scene.robot, bodies, scene.obstacle, state.pose, gaussian->reversed());
   const double threshold = *request.threshold;
   const auto unlikely = [](double upper) {
@@ -108,23 +98,6 @@ std::optional<ProbabilityResult> withoutUnlikely(const ObstacleAmongBodies& scen
   }
   const double together = bounds.together(threshold - far);
   if (sumAbove(together, far) < threshold) return unlikely(together);
-  double left_out = 0.0;
-  const auto likelier = bounds.likelier(kShareOfThreshold * threshold, left_out);
-  const double left = threshold - sumAbove(left_out, far);
-  if (likelier.size() == bodies.size() || !(left > 0.0)) return std::nullopt;
-  ProbabilityRequest of_likelier = request;
-  of_likelier.threshold = left;
-  ProbabilityResult result =
-      ofGroup(scene, state, likelier, tellingOfAll(std::move(of_likelier), left_out));
-  const double upper = std::min(1.0, sumAbove(*result.upper, left_out));
-  result.upper = upper;
-  result.decision = decisionOf({*result.lower, std::min(1.0, sumAbove(upper, far))}, request);
-  result.plan.push_back(std::to_string(bodies.size() - likelier.size()) +
-                        " bodies left out of the decision: unlikely to touch it by half-spaces");
-  if (isDecided(result.decision) || isLimited(result.status)) return result;
-  addStatistics(spent, result.statistics);
-  budget.spend(result.statistics);
-  budget.share(1, request);
   return std::nullopt;
 }
 
@@ -179,11 +152,8 @@ ProbabilityResult ofNearBodies(const ObstacleAmongBodies& scene, const ObstacleS
     of_near.absolute_tolerance *= 1.0 - kShareOfFar;
     of_near.relative_tolerance *= 1.0 - kShareOfFar;
   }
-  ProbabilityStatistics spent;
-  const auto decided = withoutUnlikely(scene, state, bodies, far, of_near, spent);
+  const auto decided = decidedByBounds(scene, state, bodies, far, of_near);
   ProbabilityResult result = decided ? *decided : ofGroup(scene, state, bodies, of_near);
-  result.statistics.cells += spent.cells;
-  result.statistics.samples += spent.samples;
   if (far > 0.0 && result.upper) {
     result.upper = std::min(1.0, sumAbove(*result.upper, far));
   }
