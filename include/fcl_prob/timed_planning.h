@@ -4,6 +4,7 @@
 // below a threshold, at its time. In the library fcl_prob::planning.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -68,6 +69,10 @@ struct TimedPlan {
   double likeliest_time = 0.0;  ///< seconds: of that state, by its upper bound
 };
 
+/// Whether the robot may be in a state (as of StateTest) at a time, seconds. Must answer alike
+/// whenever it is asked.
+using TimedStateTest = std::function<bool(double time, const Eigen::VectorXd& values)>;
+
 /// Waypoints with so many more between them, linear in time, that neither joints nor time change by
 /// more from one to the next. \throws InvalidRequest as the interpolated() of states
 std::vector<TimedWaypoint> interpolated(const std::vector<TimedWaypoint>& waypoints,
@@ -81,6 +86,12 @@ std::vector<TimedWaypoint> interpolated(const std::vector<TimedWaypoint>& waypoi
 ///         set, or one is not predicted for long enough; for a joint that is to move without a
 ///         velocity; for times out of order; and as planCertified()
 TimedPlan planInTime(const RobotQuery& query, const SelfCollision& self,
+                     const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
+                     const TimedPlanningRequest& request);
+
+/// The same through states that a test allows at their times. `latest` has to be set; the request's
+/// `state` and `errors` are not looked at, and `largest` is not told.
+TimedPlan planInTime(const Robot& robot, const TimedStateTest& allowed,
                      const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                      const TimedPlanningRequest& request);
 

@@ -224,7 +224,6 @@ void DiscRule::addCut(const End& end, double side, double strip, double decay, d
   const double corner = leaving > leaving_error ? std::hypot(x, y) * (1.0 - kRuleSlack) : distance;
   const double density = std::exp(-0.5 * corner * corner) * (1.0 + 1e-9);
   mass_beyond_ += std::min(tailAbove(corner), 0.5 * disc_.x_radius * disc_.y_radius * density);
-  density_beyond_ = std::max(density_beyond_, density);
   // At iη beyond the end x² + y² is at least what it is there less fall (cosh η - 1), by convexity,
   // and cosh η - 1 <= sinh² η / 2.
   const double fall =

@@ -72,9 +72,8 @@ class DiscRule {
   /// window, by factor.
   double remainder() const { return remainder_; }
 
-  /// Bounds on the mass of the disc beyond the cut ends, and on exp(-(x² + y²)/2) there.
+  /// A bound on the mass of the disc beyond the cut ends.
   double massBeyond() const { return mass_beyond_; }
-  double densityBeyond() const { return density_beyond_; }
 
  private:
   struct End {
@@ -105,7 +104,7 @@ class DiscRule {
   double first_ = 0.0, step_ = 0.0;
   int count_ = 0;
   double largest_cos_ = 1.0, least_cos_ = 0.0, enlargement_ = 1.0;
-  double remainder_ = kInfinity, mass_beyond_ = 0.0, density_beyond_ = 0.0;
+  double remainder_ = kInfinity, mass_beyond_ = 0.0;
 };
 
 }  // namespace fcl_prob::detail

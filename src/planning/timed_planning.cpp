@@ -31,11 +31,7 @@ constexpr int kArrivals = 24;
 constexpr std::size_t kStatesForSooner = 2, kMoreForSooner = 500;
 
 TimedPlanningRequest validated(TimedPlanningRequest request) {
-  request.state = detail::ofOneCall(request.state);
   request.planning = detail::ofOneCall(request.planning);
-  if (!request.state.threshold) throw InvalidRequest("a plan in time needs a threshold");
-  validateRequest(request.state);
-  detail::refuseBand(request.state, "robots");
   if (!(request.largest_time_step > 0.0)) {
     throw InvalidRequest("the largest time step must be > 0, is " +
                          detail::numberText(request.largest_time_step));
@@ -51,6 +47,14 @@ TimedPlanningRequest validated(TimedPlanningRequest request) {
   return request;
 }
 
+TimedPlanningRequest validatedWithState(TimedPlanningRequest request) {
+  request.state = detail::ofOneCall(request.state);
+  if (!request.state.threshold) throw InvalidRequest("a plan in time needs a threshold");
+  validateRequest(request.state);
+  detail::refuseBand(request.state, "robots");
+  return validated(std::move(request));
+}
+
 /// Of all predictions; infinite where there is none.
 double endOf(const RobotQuery& query) {
   double end = detail::kInfinity;
@@ -59,6 +63,13 @@ double endOf(const RobotQuery& query) {
       end = std::min(end, *obstacle.over_time.back().time);
   }
   return end;
+}
+
+void requireAfterStart(double latest, const TimedPlanningRequest& request) {
+  if (latest > request.start_time) return;
+  throw InvalidRequest("the latest time of arrival, " + detail::numberText(latest) +
+                       " s, is not after the start, " + detail::numberText(request.start_time) +
+                       " s");
 }
 
 /// When the robot has to be at the goal.
@@ -81,35 +92,42 @@ double latestOf(const RobotQuery& query, const TimedPlanningRequest& request) {
         "no obstacle is predicted over time: a plan in time needs the latest time "
         "of arrival, or planCertified()");
   }
-  if (!(*latest > request.start_time)) {
-    throw InvalidRequest("the latest time of arrival, " + detail::numberText(*latest) +
-                         " s, is not after the start, " + detail::numberText(request.start_time) +
-                         " s");
-  }
   return *latest;
 }
 
 class TimedPlanner {
  public:
-  TimedPlanner(const RobotQuery& query, const SelfCollision& self,
-               const TimedPlanningRequest& request, const Eigen::VectorXd& start,
-               const Eigen::VectorXd& goal)
-      : query_(query),
-        self_(self),
-        request_(validated(request)),
-        latest_(latestOf(query, request_)),
-        states_(query.robot(), request_, endOf(query)),
+  /// \param request  a validated one, which must outlive this
+  /// \param latest   time of arrival, seconds
+  /// \param end      of all that is known, seconds
+  TimedPlanner(const Robot& robot, const TimedStateTest& allowed,
+               const TimedPlanningRequest& request, double latest, double end,
+               const Eigen::VectorXd& start, const Eigen::VectorXd& goal)
+      : robot_(robot),
+        request_(request),
+        latest_(latest),
+        states_(robot, request_, end),
         run_(
-            [this](const auto& state) { return isAllowed(state); }, request_.planning,
+            [this, &allowed](const auto& state) {
+              return allowed(states_.timeOf(state), detail::TimedStates::valuesOf(state));
+            },
+            request_.planning,
             [this](const auto& from, const auto& to) { return states_.isForwardInTime(from, to); }),
         start_(states_.at(request_.start_time, start)),
-        goal_(goal) {}
+        goal_(goal) {
+    requireAfterStart(latest, request_);
+  }
 
   TimedPlan plan() {
     TimedPlan plan;
     plan.status = solve(plan);
     plan.states = run_.states();
     return plan;
+  }
+
+  /// All that were asked for on the way that was found.
+  std::vector<TimedWaypoint> statesOfPath() const {
+    return timed(interpolated(path_, request_.planning.largest_step));
   }
 
  private:
@@ -122,19 +140,12 @@ class TimedPlanner {
     if (request_.planning.shorten) path_ = detail::shortened(std::move(path_), run_);
     plan.shortened = request_.planning.shorten && !run_.isStopped();
     if (request_.hold > 0.0) path_.push_back(heldFrom(path_.back()));
-    tell(plan);
+    plan.waypoints = timed(path_);
+    std::vector<Eigen::VectorXd> values_of;
+    for (const TimedWaypoint& waypoint : plan.waypoints) values_of.push_back(waypoint.values);
+    plan.length = jointLength(values_of);
+    plan.arrival = plan.waypoints.back().time - request_.hold;
     return PlanningStatus::solved;
-  }
-
-  bool isAllowed(const Eigen::VectorXd& state) const {
-    const Eigen::VectorXd values = detail::TimedStates::valuesOf(state);
-    if (self_.collides(values)) return false;
-    const RobotQuery then = query_.at(states_.timeOf(state));
-    return detail::StateDecision(then, request_.errors).isBelow(values, withinLimits());
-  }
-
-  ProbabilityRequest withinLimits() const {
-    return detail::withinTime(request_.state, request_.planning, watch_);
   }
 
   Eigen::VectorXd heldFrom(const Eigen::VectorXd& goal) const {
@@ -163,7 +174,7 @@ class TimedPlanner {
   void connect(const std::vector<Eigen::VectorXd>& goals) {
     const auto towards = [&](std::size_t count, std::size_t most_states) {
       const std::vector<Eigen::VectorXd> first(goals.begin(), goals.begin() + count);
-      return detail::TimedTrees(query_.robot(), states_, run_, start_, first).connect(most_states);
+      return detail::TimedTrees(robot_, states_, run_, start_, first).connect(most_states);
     };
     const std::size_t before = run_.states();
     path_ = towards(goals.size(), request_.planning.max_states);
@@ -177,22 +188,48 @@ class TimedPlanner {
     }
   }
 
-  void tell(TimedPlan& plan) const {
-    std::vector<Eigen::VectorXd> values_of;
-    for (const Eigen::VectorXd& state : path_) {
-      values_of.push_back(detail::TimedStates::valuesOf(state));
-      plan.waypoints.push_back({states_.timeOf(state), values_of.back()});
+  std::vector<TimedWaypoint> timed(const std::vector<Eigen::VectorXd>& states) const {
+    std::vector<TimedWaypoint> waypoints;
+    for (const Eigen::VectorXd& state : states) {
+      waypoints.push_back({states_.timeOf(state), detail::TimedStates::valuesOf(state)});
     }
-    plan.length = jointLength(values_of);
-    plan.arrival = plan.waypoints.back().time - request_.hold;
+    return waypoints;
+  }
+
+  const Robot& robot_;
+  const TimedPlanningRequest& request_;
+  const double latest_;
+  const detail::TimedStates states_;
+  detail::PlanningRun run_;
+  const Eigen::VectorXd start_;
+  const Eigen::VectorXd goal_;
+  std::vector<Eigen::VectorXd> path_;
+};
+
+/// What is certain of states among the obstacles as they are predicted.
+class AmongPredictions {
+ public:
+  /// \param request  a validated one
+  ///
+  /// Keeps references.
+  AmongPredictions(const RobotQuery& query, const SelfCollision& self,
+                   const TimedPlanningRequest& request)
+      : query_(query), self_(self), request_(request) {}
+
+  bool allows(double time, const Eigen::VectorXd& values) const {
+    if (self_.collides(values)) return false;
+    const RobotQuery then = query_.at(time);
+    return detail::StateDecision(then, request_.errors).isBelow(values, withinLimits());
+  }
+
+  void tellLargest(const std::vector<TimedWaypoint>& states, TimedPlan& plan) const {
     detail::LargestOfStates largest;
-    for (const Eigen::VectorXd& state : interpolated(path_, request_.planning.largest_step)) {
-      const Eigen::VectorXd values = detail::TimedStates::valuesOf(state);
-      const RobotQuery then = query_.at(states_.timeOf(state));
+    for (const TimedWaypoint& state : states) {
+      const RobotQuery then = query_.at(state.time);
       const detail::StateDecision decision(then, request_.errors);
       const double least = largest.probability.lower;
-      if (largest.add(decision.above(values, least, withinLimits()))) {
-        plan.likeliest_time = states_.timeOf(state);
+      if (largest.add(decision.above(state.values, least, withinLimits()))) {
+        plan.likeliest_time = state.time;
       }
     }
     plan.largest = largest.probability;
@@ -200,15 +237,14 @@ class TimedPlanner {
     plan.largest.upper = std::min(plan.largest.upper, *request_.state.threshold);
   }
 
+ private:
+  ProbabilityRequest withinLimits() const {
+    return detail::withinTime(request_.state, request_.planning, watch_);
+  }
+
   const RobotQuery& query_;
   const SelfCollision& self_;
-  const TimedPlanningRequest request_;
-  const double latest_;
-  const detail::TimedStates states_;
-  detail::PlanningRun run_;
-  const Eigen::VectorXd start_;
-  const Eigen::VectorXd goal_;
-  std::vector<Eigen::VectorXd> path_;
+  const TimedPlanningRequest& request_;
   const detail::Stopwatch watch_;
 };
 
@@ -233,6 +269,18 @@ std::vector<TimedWaypoint> interpolated(const std::vector<TimedWaypoint>& waypoi
   return result;
 }
 
+TimedPlan planInTime(const Robot& robot, const TimedStateTest& allowed,
+                     const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
+                     const TimedPlanningRequest& request) {
+  robot.validate(start);
+  robot.validate(goal);
+  detail::requireReachable(robot, start, goal, request.planning.joints);
+  const TimedPlanningRequest valid = validated(request);
+  if (!valid.latest) throw InvalidRequest("a plan in time needs the latest time of arrival");
+  const double end = *valid.latest + valid.hold;
+  return TimedPlanner(robot, allowed, valid, *valid.latest, end, start, goal).plan();
+}
+
 TimedPlan planInTime(const RobotQuery& query, const SelfCollision& self,
                      const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                      const TimedPlanningRequest& request) {
@@ -240,7 +288,16 @@ TimedPlan planInTime(const RobotQuery& query, const SelfCollision& self,
   query.robot().validate(goal);
   detail::requireReachable(query.robot(), start, goal, request.planning.joints);
   detail::requireSameJoints(self.robot(), query.robot());
-  return TimedPlanner(query, self, request, start, goal).plan();
+  const TimedPlanningRequest valid = validatedWithState(request);
+  const AmongPredictions among(query, self, valid);
+  const TimedStateTest allowed = [&](double time, const Eigen::VectorXd& values) {
+    return among.allows(time, values);
+  };
+  TimedPlanner planner(query.robot(), allowed, valid, latestOf(query, valid), endOf(query), start,
+                       goal);
+  TimedPlan plan = planner.plan();
+  if (plan.status == PlanningStatus::solved) among.tellLargest(planner.statesOfPath(), plan);
+  return plan;
 }
 
 }  // namespace fcl_prob

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/budget.h"
 #include "base/decision.h"
 #include "base/rounded_sum.h"
 #include "query/groups_query.h"
@@ -59,11 +58,6 @@ ProbabilityRequest tellingOfAll(ProbabilityRequest request, double far) {
     return told(progress);
   };
   return request;
-}
-
-/// Whether a limit of the request was reached, and not one of what can be told.
-bool isLimited(ProbabilityStatus status) {
-  return !isAnswered(status) && status != ProbabilityStatus::resolution_limit;
 }
 
 /// Known well enough by bounds alone.
@@ -135,15 +129,17 @@ double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& stat
   return std::min(1.0, sumAbove(bounds.sum(), far));
 }
 
-namespace {
+double mostFarOf(const ProbabilityRequest& request) {
+  return asksForDecision(request) ? kFarOfDecision * *request.threshold
+                                  : kShareOfFar * request.absolute_tolerance;
+}
 
-/// \param most_far  what bodies that are left out as far may add up to
-ProbabilityResult ofNearBodies(const ObstacleAmongBodies& scene, const ObstacleState& state,
-                               std::vector<PlacedBody> bodies, double most_far,
-                               const ProbabilityRequest& request, FarBodies& left_out) {
+ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
+                                    std::vector<PlacedBody> bodies,
+                                    const ProbabilityRequest& request, FarBodies& left_out) {
   const std::size_t all = bodies.size();
-  const double far =
-      leaveOutFar(scene.robot.balls, scene.obstacle.around(), state, most_far, bodies);
+  const double far = leaveOutFar(scene.robot.balls, scene.obstacle.around(), state,
+                                 mostFarOf(request), bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   // What is left out widens the interval, too.
@@ -156,35 +152,11 @@ ProbabilityResult ofNearBodies(const ObstacleAmongBodies& scene, const ObstacleS
   ProbabilityResult result = decided ? *decided : ofGroup(scene, state, bodies, of_near);
   if (far > 0.0 && result.upper) {
     result.upper = std::min(1.0, sumAbove(*result.upper, far));
+    result.decision = decisionOf({result.lower.value_or(0.0), *result.upper}, request);
+    if (result.decision == Decision::undecided && result.status == ProbabilityStatus::decided) {
+      result.status = ProbabilityStatus::resolution_limit;
+    }
   }
-  return result;
-}
-
-}  // namespace
-
-double mostFarOf(const ProbabilityRequest& request) {
-  const double least = asksForDecision(request)
-                           ? std::min(request.absolute_tolerance, *request.threshold)
-                           : request.absolute_tolerance;
-  return kShareOfFar * least;
-}
-
-ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
-                                    std::vector<PlacedBody> bodies,
-                                    const ProbabilityRequest& request, FarBodies& left_out) {
-  Budget budget(request);
-  ProbabilityResult result =
-      ofNearBodies(scene, state, bodies, mostFarOf(request), request, left_out);
-  if (!asksForDecision(request) || !(left_out.upper > 0.0)) return result;
-  result.decision = decisionOf({result.lower.value_or(0.0), *result.upper}, request);
-  if (isDecided(result.decision) || isLimited(result.status)) return result;
-  // What was left out may be what is in the way.
-  ProbabilityRequest of_all = request;
-  const ProbabilityStatistics spent = result.statistics;
-  budget.spend(spent);
-  budget.share(1, of_all);
-  result = ofNearBodies(scene, state, std::move(bodies), 0.0, of_all, left_out);
-  result.statistics.cells += spent.cells;
   return result;
 }
 

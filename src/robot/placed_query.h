@@ -15,8 +15,10 @@ namespace fcl_prob::detail {
 /// Of the absolute tolerance: what all bodies that are left out may add up to.
 inline constexpr double kShareOfFar = 0.05;
 
-/// What those may add up to that are left out of the first answer to a request: of a threshold, if
-/// there is one, no more than of the tolerance.
+/// Of a threshold: so little that no answer that is that close to it is ever known.
+inline constexpr double kFarOfDecision = 1e-12;
+
+/// What those may add up to that are left out.
 double mostFarOf(const ProbabilityRequest& request);
 
 /// What was left out of one query.
@@ -44,9 +46,9 @@ struct ObstacleAmongBodies {
 double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& state,
                      std::vector<PlacedBody> bodies);
 
-/// P that any of the placed bodies touches an obstacle in some state: one group query, without
-/// those that are too far away to matter; for a threshold also without those that half-spaces say
-/// are unlikely to. \throws as GroupQuery
+/// P that any of the placed bodies touches an obstacle in some state: for a threshold by bounds on
+/// bodies where these tell, else one group query, without those that are too far away to matter.
+/// \throws as GroupQuery
 ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
                                     std::vector<PlacedBody> bodies,
                                     const ProbabilityRequest& request, FarBodies& left_out);
