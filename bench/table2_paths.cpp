@@ -3,13 +3,15 @@
 #include "bench/table2_paths.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/stopwatch.h"
 
 namespace fcl_prob::cli {
 namespace {
 
-constexpr double kLargestStep = 0.05;  // radians
+constexpr double kLargestStep = 0.05;     // radians
+constexpr double kLargestTimeStep = 0.1;  // seconds: as often as arms are predicted
 constexpr std::size_t kStates = 1'500;
 constexpr std::size_t kStatesIfQuick = 300;
 
@@ -21,10 +23,29 @@ ProbabilityRequest certifyingRequest() {
   return request;
 }
 
+void fill(const PlanningResult& plan, PathRun& run) {
+  run.status = plan.status;
+  run.length = plan.length;
+  run.states = plan.states;
+  for (const Eigen::VectorXd& values : interpolated(plan.waypoints, kLargestStep)) {
+    run.path.push_back({0.0, values});
+  }
+}
+
+void fill(const TimedPlan& plan, PathRun& run) {
+  run.status = plan.status;
+  run.length = plan.length;
+  run.states = plan.states;
+  run.path = interpolated(plan.waypoints, kLargestStep, kLargestTimeStep);
+}
+
 }  // namespace
 
-std::vector<Eigen::VectorXd> statesOf(const PlanningResult& plan) {
-  return interpolated(plan.waypoints, kLargestStep);
+std::vector<PathRun> PathRuns::found() const {
+  std::vector<PathRun> found;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(found),
+               [](const PathRun& run) { return run.found(); });
+  return found;
 }
 
 Table2Paths::Table2Paths(const Table2Scene& scene, const BenchOptions& options)
@@ -36,65 +57,69 @@ std::size_t Table2Paths::states() const {
   return options_.states.value_or(options_.quick ? kStatesIfQuick : kStates);
 }
 
-PlanningResult Table2Paths::plan(const Table2Method& method, int k, double threshold,
-                                 double& query_ms) const {
-  const StateTest test = [&](const Eigen::VectorXd& values) {
+PathRun Table2Paths::plan(const Table2Method& method, int k, double threshold) const {
+  PathRun run;
+  const TimedStateTest test = [&](double time, const Eigen::VectorXd& values) {
     if (!scene_.isFree(values)) return false;
     const detail::Stopwatch watch;
-    const bool below = method.probability(scene_.at(values), threshold) < threshold;
-    query_ms += watch.milliseconds();
+    const bool below = method.probability(scene_.at({time, values}), threshold) < threshold;
+    run.query_ms += watch.milliseconds();
     return below;
   };
-  PlanningRequest request;
-  request.joints = scene_.joints;
-  request.largest_step = kLargestStep;
-  request.seed = options_.seed + static_cast<std::uint64_t>(k);
-  request.max_states = states();
-  return planMotion(scene_.robot(), test, scene_.start, scene_.goal, request);
+  TimedPlanningRequest request;
+  request.planning.joints = scene_.joints;
+  request.planning.largest_step = kLargestStep;
+  request.planning.seed = options_.seed + static_cast<std::uint64_t>(k);
+  request.planning.max_states = states();
+  request.largest_time_step = kLargestTimeStep;
+  request.latest = scene_.end;
+  if (scene_.isTimed()) {
+    fill(planInTime(scene_.robot(), test, scene_.start, scene_.goal, request), run);
+  } else {
+    const StateTest always = [&](const Eigen::VectorXd& values) { return test(0.0, values); };
+    fill(planMotion(scene_.robot(), always, scene_.start, scene_.goal, request.planning), run);
+  }
+  return run;
 }
 
-void Table2Paths::run(const Table2Method& method, int k, PathRuns& runs) const {
-  double query_ms = 0.0;
-  const PlanningResult plan = this->plan(method, k, kMostProbable, query_ms);
-  runs.states.push_back(static_cast<double>(plan.states));
-  runs.query_ms.push_back(query_ms);
-  runs.refused +=
-      plan.status == PlanningStatus::start_refused || plan.status == PlanningStatus::goal_refused;
-  if (plan.status != PlanningStatus::solved) return;
-  FoundPath path{statesOf(plan), plan.length, query_ms};
-  path.certified = largestOf(path.states);
+PathRun Table2Paths::run(const Table2Method& method, int k) const {
+  PathRun run = plan(method, k, kMostProbable);
+  if (!run.found()) return run;
+  run.certified = largestOf(run.path);
   if (method.answer == Table2Answer::certified) {
     // Every state was decided, which may have taken more than the interval's cells.
-    path.certified.upper = std::min(path.certified.upper, kMostProbable);
+    run.certified.upper = std::min(run.certified.upper, kMostProbable);
   }
-  runs.found.push_back(std::move(path));
+  return run;
 }
 
-Bounds Table2Paths::largestOf(const std::vector<Eigen::VectorXd>& states) const {
+Bounds Table2Paths::largestOf(const std::vector<TimedWaypoint>& states) const {
   Bounds largest{0.0, 0.0};
-  for (const Eigen::VectorXd& values : states) {
-    const Bounds one = scene_.at(values).query.state(values, certifyingRequest()).any;
+  for (const TimedWaypoint& state : states) {
+    const Bounds one = scene_.at(state).query.state(state.values, certifyingRequest()).any;
     largest = {std::max(largest.lower, one.lower), std::max(largest.upper, one.upper)};
   }
   return largest;
 }
 
-Bounds Table2Paths::motionOf(const FoundPath& path) const {
+Bounds Table2Paths::motionOf(const PathRun& run) const {
   ProbabilityRequest request = certifyingRequest();
   request.max_cells *= 10;
-  if (scene_.around.size() == 1) {
-    return scene_.around[0]->query.motion(path.states, ErrorsOverTime::persistent, request).any;
+  std::vector<Eigen::VectorXd> states;
+  for (const TimedWaypoint& state : run.path) states.push_back(state.values);
+  if (!scene_.isTimed()) {
+    return scene_.around[0]->query.motion(states, ErrorsOverTime::persistent, request).any;
   }
   std::vector<Obstacle> obstacles = scene_.obstacles();
-  for (const Eigen::VectorXd& values : path.states) {
-    const std::vector<Obstacle>& by_then = scene_.at(values).query.obstacles();
+  for (const TimedWaypoint& state : run.path) {
+    const std::vector<Obstacle>& by_then = scene_.at(state).query.obstacles();
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
       obstacles[j].over_time.push_back({by_then[j].pose, by_then[j].displacement});
     }
   }
   return scene_.around[0]
       ->query.withObstacles(std::move(obstacles))
-      .motion(path.states, ErrorsOverTime::any_dependence, request)
+      .motion(states, ErrorsOverTime::any_dependence, request)
       .any;
 }
 

@@ -14,19 +14,24 @@ namespace fcl_prob::cli {
 
 inline constexpr double kMostProbable = 0.05;  ///< the paper's safety level
 
-/// Of one seed.
-struct FoundPath {
-  std::vector<Eigen::VectorXd> states;  ///< at steps of the planner
-  double length = 0.0;                  ///< radians
-  double query_ms = 0.0;                ///< of the row's tests, to find and shorten it
-  Bounds certified{0.0, 1.0};           ///< contains the largest P of a state
+/// Of one row and one seed.
+struct PathRun {
+  PlanningStatus status = PlanningStatus::state_limit;
+  std::vector<TimedWaypoint> path;  ///< at steps of the planner; empty unless solved
+  double length = 0.0;              ///< radians
+  std::size_t states = 0;           ///< asked
+  double query_ms = 0.0;            ///< of the row's tests, to find and shorten it
+  Bounds certified{0.0, 1.0};       ///< contains the largest P of a state of the path
+
+  bool found() const { return status == PlanningStatus::solved; }
+  double arrival() const { return path.back().time; }  ///< seconds; of one that was found
 };
 
-/// Of one row in one scene; a number a seed.
+/// Of one row in one scene.
 struct PathRuns {
-  std::vector<double> states, query_ms;
-  int refused = 0;  ///< start or goal is
-  std::vector<FoundPath> found;
+  std::vector<PathRun> all;  ///< by seed
+
+  std::vector<PathRun> found() const;
 
   /// P that any state of the first path touches: errors the same all along; obstacles that turn:
   /// of any dependence.
@@ -41,20 +46,19 @@ class Table2Paths {
   int seeds() const;
   std::size_t states() const;  ///< that a planner may ask for
 
-  /// A path for seed number k, of which the method allows every state below `threshold`.
-  PlanningResult plan(const Table2Method& method, int k, double threshold, double& query_ms) const;
+  /// A path for seed number k, of which the method allows every state below `threshold`; not
+  /// certified.
+  PathRun plan(const Table2Method& method, int k, double threshold) const;
 
-  void run(const Table2Method& method, int k, PathRuns& runs) const;
-  Bounds motionOf(const FoundPath& path) const;
+  /// The same below kMostProbable, certified.
+  PathRun run(const Table2Method& method, int k) const;
+  Bounds motionOf(const PathRun& run) const;
 
  private:
-  Bounds largestOf(const std::vector<Eigen::VectorXd>& states) const;
+  Bounds largestOf(const std::vector<TimedWaypoint>& states) const;
 
   const Table2Scene& scene_;
   const BenchOptions& options_;
 };
-
-/// The states of a path as they are asked for.
-std::vector<Eigen::VectorXd> statesOf(const PlanningResult& plan);
 
 }  // namespace fcl_prob::cli

@@ -41,10 +41,11 @@ GaussianDisplacement spread(double x, double y, double z) {
   return GaussianDisplacement::fromStandardDeviations({x, y, z});
 }
 
-// Of the arm that waves; a motion past it takes so long.
-constexpr double kSecondsOfWave = 3.0;
-constexpr int kPredictions = 31;
+// Of the arm that waves, down and up again once; predicted every tenth of a second.
+constexpr double kSecondsOfWave = 6.0;
+constexpr int kPredictions = 61;
 constexpr int kSingleArms = 4;
+constexpr double kPi = 3.14159265358979323846;
 
 // Of the human's shoulder in front of the robot, metres: in the scenes that the paper's rows start
 // in, and where the states of docs/states.md are closer.
@@ -96,16 +97,20 @@ class Table2Models {
   Table2Scene waving() const {
     std::vector<Obstacle> arms;
     for (int k = 0; k < kPredictions; ++k) {
-      arms.push_back(predicted(kShoulderOfWaving, kSecondsOfWave * k / (kPredictions - 1)));
+      const double part = k / (kPredictions - 1.0), down = 0.45 * std::cos(2.0 * kPi * part);
+      arms.push_back(predicted(kShoulderOfWaving, kSecondsOfWave * part, down, 0.01 + 0.03 * part));
     }
-    return pastArms("waving", arms);
+    Table2Scene scene = pastArms("waving", arms);
+    scene.end = kSecondsOfWave;
+    return scene;
   }
 
   std::vector<Table2Scene> singleArms() const {
     std::vector<Table2Scene> scenes;
     for (int k = 0; k < kSingleArms; ++k) {
       scenes.push_back(
-          pastArms("arm at " + std::to_string(k) + " s", {predicted(kShoulderCloseBy, k)}));
+          pastArms("arm at " + std::to_string(k) + " s",
+                   {predicted(kShoulderCloseBy, k, 0.45 - 0.3 * k, 0.01 * (k + 1.0))}));
     }
     return scenes;
   }
@@ -115,10 +120,11 @@ class Table2Models {
     return loadMeshIsolated((models_ / file).string());
   }
 
-  Obstacle predicted(const Eigen::Vector3d& shoulder, double seconds) const {
-    const double sigma = 0.01 * (seconds + 1.0);  // metres
-    return {"human arm at " + numberText(seconds, 3) + " s", human_arm_,
-            armFrom(shoulder, 0.45 - 0.3 * seconds), spread(sigma, sigma, 0.5 * sigma)};
+  /// \param down, sigma  radians and metres
+  Obstacle predicted(const Eigen::Vector3d& shoulder, double seconds, double down,
+                     double sigma) const {
+    return {"human arm at " + numberText(seconds, 3) + " s", human_arm_, armFrom(shoulder, down),
+            spread(sigma, sigma, 0.5 * sigma)};
   }
 
   /// \param arms  one at a time
@@ -141,9 +147,9 @@ class Table2Models {
   static fcl::Transform3d armFrom(const Eigen::Vector3d& shoulder, double down) {
     fcl::Transform3d pose = fcl::Transform3d::Identity();
     pose.translation() = shoulder;
-    pose.rotate(Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitZ()));
+    pose.rotate(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()));
     pose.rotate(Eigen::AngleAxisd(down, Eigen::Vector3d::UnitY()));
-    pose.rotate(Eigen::AngleAxisd(1.5707963267948966, Eigen::Vector3d::UnitX()));
+    pose.rotate(Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitX()));
     return pose;
   }
 
@@ -165,19 +171,11 @@ class Table2Models {
 
 }  // namespace
 
-double Table2Scene::partOf(const Eigen::VectorXd& values) const {
-  const auto sideOf = [this](const Eigen::VectorXd& state) {
-    return robot().linkPose("gripper_link", state).translation().y();
-  };
-  const double first = sideOf(start);
-  return std::clamp((sideOf(values) - first) / (sideOf(goal) - first), 0.0, 1.0);
-}
-
-Table2State Table2Scene::at(const Eigen::VectorXd& values) const {
+Table2State Table2Scene::at(const TimedWaypoint& state) const {
   const auto last = static_cast<double>(around.size() - 1);
-  const auto time = last == 0.0 ? 0 : std::lround(partOf(values) * last);
-  const Table2Around& by_then = *around[static_cast<std::size_t>(time)];
-  return {values, by_then.query, by_then.screen};
+  const double part = isTimed() ? std::clamp(state.time / end, 0.0, 1.0) : 0.0;
+  const Table2Around& by_then = *around[static_cast<std::size_t>(std::lround(part * last))];
+  return {state.values, by_then.query, by_then.screen};
 }
 
 bool Table2Scene::isFree(const Eigen::VectorXd& values) const {

@@ -9,6 +9,7 @@
 
 #include "fcl_prob/robot_query.h"
 #include "fcl_prob/self_collision.h"
+#include "fcl_prob/timed_planning.h"
 #include "robot/state_screen.h"
 
 namespace fcl_prob::cli {
@@ -42,16 +43,18 @@ struct Table2Scene {
   Eigen::VectorXd goal;
   std::vector<std::string> joints;  ///< that move
 
-  /// At each time that obstacles are predicted for, the same ones; once where they stay.
+  /// At the times that obstacles are predicted for, evenly from 0 s to `end`, the same ones; once
+  /// where they stay.
   std::vector<std::shared_ptr<const Table2Around>> around;
+  double end = 0.0;  ///< seconds
 
   const fcl_prob::Robot& robot() const { return around.front()->query.robot(); }
   const std::vector<Obstacle>& obstacles() const { return around.front()->query.obstacles(); }
 
-  /// Part of the motion that a state is at, 0 at its start and 1 at its end: how far the gripper
-  /// has been led to the side, at a constant speed.
-  double partOf(const Eigen::VectorXd& values) const;
-  Table2State at(const Eigen::VectorXd& values) const;
+  bool isTimed() const { return around.size() > 1; }
+
+  /// Among the obstacles as predicted for the time that is closest.
+  Table2State at(const TimedWaypoint& state) const;
 
   /// Whether the robot touches neither itself nor what is exact.
   bool isFree(const Eigen::VectorXd& values) const;
@@ -59,7 +62,7 @@ struct Table2Scene {
 
 /// "cans": the arm carries a can over a table with two more and past a human arm; the table is
 /// exact. "waving": the arm goes past a human arm that waves, predicted every tenth of a second
-/// with a covariance that grows; the place of the gripper tells the time.
+/// with a covariance that grows; time is a dimension of its plans.
 /// \param models_folder  holds fetch_robot/, human/ and objects/
 std::vector<Table2Scene> table2Scenes(const std::string& models_folder);
 

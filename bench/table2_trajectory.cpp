@@ -48,13 +48,14 @@ bool isTooSmall(const Table2Method& method, double said, double certainly) {
 
 }  // namespace
 
-Trajectory::Trajectory(const Table2Scene& scene, std::vector<Eigen::VectorXd> states)
+Trajectory::Trajectory(const Table2Scene& scene, std::vector<TimedWaypoint> states)
     : scene_(scene), states_(std::move(states)) {
   // What depends on the geometries only is prepared before any clock is started, by other states.
   ProbabilityRequest request = requestOf(ProbabilityMethod::interval);
   request.relative_tolerance = 0.5;
   for (std::size_t k = 0; k + 1 < states_.size(); ++k) {
-    scene_.at(states_[k]).query.state(0.5 * (states_[k] + states_[k + 1]), request);
+    const Eigen::VectorXd between = 0.5 * (states_[k].values + states_[k + 1].values);
+    scene_.at(states_[k]).query.state(between, request);
   }
 }
 
@@ -63,9 +64,9 @@ TrajectoryRow Trajectory::interval() {
   row.name = "certified interval, 5 %";
   Bounds largest{0.0, 0.0};
   const detail::Stopwatch watch;
-  for (std::size_t k = 0; k < states_.size(); ++k) {
-    certified_.push_back(
-        scene_.at(states_[k]).query.state(states_[k], requestOf(ProbabilityMethod::interval)).any);
+  for (const TimedWaypoint& state : states_) {
+    const RobotQuery& query = scene_.at(state).query;
+    certified_.push_back(query.state(state.values, requestOf(ProbabilityMethod::interval)).any);
     if (certified_.back().upper > largest.upper) largest = certified_.back();
   }
   row.time_ms = watch.milliseconds();
@@ -81,9 +82,8 @@ TrajectoryRow Trajectory::estimate(std::uint64_t seed) const {
   request.seed = seed;
   double largest = 0.0;
   const detail::Stopwatch watch;
-  for (std::size_t k = 0; k < states_.size(); ++k) {
-    largest =
-        std::max(largest, scene_.at(states_[k]).query.state(states_[k], request).probability());
+  for (const TimedWaypoint& state : states_) {
+    largest = std::max(largest, scene_.at(state).query.state(state.values, request).probability());
   }
   row.time_ms = watch.milliseconds();
   row.largest = largest;
@@ -98,8 +98,8 @@ TrajectoryRow Trajectory::row(const Table2Method& method) const {
       saysProbability(method) ? std::numeric_limits<double>::infinity() : kMostOfTrajectory;
   std::vector<double> said;
   const detail::Stopwatch watch;
-  for (std::size_t k = 0; k < states_.size(); ++k) {
-    said.push_back(method.probability(scene_.at(states_[k]), enough));
+  for (const TimedWaypoint& state : states_) {
+    said.push_back(method.probability(scene_.at(state), enough));
   }
   row.time_ms = watch.milliseconds() / method.repetitions;
   for (std::size_t k = 0; k < said.size(); ++k) {

@@ -29,7 +29,7 @@ inline constexpr double kMostOfTrajectory = 0.01;
 class Trajectory {
  public:
   /// \param scene  must outlive this
-  Trajectory(const Table2Scene& scene, std::vector<Eigen::VectorXd> states);
+  Trajectory(const Table2Scene& scene, std::vector<TimedWaypoint> states);
 
   std::size_t size() const { return states_.size(); }
 
@@ -42,7 +42,7 @@ class Trajectory {
 
  private:
   const Table2Scene& scene_;
-  std::vector<Eigen::VectorXd> states_;
+  std::vector<TimedWaypoint> states_;
   std::vector<Bounds> certified_;
 };
 

@@ -138,8 +138,8 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
                                     std::vector<PlacedBody> bodies,
                                     const ProbabilityRequest& request, FarBodies& left_out) {
   const std::size_t all = bodies.size();
-  const double far = leaveOutFar(scene.robot.balls, scene.obstacle.around(), state,
-                                 mostFarOf(request), bodies);
+  const double far =
+      leaveOutFar(scene.robot.balls, scene.obstacle.around(), state, mostFarOf(request), bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   // What is left out widens the interval, too.

@@ -57,14 +57,14 @@ TEST_CASE("no row of table2 is below what is certain, but padding", "[cli][slow]
   for (const Table2Scene& scene : scenes) {
     CHECK(scene.isFree(scene.start));
     CHECK(scene.isFree(scene.goal));
-    CHECK(scene.partOf(scene.start) == 0.0);
-    CHECK(scene.partOf(scene.goal) == 1.0);
     const auto methods = table2Methods(scene, 0.05, 1, known);
     CHECK(methods.size() == 16);
     CHECK(countOf(methods, Table2Answer::certified) == 1);
     CHECK(countOf(methods, Table2Answer::probable) == 1);
     CHECK(countOf(methods, Table2Answer::padding) == 4);
-    for (const Eigen::VectorXd& end : {scene.start, scene.goal}) {
+    // At the goal half a wave later.
+    for (const TimedWaypoint& end :
+         {TimedWaypoint{0.0, scene.start}, TimedWaypoint{0.5 * scene.end, scene.goal}}) {
       for (const Table2Method& method : methods) {
         if (!method.plans) continue;
         CAPTURE(scene.name, method.name);
@@ -72,12 +72,12 @@ TEST_CASE("no row of table2 is below what is certain, but padding", "[cli][slow]
       }
     }
     for (const double at : {0.0, 0.2, 0.3}) {
-      const Eigen::VectorXd values = scene.start + at * (scene.goal - scene.start);
+      const TimedWaypoint state{at * scene.end, scene.start + at * (scene.goal - scene.start)};
       ProbabilityRequest request;
       request.relative_tolerance = 0.1;
       request.max_cells = 20'000;
-      const Bounds truth = scene.at(values).query.state(values, request).any;
-      for (const Table2Method& method : methods) checkRow(method, scene.at(values), truth);
+      const Bounds truth = scene.at(state).query.state(state.values, request).any;
+      for (const Table2Method& method : methods) checkRow(method, scene.at(state), truth);
     }
   }
 }

@@ -96,7 +96,8 @@ double truth(const TimedWaypoint& at) {
   return normalBallMass(distance / sigma, 3.0 * kBallRadius / sigma).upper;
 }
 
-void checkPlan(const TimedPlan& plan, const TimedPlanningRequest& request) {
+/// The largest P of a state; none is at or above the threshold, and joints are slow enough.
+double checkStates(const TimedPlan& plan, const TimedPlanningRequest& request) {
   REQUIRE(plan.status == PlanningStatus::solved);
   CHECK(plan.waypoints.front().time == Approx(request.start_time).margin(1e-12));
   CHECK(plan.waypoints.front().values == Lane::at(-1.0, 0.0));
@@ -115,6 +116,11 @@ void checkPlan(const TimedPlan& plan, const TimedPlanningRequest& request) {
     CHECK((states[i].values - states[i - 1].values).cwiseAbs().maxCoeff() <= most * (1.0 + 1e-6));
   }
   CHECK(largest < kThreshold);
+  return largest;
+}
+
+void checkPlan(const TimedPlan& plan, const TimedPlanningRequest& request) {
+  const double largest = checkStates(plan, request);
   CHECK(plan.largest.upper <= kThreshold);
   CHECK(largest >= plan.largest.lower - 1e-9);
   CHECK(largest <= plan.largest.upper + 1e-9);
@@ -140,6 +146,31 @@ TEST_CASE("a plan in time lets what comes pass, every state below the threshold 
   const TimedPlan again = lane.plan(lane.request(3)), same = lane.plan(lane.request(3));
   CHECK(again.arrival == same.arrival);
   CHECK(again.states == same.states);
+}
+
+TEST_CASE("a plan in time goes through states that a test of one's own allows at their times") {
+  const Lane lane;
+  TimedPlanningRequest request = lane.request();
+  request.state.threshold.reset();
+  std::size_t asked = 0;
+  const TimedStateTest allowed = [&asked](double time, const Eigen::VectorXd& values) {
+    ++asked;
+    return truth({time, values}) < kThreshold;
+  };
+  const auto plan = [&] {
+    return planInTime(lane.robot, allowed, Lane::at(-1.0, 0.0), Lane::at(1.0, 0.0), request);
+  };
+  CHECK_THROWS_AS(plan(), InvalidRequest);  // nothing says how late it may be
+  request.latest = 12.0;
+  request.hold = 1.0;
+  const TimedPlan found = plan();
+  checkStates(found, request);
+  CHECK(found.states == asked);
+  CHECK(found.arrival > 5.0);
+  CHECK(found.largest.upper == 1.0);
+  request.latest = 5.0;  // the lane is not free by then
+  request.planning.max_states = 2'000;
+  CHECK(plan().status != PlanningStatus::solved);
 }
 
 TEST_CASE("a plan in time keeps slower velocities and rests at the goal") {
