@@ -43,8 +43,8 @@ struct LadderScene {
 /// Rungs, and mechanisms inside of them, by the names that detail::isLeftOut() is asked for.
 const std::vector<std::string>& whatCanBeLeftOut() {
   static const std::vector<std::string> all{
-      "root volumes",   "convex meshes", "exact mass",    "lines",           "columns",
-      "polytope cells", "first boxes",   "nearly convex", "layers of nodes", "curved boundaries"};
+      "root volumes",  "convex meshes",   "exact mass",       "lines", "columns", "polytope cells",
+      "nearly convex", "layers of nodes", "curved boundaries"};
   return all;
 }
 

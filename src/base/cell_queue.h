@@ -66,7 +66,6 @@ class CellQueue {
       : request_(request),
         budget_(budget),
         statistics_(statistics),
-        most_cells_(request.max_cells),
         workers_(threads, std::move(first)),
         round_(1) {}
 
@@ -88,8 +87,8 @@ class CellQueue {
 
   Budget& budget() const { return budget_; }
 
-  /// That all that divide may examine together, in this run.
-  std::size_t cellsLeft() const { return most_cells_ - statistics_.cells; }
+  /// That all that divide may examine together.
+  std::size_t cellsLeft() const { return request_.max_cells - statistics_.cells; }
 
   /// Of the limit on cells.
   double fraction() const {
@@ -97,10 +96,8 @@ class CellQueue {
   }
 
   /// Divides cells until the kind is satisfied or a limit is reached; says which. May be called
-  /// again. \param most_cells  of this run, no more than the request's
-  /// \param share  of the time limit
-  ProbabilityStatus run(Kind& kind, std::size_t most_cells, double share = 1.0) {
-    most_cells_ = most_cells;
+  /// again. \param share  of the time limit
+  ProbabilityStatus run(Kind& kind, double share = 1.0) {
     std::optional<ProbabilityStatus> status;
     ++changes_since_recount_;
     std::size_t divided = 0;
@@ -155,7 +152,7 @@ class CellQueue {
   }
 
   std::optional<ProbabilityStatus> limited(const Kind& kind) const {
-    if (statistics_.cells + Kind::kRounds.cells_of_division > most_cells_) {
+    if (statistics_.cells + Kind::kRounds.cells_of_division > request_.max_cells) {
       return ProbabilityStatus::cell_limit;
     }
     if (kind.memory() >= request_.max_memory) return ProbabilityStatus::memory_limit;
@@ -200,7 +197,6 @@ class CellQueue {
   const ProbabilityRequest& request_;
   Budget& budget_;
   ProbabilityStatistics& statistics_;
-  std::size_t most_cells_;
   RoundWorkers<Worker> workers_;
   std::vector<InRound> round_;
   std::vector<Cell> heap_;

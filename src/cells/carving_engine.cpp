@@ -107,7 +107,7 @@ std::optional<ProbabilityStatus> CarvingEngine::satisfied() const {
 }
 
 ProbabilityStatus CarvingEngine::run() {
-  const ProbabilityStatus status = queue_.run(*this, request_.max_cells);
+  const ProbabilityStatus status = queue_.run(*this);
   statistics_.leaf_pairs = obstacles_.built();
   return status;
 }

@@ -50,7 +50,6 @@ void fillEstimate(const Whitening& whitening, const PartitionEngine& engine,
 }
 
 SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
-                            const ProbabilityRequest& request,
                             const ProbabilityStatistics& statistics, ProbabilityStatus& status) {
   constexpr int kMostTimesDrawnAgain = 2;
   constexpr double kReserve = 1.1;
@@ -85,7 +84,7 @@ SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
     const std::size_t cells = statistics.cells;
     const double drawn_before = std::exchange(drawn, 0.0);
     engine.expectDeviation(kReserve * std::max(ratio, kReserve));
-    status = engine.run(true, request.max_cells);
+    status = engine.run(true);
     drawn = engine.samplesToDraw(status);
     sampled = draw(drawn);
     // Numbers so small that neither cells nor samples make a difference.

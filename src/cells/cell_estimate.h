@@ -18,7 +18,6 @@ void fillGradient(const Whitening& whitening, const MomentBounds& moment,
 /// drawn or more cells are divided: until the standard error is what was asked for, or a limit is
 /// reached.
 SampledMass sampleOpenCells(PartitionEngine& engine, CellSampler& sampler,
-                            const ProbabilityRequest& request,
                             const ProbabilityStatistics& statistics, ProbabilityStatus& status);
 
 /// \param with_gradient  its estimate, too

@@ -263,10 +263,9 @@ void PartitionEngine::lookForStall() {
   at_last_look_ = now;
 }
 
-ProbabilityStatus PartitionEngine::run(bool estimate, std::size_t most_cells) {
+ProbabilityStatus PartitionEngine::run(bool estimate) {
   estimate_ = estimate;
-  const ProbabilityStatus status =
-      queue_.run(*this, most_cells, estimate ? kShareForDividing : 1.0);
+  const ProbabilityStatus status = queue_.run(*this, estimate ? kShareForDividing : 1.0);
   statistics_.leaf_pairs = obstacles_.pairCount();
   return status;
 }

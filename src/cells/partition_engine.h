@@ -34,8 +34,8 @@ class PartitionEngine {
 
   /// Divides cells until the request is satisfied or a limit is reached; says which. With
   /// `estimate` the cells need only be small enough for sampling them to give the standard error
-  /// asked for. May be called again, after expectDeviation() or with more cells.
-  ProbabilityStatus run(bool estimate, std::size_t most_cells);
+  /// asked for. May be called again, after expectDeviation().
+  ProbabilityStatus run(bool estimate);
 
   /// Certified; valid at every moment.
   Bounds interval() const;

@@ -84,7 +84,7 @@ class PoseInterval {
 
   ProbabilityResult run() {
     queue_.push(wholeRotationSpace(frame_.rank()));
-    return resultOf(queue_.run(*this, request_.max_cells));
+    return resultOf(queue_.run(*this));
   }
 
  private:

@@ -29,14 +29,6 @@ constexpr const char* kNoGradient =
 // their errors.
 constexpr double kMostRoundingOfLines = 0.03;
 
-// Boxes seldom decide where P is as near to the threshold as this share of it, unless there are
-// many members.
-constexpr double kNearThreshold = 0.5;
-
-// A decision is left to polytope cells when it needs more boxes than these. Measured on links
-// beside an arm (`bench states`): 12, 32, 128 and 256 are slower.
-constexpr std::size_t kFirstBoxes = 64;
-
 /// One scene, one question. The rungs are in the order of kLadder, and know nothing of each other
 /// but what is certain by then.
 class PartitionQuery {
@@ -77,8 +69,6 @@ class PartitionQuery {
   // Bounds on columns of lines, where an object can be taken whole.
   bool boundColumns();
 
-  // Boxes: a few where polytopes come after them, else as many as it takes.
-  bool divideFirstBoxes();
   bool divideBoxes();
   bool sampleBoxes();
 
@@ -94,26 +84,16 @@ class PartitionQuery {
   Budget budget_;
   Known known_;
   QueryScene scene_;
-  bool may_use_polytopes_;
-  bool near_threshold_ = false;
+  const bool may_use_polytopes_;
   std::optional<PartitionEngine> engine_;
   ProbabilityResult result_;
 };
 
 const std::vector<Rung<PartitionQuery>> PartitionQuery::kLadder{
-    // At once for an interval, for a decision where little else helps.
-    {"polytope cells",
-     [](const PartitionQuery& q) { return q.may_use_polytopes_ && !q.isDecision(); },
-     &PartitionQuery::dividePolytopes},
     {"lines", [](const PartitionQuery& q) { return q.isForLines(); },
      &PartitionQuery::estimateByLines},
     {"columns", [](const PartitionQuery& q) { return q.may_use_polytopes_ && q.isDecision(); },
      &PartitionQuery::boundColumns},
-    {"polytope cells",
-     [](const PartitionQuery& q) { return q.may_use_polytopes_ && q.near_threshold_; },
-     &PartitionQuery::dividePolytopes},
-    {"first boxes", [](const PartitionQuery& q) { return q.may_use_polytopes_; },
-     &PartitionQuery::divideFirstBoxes},
     {"polytope cells", [](const PartitionQuery& q) { return q.may_use_polytopes_; },
      &PartitionQuery::dividePolytopes},
     {"boxes", nullptr, &PartitionQuery::divideBoxes, true},
@@ -132,7 +112,6 @@ ProbabilityResult PartitionQuery::answer() {
 }
 
 bool PartitionQuery::dividePolytopes() {
-  may_use_polytopes_ = false;
   const ProbabilityMethod method = result_.method;
   const bool reached = carve(scene_, request_, budget_, result_);
   known_.narrow(result_);
@@ -171,8 +150,6 @@ bool PartitionQuery::boundColumns() {
   const double threshold = *request_.threshold;
   const ColumnBounds columns = columnBounds(*lines, threshold, request_.max_cells);
   known_.narrow(columns.bounds);
-  const bool is_pair = scene_.a().parts.size() == 1 && scene_.b().parts.size() == 1;
-  near_threshold_ = is_pair && std::fabs(columns.likely - threshold) < kNearThreshold * threshold;
   if (!isDecided(known_.decision())) return false;
   result_.status = ProbabilityStatus::decided;
   result_.statistics.cells = columns.columns;
@@ -199,20 +176,8 @@ std::unique_ptr<PointTester> PartitionQuery::makeTester() {
   return std::make_unique<PointTester>(scene_.pair(), engine().obstacles(), scene_.solids());
 }
 
-// A limit on the first boxes is none of the request.
-bool PartitionQuery::divideFirstBoxes() {
-  const std::size_t most = std::min(request_.max_cells, kFirstBoxes);
-  result_.status = engine().run(false, most);
-  known_.narrow(engine().interval());
-  const bool is_first_limit =
-      result_.status == ProbabilityStatus::cell_limit && most < request_.max_cells;
-  if (is_first_limit) return false;
-  describeBoxes();
-  return true;
-}
-
 bool PartitionQuery::divideBoxes() {
-  result_.status = engine().run(isEstimate(), request_.max_cells);
+  result_.status = engine().run(isEstimate());
   known_.narrow(engine().interval());
   if (isEstimate()) return false;
   if (request_.gradient && scene_.rank() == 3) {
@@ -228,7 +193,7 @@ bool PartitionQuery::sampleBoxes() {
       makeTester(), [this] { return makeTester(); }, request_.seed,
       claim_observer ? 1 : request_.threads);
   const SampledMass sampled =
-      sampleOpenCells(engine(), sampler, request_, result_.statistics, result_.status);
+      sampleOpenCells(engine(), sampler, result_.statistics, result_.status);
   known_.narrow(engine().interval());
   const bool with_gradient = request_.gradient && scene_.rank() == 3;
   if (with_gradient) fillGradient(scene_.whitening(), engine().moment(), result_);
