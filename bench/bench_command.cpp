@@ -110,6 +110,9 @@ void addBenchCommand(CLI::App& app, int& exit_code) {
       .add_option("--states", arguments->options.states,
                   "table2: that the planner may ask for, with every row and seed")
       ->check(CLI::PositiveNumber);
+  command.add_option(
+      "--parts", arguments->options.parts_folder,
+      "table2: keep the convex parts of its meshes in this folder, by their content");
   command.add_flag(
       "--quick", arguments->options.quick,
       "parts: two scenes of each part; pose_pairs: 2,000 samples; table2: two seeds, fewer states");

@@ -147,6 +147,13 @@ class Table2Report {
     record(scene, method, runs);
   }
 
+  /// Of the convex parts of all rows, whose time is in none of them.
+  void addPreparation(const PartsStore& parts) {
+    report_.notes += "\nConvex parts: " + std::to_string(parts.found()) + " meshes decomposed in " +
+                     number(1e-3 * parts.foundMs()) + " s, those of " +
+                     std::to_string(parts.read()) + " read.\n";
+  }
+
   BenchReport take() {
     report_.plot = table2PlotScript(plotted_);
     return std::move(report_);
@@ -206,14 +213,14 @@ struct WantedRows {
 /// One scene, whose rows are those that were asked for.
 class Table2Run {
  public:
-  Table2Run(const Table2Scene& scene, const BenchOptions& options, PartsOfMeshes& known,
+  Table2Run(const Table2Scene& scene, const BenchOptions& options, PartsStore& parts,
             BenchProgress progress)
       : scene_(scene),
         options_(options),
-        known_(known),
+        parts_(parts),
         progress_(std::move(progress)),
         paths_(scene, options),
-        methods_(table2Methods(scene, kMostProbable, options.seed, known)) {}
+        methods_(table2Methods(scene, kMostProbable, options.seed, parts)) {}
 
   /// \return false if it was stopped
   bool run(Table2Report& report) { return addTrajectory(report) && addPaths(report); }
@@ -225,7 +232,7 @@ class Table2Run {
 
   bool addTrajectory(Table2Report& report) {
     if (!progress_(0.0, scene_.name + ", one trajectory")) return false;
-    const auto methods = table2Methods(scene_, kMostOfTrajectory, options_.seed, known_);
+    const auto methods = table2Methods(scene_, kMostOfTrajectory, options_.seed, parts_);
     PathRun plan;
     for (int k = 0; k < kPlansOfTrajectory && !plan.found(); ++k) {
       plan = paths_.plan(methods.front(), k, kMostOfTrajectory);
@@ -275,7 +282,7 @@ class Table2Run {
 
   const Table2Scene& scene_;
   const BenchOptions& options_;
-  PartsOfMeshes& known_;
+  PartsStore& parts_;
   BenchProgress progress_;
   Table2Paths paths_;
   std::vector<Table2Method> methods_;
@@ -286,15 +293,16 @@ class Table2Run {
 BenchReport benchTable2(const BenchOptions& options, const BenchProgress& progress) {
   Table2Report report;
   const std::vector<Table2Scene> scenes = table2Scenes(options.models_folder);
-  PartsOfMeshes known;
+  PartsStore parts(options.parts_folder);
   const auto count = static_cast<double>(scenes.size());
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (!WantedRows::holds(scenes[s].name, WantedRows(options.only).scene)) continue;
-    Table2Run run(scenes[s], options, known, [&](double part, const std::string& what) {
+    Table2Run run(scenes[s], options, parts, [&](double part, const std::string& what) {
       return progress((static_cast<double>(s) + part) / count, what);
     });
     if (!run.run(report)) break;
   }
+  report.addPreparation(parts);
   return report.take();
 }
 

@@ -20,6 +20,7 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   std::size_t frames = 100;  ///< table1: random frames that bounds by AABBs are averaged over
   std::size_t cases = 50;    ///< stability: scenes of each family
+  std::string parts_folder;  ///< table2: where convex parts of meshes are kept; empty: nowhere
   std::optional<std::size_t> states;  ///< table2: that a planner may ask for
   bool quick = false;                 ///< a few scenes, seeds or samples only
 };

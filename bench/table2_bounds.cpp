@@ -58,17 +58,11 @@ using SceneParts = OfScene<ConvexParts>;
 using SceneTrees = OfScene<PartTree>;
 using SceneBalls = OfScene<detail::Ball>;
 
-SceneParts partsOf(const Table2Scene& scene, PartsOfMeshes& known) {
-  return SceneParts(scene, [&known](const GeometryPtr& mesh) {
-    const auto found = known.find(mesh);
-    if (found != known.end()) return found->second;
-    DecompositionRequest request;
-    request.max_parts = kMostPartsOfMesh;
-    request.pieces = 4 * kMostPartsOfMesh;
-    const ConvexParts parts(triangleMesh(detail::meshView(*mesh)), request);
-    known.emplace(mesh, parts);
-    return parts;
-  });
+SceneParts partsOf(const Table2Scene& scene, PartsStore& store) {
+  DecompositionRequest request;
+  request.max_parts = kMostPartsOfMesh;
+  request.pieces = 4 * kMostPartsOfMesh;
+  return SceneParts(scene, [&](const auto& mesh) { return store.of(mesh, request); });
 }
 
 std::shared_ptr<const SceneTrees> treesOf(const SceneParts& parts, PartVolume volume) {
@@ -80,7 +74,7 @@ std::shared_ptr<const SceneTrees> treesOf(const SceneParts& parts, PartVolume vo
 class BallBound {
  public:
   explicit BallBound(const Table2Scene& scene)
-      : balls_(std::make_shared<const SceneBalls>(scene, [](const GeometryPtr& geometry) {
+      : balls_(std::make_shared<const SceneBalls>(scene, [](const auto& geometry) {
           return detail::ballAround({geometry, "a geometry"});
         })) {
     share_ = (1.0 - kConfidenceOfPaths) /
@@ -201,8 +195,8 @@ PairUpper byHunter(std::shared_ptr<const SceneParts> parts, PairUpper sum, doubl
 
 }  // namespace
 
-std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsOfMeshes& known) {
-  const auto parts = std::make_shared<const SceneParts>(partsOf(scene, known));
+std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsStore& store) {
+  const auto parts = std::make_shared<const SceneParts>(partsOf(scene, store));
   const BallBound balls(scene);
   const auto sum = [&](PartVolume volume) {
     return overTrees(treesOf(*parts, volume), balls.share());

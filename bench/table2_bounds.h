@@ -11,7 +11,7 @@ namespace fcl_prob::cli {
 /// in frames turned at random, the printed minimum over hulls, and Hunter's bound. Each adds up
 /// what it says of every body and obstacle. Where a ball around each, or an OBB or 26-DOP that is
 /// coarser than the row's own volume, gives less for a pair than its share of 1 - δ, that is what
-/// counts. \param known  parts of meshes; those that are missing are added
-std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsOfMeshes& known);
+/// counts.
+std::vector<Table2Method> table2Bounds(const Table2Scene& scene, PartsStore& parts);
 
 }  // namespace fcl_prob::cli

@@ -181,7 +181,7 @@ class ProbableRow {
 }  // namespace
 
 std::vector<Table2Method> table2Methods(const Table2Scene& scene, double threshold,
-                                        std::uint64_t seed, PartsOfMeshes& known) {
+                                        std::uint64_t seed, PartsStore& parts) {
   std::vector<Table2Method> methods{
       {"certified decision", "", CertifiedRow(threshold), Table2Answer::certified},
       {"probable decision", "", ProbableRow(threshold, seed), Table2Answer::probable},
@@ -189,7 +189,7 @@ std::vector<Table2Method> table2Methods(const Table2Scene& scene, double thresho
       {"padding by 3 sigma", "", PaddingRow(scene, 3.0), Table2Answer::padding},
       {"distance of 2 sigma", "", DistanceRow(2.0), Table2Answer::padding, false},
       {"distance of 3 sigma", "", DistanceRow(3.0), Table2Answer::padding, false}};
-  for (Table2Method& bound : table2Bounds(scene, known)) methods.push_back(std::move(bound));
+  for (Table2Method& bound : table2Bounds(scene, parts)) methods.push_back(std::move(bound));
   methods.push_back({"Monte Carlo, 10,000 samples", "monte-carlo", MonteCarloRow(scene, seed),
                      Table2Answer::counted});
   return methods;

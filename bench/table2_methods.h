@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/parts_store.h"
 #include "bench/table2_scene.h"
-#include "fcl_prob/convex_parts.h"
 
 namespace fcl_prob::cli {
 
@@ -39,14 +39,10 @@ struct Table2Method {
   int repetitions = 1;  ///< of which its number is the mean; its time is that of one
 };
 
-/// Convex parts of meshes, which several scenes share.
-using GeometryPtr = std::shared_ptr<const fcl::CollisionGeometryd>;
-using PartsOfMeshes = std::map<GeometryPtr, ConvexParts>;
-
 /// All rows for the states of a scene.
 /// \param threshold  at which the certified and the probable decision decide
-/// \param known  as of table2Bounds()
+/// \param parts  of the meshes of all scenes
 std::vector<Table2Method> table2Methods(const Table2Scene& scene, double threshold,
-                                        std::uint64_t seed, PartsOfMeshes& known);
+                                        std::uint64_t seed, PartsStore& parts);
 
 }  // namespace fcl_prob::cli

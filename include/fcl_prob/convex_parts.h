@@ -48,6 +48,12 @@ class ConvexParts {
   /// InvalidRequest if a number is out of its range
   explicit ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request = {});
 
+  /// The hulls of points that somebody else has put together (V-HACD, CoACD, a file of `fcl_prob
+  /// decompose`), in the frame of the mesh, metres: moved outwards and proven as those above.
+  /// \throws InvalidGeometry as above, and for a part without points or with one that is not
+  ///         finite; InvalidRequest without a part
+  ConvexParts(const TriangleMesh& mesh, const std::vector<std::vector<Eigen::Vector3d>>& parts);
+
   std::size_t size() const;
 
   /// Whether the parts are proven to contain every point of the solid that the mesh encloses, too:
@@ -76,6 +82,11 @@ class ConvexParts {
 
  private:
   struct Data;
+
+  /// Of a mesh and points that are scaled by two to the power of minus `exponent`.
+  void fill(const TriangleMesh& mesh, const std::vector<std::vector<Eigen::Vector3d>>& parts,
+            int exponent);
+
   std::shared_ptr<const Data> data_;
 };
 

@@ -94,12 +94,10 @@ ConvexPolytope paddedHull(ConvexPolytope hull, double padding) {
 /// Below two to this power (1e-290 m) what parts are moved outwards by is lost where doubles end.
 constexpr int kLeastExponent = -963;
 
-/// The largest coordinate is below two to this power. \throws InvalidGeometry if that is too small
-int exponentOfSize(const TriangleMesh& mesh) {
+/// All coordinates are below two to this power. \throws InvalidGeometry if that is too small
+int exponentOfSize(const std::vector<Eigen::Vector3d>& points) {
   double largest = 0.0;
-  for (const fcl::Vector3d& v : mesh.vertices) {
-    largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  }
+  for (const Eigen::Vector3d& v : points) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   int exponent = 0;
   std::frexp(largest, &exponent);
   if (largest > 0.0 && exponent < kLeastExponent) {
@@ -110,16 +108,19 @@ int exponentOfSize(const TriangleMesh& mesh) {
 }
 
 /// By a power of two, which rounds nothing that matters (subnormal numbers are below the padding).
+void scale(std::vector<Eigen::Vector3d>& points, int exponent) {
+  for (Eigen::Vector3d& v : points) {
+    v = v.unaryExpr([exponent](double x) { return std::ldexp(x, exponent); });
+  }
+}
+
 TriangleMesh scaled(TriangleMesh mesh, int exponent) {
-  const auto power = [exponent](double x) { return std::ldexp(x, exponent); };
-  for (fcl::Vector3d& v : mesh.vertices) v = v.unaryExpr(power);
+  scale(mesh.vertices, exponent);
   return mesh;
 }
 
 void scale(ConvexPolytope& polytope, int exponent) {
-  for (Eigen::Vector3d& v : polytope.vertices) {
-    v = v.unaryExpr([exponent](double x) { return std::ldexp(x, exponent); });
-  }
+  scale(polytope.vertices, exponent);
   for (ConvexPolytope::Face& face : polytope.faces) {
     face.offset = std::ldexp(face.offset, exponent);
   }
@@ -157,8 +158,8 @@ Cover paddedParts(const std::vector<detail::PointSet>& parts) {
 }
 
 /// Of a mesh with coordinates of at most 1. \throws InvalidGeometry if the cover is not proven.
-Cover coverOf(const TriangleMesh& mesh, const DecompositionRequest& request) {
-  Cover cover = paddedParts(pointsOfParts(welded(mesh), request));
+Cover coverOf(const TriangleMesh& mesh, const std::vector<detail::PointSet>& parts) {
+  Cover cover = paddedParts(parts);
   if (const auto triangle = detail::firstUncovered(mesh, cover.polytopes, cover.margins)) {
     throw InvalidGeometry("mesh to decompose: triangle " + std::to_string(*triangle) +
                           " could not be proven to be within the parts");
@@ -188,10 +189,33 @@ struct ConvexParts::Data {
 ConvexParts::ConvexParts(const TriangleMesh& mesh, const DecompositionRequest& request) {
   validateMesh(mesh, "mesh to decompose");
   validateDecompositionRequest(request);
-  const int exponent = exponentOfSize(mesh);
-  auto data = std::make_shared<Data>();
+  const int exponent = exponentOfSize(mesh.vertices);
   const TriangleMesh unit_mesh = scaled(mesh, -exponent);
-  Cover cover = coverOf(unit_mesh, request);
+  fill(unit_mesh, pointsOfParts(welded(unit_mesh), request), exponent);
+}
+
+ConvexParts::ConvexParts(const TriangleMesh& mesh, const std::vector<detail::PointSet>& parts) {
+  validateMesh(mesh, "mesh to decompose");
+  if (parts.empty()) throw InvalidRequest("a mesh needs a part at least");
+  detail::PointSet all(mesh.vertices.begin(), mesh.vertices.end());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto is_finite = [](const Eigen::Vector3d& point) { return point.allFinite(); };
+    if (parts[i].empty() || !std::all_of(parts[i].begin(), parts[i].end(), is_finite)) {
+      throw InvalidGeometry("part " + std::to_string(i) +
+                            " of a mesh has no points, or one that is not finite");
+    }
+    all.insert(all.end(), parts[i].begin(), parts[i].end());
+  }
+  const int exponent = exponentOfSize(all);
+  std::vector<detail::PointSet> unit_parts = parts;
+  for (detail::PointSet& points : unit_parts) scale(points, -exponent);
+  fill(scaled(mesh, -exponent), unit_parts, exponent);
+}
+
+void ConvexParts::fill(const TriangleMesh& unit_mesh, const std::vector<detail::PointSet>& parts,
+                       int exponent) {
+  auto data = std::make_shared<Data>();
+  Cover cover = coverOf(unit_mesh, parts);
   data->covers_solid = coversSolidOf(unit_mesh, cover);
   data->polytopes = std::move(cover.polytopes);
   std::vector<detail::PointSet> corners;

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <limits>
 
 #include "bench/table2_methods.h"
 #include "bench/table2_plot.h"
 #include "catch.h"
+#include "cli/geometry.h"
 #include "cli/gnuplot.h"
 #include "command.h"
+#include "mesh_shapes.h"
 #include "models.h"
 
 using namespace fcl_prob;
@@ -53,11 +57,11 @@ TEST_CASE("no row of table2 is below what is certain, but padding", "[cli][slow]
   if (!fcl_prob_test::modelOrSkip("fetch_robot/fetch.srdf")) return;
   const auto scenes = table2Scenes(*fcl_prob_test::modelsFolder());
   REQUIRE(scenes.size() == 2);
-  PartsOfMeshes known;
+  PartsStore parts;
   for (const Table2Scene& scene : scenes) {
     CHECK(scene.isFree(scene.start));
     CHECK(scene.isFree(scene.goal));
-    const auto methods = table2Methods(scene, 0.05, 1, known);
+    const auto methods = table2Methods(scene, 0.05, 1, parts);
     CHECK(methods.size() == 16);
     CHECK(countOf(methods, Table2Answer::certified) == 1);
     CHECK(countOf(methods, Table2Answer::probable) == 1);
@@ -80,6 +84,43 @@ TEST_CASE("no row of table2 is below what is certain, but padding", "[cli][slow]
       for (const Table2Method& method : methods) checkRow(method, scene.at(state), truth);
     }
   }
+}
+
+TEST_CASE("convex parts are found once, and read where they cover the mesh", "[cli]") {
+  const fcl_prob_test::TemporaryFolder folder;
+  const auto meshOf = [](double width) {
+    return buildTree(fcl_prob_test::torusMesh(1.0, width, 20, 8), "obbrss");
+  };
+  const auto torus = meshOf(0.3);
+  DecompositionRequest request;
+  request.max_parts = 4;
+  request.pieces = 8;
+  const auto partsOf = [&](PartsStore& store, const Geometry& mesh) {
+    std::size_t corners = 0;
+    const ConvexParts& parts = store.of(mesh, request);
+    for (std::size_t i = 0; i < parts.size(); ++i) corners += parts.polytope(i).vertices.size();
+    return corners;
+  };
+  PartsStore first(folder.path("kept"));
+  const std::size_t corners = partsOf(first, torus);
+  CHECK(partsOf(first, torus) == corners);
+  CHECK(first.found() == 1);
+  CHECK(first.read() == 0);
+  PartsStore second(folder.path("kept"));
+  CHECK(partsOf(second, torus) == corners);
+  CHECK(second.found() == 0);
+  CHECK(second.read() == 1);
+  CHECK(partsOf(second, meshOf(0.25)) > 0);
+  CHECK(second.found() == 1);
+  // Parts of which some were lost are found anew.
+  for (const auto& file : std::filesystem::directory_iterator(folder.path("kept"))) {
+    const std::string text = fcl_prob_test::readWhole(file.path().string());
+    std::ofstream(file.path()) << text.substr(0, text.size() / 2);
+  }
+  PartsStore third(folder.path("kept"));
+  CHECK(partsOf(third, torus) == corners);
+  CHECK(third.found() == 1);
+  CHECK(third.read() == 0);
 }
 
 TEST_CASE("table2 is drawn with a panel a scene and a point a path", "[cli]") {

@@ -254,6 +254,46 @@ TEST_CASE("a ring is cut although no single cut makes its hulls smaller", "[deco
   checkPointsOnSurface(torus, parts);
 }
 
+TEST_CASE("parts of somebody else's are proven, or refused", "[decomposition]") {
+  using Points = std::vector<Vector3d>;
+  const TriangleMesh torus = torusMesh(1.0, 0.3, 24, 12);
+  for (const double scale : {1.0, 1e-3, 1e6}) {
+    TriangleMesh mesh = torus;
+    for (Vector3d& v : mesh.vertices) v *= scale;
+    std::vector<Points> points;
+    const ConvexParts found(mesh, quick());
+    for (const ConvexPolytope& part : polytopesOf(found)) points.push_back(part.vertices);
+    const ConvexParts proven(mesh, points);
+    CHECK(proven.size() == found.size());
+    CHECK(proven.coversSolid() == found.coversSolid());
+    CHECK(proven.unions() == found.unions());
+    CHECK(volumeOf(proven) == Approx(volumeOf(found)).epsilon(1e-8));
+    checkPointsOnSurface(mesh, proven);
+    for (std::size_t missing = 0; missing < points.size(); ++missing) {
+      std::vector<Points> others = points;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(missing));
+      CHECK_THROWS_AS(ConvexParts(mesh, others), fcl_prob::InvalidGeometry);
+    }
+  }
+  // As others write them: corners of the mesh, parts that share a face, far more than is needed.
+  const TriangleMesh box = boxMesh({2, 2, 2});
+  const auto half = [](double from, double to) {
+    Points points;
+    for (int i = 0; i < 8; ++i) {
+      points.emplace_back(i & 1 ? from : to, i & 2 ? -1.0 : 1.0, i & 4 ? -1.0 : 1.0);
+    }
+    return points;
+  };
+  CHECK(ConvexParts(box, {half(-1, 0.25), half(0.25, 1)}).coversSolid());
+  CHECK(ConvexParts(box, {half(-100, 100)}).size() == 1);
+  CHECK_THROWS_AS(ConvexParts(box, {half(-1, 0.2), half(0.25, 1)}), fcl_prob::InvalidGeometry);
+  CHECK_THROWS_AS(ConvexParts(box, {half(-1, 1), {}}), fcl_prob::InvalidGeometry);
+  CHECK_THROWS_AS(ConvexParts(box, {half(-1, std::nan(""))}), fcl_prob::InvalidGeometry);
+  CHECK_THROWS_AS(ConvexParts(box, std::vector<Points>()), fcl_prob::InvalidRequest);
+  // One that is flat adds nothing, and does no harm.
+  CHECK(ConvexParts(box, {half(-1, 1), half(0.5, 0.5), {Vector3d(0, 0, 0)}}).size() == 3);
+}
+
 TEST_CASE("requests that make no sense are refused", "[decomposition]") {
   using fcl_prob::InvalidRequest;
   const TriangleMesh mesh = boxMesh({1, 1, 1});
