@@ -19,7 +19,7 @@ class Halving {
     queue_.push({0.0, 1.0});
   }
 
-  ProbabilityStatus run(std::size_t most_cells) { return queue_.run(*this, most_cells); }
+  ProbabilityStatus run() { return queue_.run(*this); }
   Bounds interval() const { return {settled_, settled_ + queue_.totals().open}; }
   const std::vector<double>& order() const { return order_; }
 
@@ -100,20 +100,22 @@ ProbabilityRequest requestFor(double tolerance, unsigned threads) {
 TEST_CASE("cells are divided until the request is satisfied") {
   const ProbabilityRequest request = requestFor(1e-6, 1);
   Halving halving(request);
-  CHECK(halving.run(request.max_cells) == ProbabilityStatus::converged);
+  CHECK(halving.run() == ProbabilityStatus::converged);
   CHECK(halving.interval().contains(std::sqrt(0.3)));
   CHECK(halving.interval().width() <= 1e-6);
   CHECK(halving.statistics.cells_open == 1);
 }
 
 TEST_CASE("a run that met its limit goes on where it stopped") {
-  const ProbabilityRequest request = requestFor(1e-6, 1);
+  ProbabilityRequest request = requestFor(1e-6, 1);
+  const std::size_t all = std::exchange(request.max_cells, 5);
   Halving halving(request);
-  CHECK(halving.run(5) == ProbabilityStatus::cell_limit);
+  CHECK(halving.run() == ProbabilityStatus::cell_limit);
   CHECK(halving.statistics.cells == 5);
   const Bounds before = halving.interval();
   CHECK(before.contains(std::sqrt(0.3)));
-  CHECK(halving.run(request.max_cells) == ProbabilityStatus::converged);
+  request.max_cells = all;
+  CHECK(halving.run() == ProbabilityStatus::converged);
   CHECK(halving.interval().lower >= before.lower);
   CHECK(halving.interval().upper <= before.upper);
 }
@@ -121,8 +123,8 @@ TEST_CASE("a run that met its limit goes on where it stopped") {
 TEST_CASE("which cells are divided does not depend on the number of threads") {
   const ProbabilityRequest one = requestFor(1e-9, 1), four = requestFor(1e-9, 4);
   Halving alone(one), together(four);
-  alone.run(one.max_cells);
-  together.run(four.max_cells);
+  alone.run();
+  together.run();
   CHECK(alone.order() == together.order());
   CHECK(alone.interval().lower == together.interval().lower);
 }
@@ -131,7 +133,7 @@ TEST_CASE("memory and the caller end a run, with bounds that hold") {
   ProbabilityRequest request = requestFor(1e-12, 1);
   request.max_memory = 50;
   Halving poor(request);
-  CHECK(poor.run(request.max_cells) == ProbabilityStatus::memory_limit);
+  CHECK(poor.run() == ProbabilityStatus::memory_limit);
   request.max_memory = 1000;
   int asked = 0;
   request.on_progress = [&](const ProbabilityProgress& progress) {
@@ -139,7 +141,7 @@ TEST_CASE("memory and the caller end a run, with bounds that hold") {
     return ++asked < 3;
   };
   Halving cancelled(request);
-  CHECK(cancelled.run(request.max_cells) == ProbabilityStatus::cancelled);
+  CHECK(cancelled.run() == ProbabilityStatus::cancelled);
   CHECK(cancelled.interval().contains(std::sqrt(0.3)));
   CHECK(cancelled.statistics.cells >= 8);
 }
