@@ -45,7 +45,7 @@ GaussianDisplacement spread(double x, double y, double z) {
 constexpr double kSecondsOfWave = 6.0;
 constexpr int kPredictions = 61;
 constexpr int kSingleArms = 4;
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPiOfScene = 3.14159265358979323846;
 
 // Of the human's shoulder in front of the robot, metres: in the scenes that the paper's rows start
 // in, and where the states of docs/states.md are closer.
@@ -97,7 +97,7 @@ class Table2Models {
   Table2Scene waving() const {
     std::vector<Obstacle> arms;
     for (int k = 0; k < kPredictions; ++k) {
-      const double part = k / (kPredictions - 1.0), down = 0.45 * std::cos(2.0 * kPi * part);
+      const double part = k / (kPredictions - 1.0), down = 0.45 * std::cos(2.0 * kPiOfScene * part);
       arms.push_back(predicted(kShoulderOfWaving, kSecondsOfWave * part, down, 0.01 + 0.03 * part));
     }
     Table2Scene scene = pastArms("waving", arms);
@@ -147,9 +147,9 @@ class Table2Models {
   static fcl::Transform3d armFrom(const Eigen::Vector3d& shoulder, double down) {
     fcl::Transform3d pose = fcl::Transform3d::Identity();
     pose.translation() = shoulder;
-    pose.rotate(Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()));
+    pose.rotate(Eigen::AngleAxisd(kPiOfScene, Eigen::Vector3d::UnitZ()));
     pose.rotate(Eigen::AngleAxisd(down, Eigen::Vector3d::UnitY()));
-    pose.rotate(Eigen::AngleAxisd(0.5 * kPi, Eigen::Vector3d::UnitX()));
+    pose.rotate(Eigen::AngleAxisd(0.5 * kPiOfScene, Eigen::Vector3d::UnitX()));
     return pose;
   }
 
