@@ -3,6 +3,7 @@
 #include "robot/body_bounds.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/rounded_sum.h"
 #include "bounds/convex_bound.h"
@@ -118,6 +119,23 @@ std::vector<PlacedBody> BodyBounds::likelier(double most, double& left_out) cons
   std::vector<PlacedBody> bodies;
   for (std::size_t i = 0; i < count; ++i) bodies.push_back(bounds_[i].body);
   return bodies;
+}
+
+Bounds boundsOfAny(const std::vector<BodyBounds>& of_obstacles, double far, double threshold,
+                   ContactMeaning contact) {
+  const auto addSum = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
+  const double sum = std::accumulate(of_obstacles.begin(), of_obstacles.end(), far, addSum);
+  if (sum < threshold) return {0.0, sum};
+  for (const BodyBounds& one : of_obstacles) {
+    if (const double lower = one.lower(contact, threshold); lower > threshold) return {lower, 1.0};
+  }
+  // What is left of the threshold to the next obstacle, while the others have what is known.
+  double upper = far;
+  for (auto next = of_obstacles.begin(); next != of_obstacles.end() && upper < threshold; ++next) {
+    const double others = std::accumulate(next + 1, of_obstacles.end(), upper, addSum);
+    upper = sumAbove(upper, next->together(std::max(0.0, threshold - others)));
+  }
+  return {0.0, upper < threshold ? upper : 1.0};
 }
 
 }  // namespace fcl_prob::detail

@@ -62,4 +62,10 @@ class BodyBounds {
   std::vector<Bound> bounds_;  ///< the likeliest first
 };
 
+/// Bounds on P that any body touches any of several obstacles: the cheapest first, until they tell
+/// it from a threshold. Wider than need be where they do not.
+/// \param far  of bodies that were left out
+Bounds boundsOfAny(const std::vector<BodyBounds>& of_obstacles, double far, double threshold,
+                   ContactMeaning contact);
+
 }  // namespace fcl_prob::detail

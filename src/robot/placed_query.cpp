@@ -60,19 +60,8 @@ ProbabilityRequest tellingOfAll(ProbabilityRequest request, double far) {
   return request;
 }
 
-/// Known well enough by bounds alone.
-ProbabilityResult decidedBy(const Bounds& bounds, Decision decision, std::string how) {
-  ProbabilityResult result;
-  result.lower = bounds.lower;
-  result.upper = bounds.upper;
-  result.status = ProbabilityStatus::decided;
-  result.decision = decision;
-  result.plan.push_back(std::move(how));
-  return result;
-}
-
-/// By bounds on single bodies and half-spaces that they have in common; nothing where these do not
-/// tell. \param far  of bodies that are left out
+/// Where bounds on single bodies and half-spaces that they have in common tell the threshold.
+/// \param far  of bodies that are left out
 std::optional<ProbabilityResult> decidedByBounds(const ObstacleAmongBodies& scene,
                                                  const ObstacleState& state,
                                                  const std::vector<PlacedBody>& bodies, double far,
@@ -80,19 +69,17 @@ std::optional<ProbabilityResult> decidedByBounds(const ObstacleAmongBodies& scen
   const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
   if (!asksForDecision(request) || !gaussian) return std::nullopt;
   const BodyBounds bounds(scene.robot, bodies, scene.obstacle, state.pose, gaussian->reversed());
-  const double threshold = *request.threshold;
-  const auto unlikely = [](double upper) {
-    return decidedBy({0.0, upper}, Decision::below,
-                     "below the threshold by half-spaces between the bodies and it");
-  };
-  if (sumAbove(bounds.sum(), far) < threshold) return unlikely(bounds.sum());
-  if (const double lower = bounds.lower(request.contact, threshold); lower > threshold) {
-    return decidedBy({lower, 1.0}, Decision::above,
-                     "above the threshold by a ball within one body or the obstacle");
-  }
-  const double together = bounds.together(threshold - far);
-  if (sumAbove(together, far) < threshold) return unlikely(together);
-  return std::nullopt;
+  const Bounds known = boundsOfAny({bounds}, far, *request.threshold, request.contact);
+  ProbabilityResult result;
+  result.decision = decisionOf(known, request);
+  if (!isDecided(result.decision)) return std::nullopt;
+  result.lower = known.lower;
+  result.upper = known.upper;
+  result.status = ProbabilityStatus::decided;
+  result.plan.emplace_back(result.decision == Decision::below
+                               ? "below the threshold by half-spaces between the bodies and it"
+                               : "above the threshold by a ball within one body or the obstacle");
+  return result;
 }
 
 }  // namespace
@@ -142,14 +129,14 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
       leaveOutFar(scene.robot.balls, scene.obstacle.around(), state, mostFarOf(request), bodies);
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
+  if (auto decided = decidedByBounds(scene, state, bodies, far, request)) return *decided;
   // What is left out widens the interval, too.
   ProbabilityRequest of_near = tellingOfAll(request, far);
   if (far > 0.0) {
     of_near.absolute_tolerance *= 1.0 - kShareOfFar;
     of_near.relative_tolerance *= 1.0 - kShareOfFar;
   }
-  const auto decided = decidedByBounds(scene, state, bodies, far, of_near);
-  ProbabilityResult result = decided ? *decided : ofGroup(scene, state, bodies, of_near);
+  ProbabilityResult result = ofGroup(scene, state, bodies, of_near);
   if (far > 0.0 && result.upper) {
     result.upper = std::min(1.0, sumAbove(*result.upper, far));
     result.decision = decisionOf({result.lower.value_or(0.0), *result.upper}, request);

@@ -3,7 +3,6 @@
 #include "robot/state_screen.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/rounded_sum.h"
 
@@ -38,18 +37,9 @@ std::optional<bool> StateScreen::isBelow(const Eigen::VectorXd& values, double t
                                          ContactMeaning contact) const {
   if (!is_usable_) return std::nullopt;
   const auto [all, far] = nearOf(values, kNegligible * threshold);
-  const auto sumOf = [](double sum, const BodyBounds& one) { return sumAbove(sum, one.sum()); };
-  if (std::accumulate(all.begin(), all.end(), far, sumOf) < threshold) return true;
-  for (const BodyBounds& one : all) {
-    if (one.lower(contact, threshold) > threshold) return false;
-  }
-  // What is left of the threshold to the next obstacle, while the others have what is known.
-  double so_far = far;
-  for (auto next = all.begin(); next != all.end() && so_far < threshold; ++next) {
-    const double others = std::accumulate(next + 1, all.end(), so_far, sumOf);
-    so_far = sumAbove(so_far, next->together(std::max(0.0, threshold - others)));
-  }
-  return so_far < threshold ? std::make_optional(true) : std::nullopt;
+  const Bounds known = boundsOfAny(all, far, threshold, contact);
+  if (known.upper < threshold) return true;
+  return known.lower > threshold ? std::make_optional(false) : std::nullopt;
 }
 
 StateScreen::Near StateScreen::nearOf(const Eigen::VectorXd& values, double negligible) const {
