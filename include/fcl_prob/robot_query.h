@@ -213,6 +213,12 @@ class RobotQuery {
                      const ProbabilityRequest& request,
                      BetweenWaypoints between = BetweenWaypoints::ignored) const;
 
+  /// At any of the waypoints, the errors of joints, base and obstacles being the same at each: an
+  /// estimate, as that of one state. \throws as state() with errors; InvalidRequest for method
+  ///         interval, of more than one waypoint
+  RobotResult motion(const std::vector<Eigen::VectorXd>& waypoints, const RobotErrors& errors,
+                     const ProbabilityRequest& request) const;
+
   /// On which side of a threshold P is at any of the waypoints, with persistent errors, from
   /// whatever tells it first: bounds, lines drawn beside bodies that are convex meshes (or nearly),
   /// or motion(). What lines decided is wrong with a chance of at most `chance_of_error`, however

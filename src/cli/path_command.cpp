@@ -95,15 +95,12 @@ RobotScene sceneOf(const PathArguments& arguments) {
 }
 
 /// What has no answer where the robot itself has errors.
-void refuseWithErrors(const RobotScene& scene, const PathArguments& arguments,
-                      std::size_t waypoints) {
-  if (waypoints != 1 || scene.between != BetweenWaypoints::ignored) {
-    throw InvalidRequest("errors of joints and base are for one state, not for a motion");
-  }
-  if (arguments.by_body || arguments.gradient) {
+void refuseWithErrors(const RobotScene& scene, const PathArguments& arguments) {
+  if (arguments.by_body || arguments.gradient || scene.errors != ErrorsOverTime::persistent ||
+      scene.between != BetweenWaypoints::ignored) {
     throw InvalidRequest(
-        "with errors of joints or base there is neither an answer by body nor a "
-        "gradient");
+        "errors of joints or base are persistent: with them there is no answer by body, anew at "
+        "waypoints or between them, and no gradient");
   }
 }
 
@@ -141,8 +138,8 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   } else if (errors.none()) {
     report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   } else {
-    refuseWithErrors(scene, arguments, waypoints.size());
-    report.result = query.state(waypoints[0], errors, scene.request);
+    refuseWithErrors(scene, arguments);
+    report.result = query.motion(waypoints, errors, scene.request);
   }
   report.time_ms = watch.milliseconds();
   if (arguments.by_body) report.by_body = query.byBody(waypoints, scene.request);
@@ -159,7 +156,7 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   }
   const SelfCollision self = loadSelfCollision(scene, query.robot());
   report.self_collisions = selfCollisionsOf(self, waypoints);
-  if (errors.joints.size() > 0) {
+  if (errors.joints.size() > 0 && waypoints.size() == 1) {
     ProbabilityRequest counting = scene.request;
     counting.method = ProbabilityMethod::automatic;
     counting.contact = ContactMeaning::fcl;

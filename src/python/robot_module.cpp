@@ -237,13 +237,20 @@ BetweenWaypoints betweenFrom(const std::string& name) {
 
 RobotResult motion(const RobotQuery& query, const py::object& waypoints, const std::string& errors,
                    const std::optional<double>& largest_step, const std::string& between,
+                   const py::object& joint_error, const py::object& base_error,
                    const py::kwargs& request) {
+  const RobotErrors of_robot = robotErrorsFrom(query.robot(), joint_error, base_error);
   std::vector<Eigen::VectorXd> all = waypointsFrom(query.robot(), waypoints);
   if (largest_step) all = interpolated(all, *largest_step);
   const ErrorsOverTime over_time = errorsFrom(errors);
   const BetweenWaypoints in_between = betweenFrom(between);
+  if (!of_robot.none() &&
+      (over_time != ErrorsOverTime::persistent || in_between != BetweenWaypoints::ignored)) {
+    throw InvalidRequest("joint_error and base_error are the same at all waypoints");
+  }
   return run<RobotResult>(questionFrom(request), [&](const ProbabilityRequest& of) {
-    return query.motion(all, over_time, of, in_between);
+    return of_robot.none() ? query.motion(all, over_time, of, in_between)
+                           : query.motion(all, of_robot, of);
   });
 }
 
@@ -334,12 +341,14 @@ void bindQuery(py::module_& module) {
            "request: limits and threads.")
       .def(
           "motion", &motion, py::arg("waypoints"), py::arg("errors") = "persistent",
-          py::arg("largest_step") = py::none(), py::arg("between") = "ignored",
+          py::arg("largest_step") = py::none(), py::arg("between") = "ignored", py::kw_only(),
+          py::arg("joint_error") = py::none(), py::arg("base_error") = py::none(),
           "At any of the waypoints (n, k). errors: 'persistent', drawn once, 'independent', drawn\n"
           "anew at each, or 'any-dependence'. largest_step: add waypoints such that no joint "
           "moves\n"
           "further at once (radians, metres). between: 'swept' for all times between waypoints,\n"
-          "too, certified (persistent errors only).")
+          "too, certified (persistent errors only). joint_error, base_error: as of state(), the\n"
+          "same at all waypoints; an estimate.")
       .def("certified", &certify, py::arg("waypoints"),
            "At any of the waypoints (n, k), persistent errors, as an interval that somebody else\n"
            "can check: (RobotResult, certificates as text, one an obstacle, for fcl_prob_verify).")

@@ -375,12 +375,17 @@ RobotResult RobotQuery::state(const Eigen::VectorXd& values,
 }
 
 RobotResult RobotQuery::state(const Eigen::VectorXd& values, const RobotErrors& errors,
-                              const ProbabilityRequest& of_user) const {
-  if (errors.none()) return state(values, of_user);
-  implementation_->validate({values}, of_user);
+                              const ProbabilityRequest& request) const {
+  return motion({values}, errors, request);
+}
+
+RobotResult RobotQuery::motion(const std::vector<Eigen::VectorXd>& waypoints,
+                               const RobotErrors& errors, const ProbabilityRequest& of_user) const {
+  if (errors.none()) return motion(waypoints, ErrorsOverTime::persistent, of_user);
+  implementation_->validate(waypoints, of_user);
   const ProbabilityRequest request = detail::ofOneCall(of_user);
   const ProbabilityResult answer =
-      detail::stateWithErrors(implementation_->among, values, errors, request);
+      detail::statesWithErrors(implementation_->among, waypoints, errors, request);
   RobotResult result;
   result.any = {answer.lower.value_or(0.0), answer.upper.value_or(1.0)};
   result.estimate = answer.estimate;

@@ -214,10 +214,6 @@ RobotScene loadRobotScene(const std::string& path) {
   readStates(root, scene);
   if (root.has("joint_error")) scene.joint_error = readJointError(root.object("joint_error"));
   if (root.has("base_error")) scene.base_error = detail::readPoseError(root.object("base_error"));
-  if ((scene.joint_error || scene.base_error) && scene.waypoints.size() != 1 && !scene.plan) {
-    root.fail(scene.joint_error ? "joint_error" : "base_error",
-              "errors of a robot are for one state, its joints, or for a plan");
-  }
   for (const RobotScene::PlacedObstacle& obstacle : scene.obstacles) {
     const std::size_t states = obstacle.over_time.size();
     if (states == 0 || states == scene.waypoints.size() ||

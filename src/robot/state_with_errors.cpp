@@ -97,13 +97,16 @@ Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const RobotErr
 
 // Given the joints and the base, a single obstacle leaves a Gaussian translation, which is answered
 // exactly or counted; of several the displacements are drawn with the joints.
-ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
-                                  const RobotErrors& errors, const ProbabilityRequest& request) {
+ProbabilityResult statesWithErrors(const RobotAmongObstacles& among,
+                                   const std::vector<Eigen::VectorXd>& states,
+                                   const RobotErrors& errors, const ProbabilityRequest& request) {
   requireStaying(among.obstacles(), "errors of a robot are");
   const Robot& robot = among.robot();
   const std::vector<std::size_t>& bodies = bodiesOfAll(among);
   std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> a, b;
-  for (const std::size_t body : bodies) a.push_back(robot.bodies()[body].geometry);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    for (const std::size_t body : bodies) a.push_back(robot.bodies()[body].geometry);
+  }
   std::vector<fcl::Transform3d> poses_b;
   std::vector<GaussianDisplacement> displacements;
   std::vector<std::size_t> members;
@@ -123,22 +126,28 @@ ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen:
     none.decision = decisionOf({0.0, 0.0}, request);
     return none;
   }
-  const auto kinematics = [&](const Eigen::VectorXd& drawn) {
-    const std::vector<fcl::Transform3d> all = robot.poses(drawn);
+  const auto kinematics = [&](const Eigen::VectorXd& error) {
     std::vector<fcl::Transform3d> poses;
-    for (const std::size_t body : bodies) poses.push_back(all[body]);
+    for (const Eigen::VectorXd& values : states) {
+      const std::vector<fcl::Transform3d> all = robot.poses(values + error);
+      for (const std::size_t body : bodies) poses.push_back(all[body]);
+    }
     return poses;
   };
   const bool several = displacements.size() > 1;
-  const Eigen::MatrixXd covariance = covarianceOf(errors, values.size());
+  const Eigen::VectorXd no_error = Eigen::VectorXd::Zero(states[0].size());
+  const Eigen::MatrixXd covariance = covarianceOf(errors, no_error.size());
   std::shared_ptr<const RandomConfiguration> configuration = std::make_shared<RandomJoints>(
-      values, covariance, kinematics, poses_b,
+      no_error, covariance, kinematics, poses_b,
       several ? GaussianDisplacement() : displacements[0].reversed());
   if (request.method == ProbabilityMethod::interval) {
-    return intervalWithErrors(among, values, covariance, errors.base, request);
+    if (states.size() == 1) {
+      return intervalWithErrors(among, states[0], covariance, errors.base, request);
+    }
+    throw InvalidRequest("a certified interval with errors of joints or base is of one state");
   }
   if (errors.base) {
-    const fcl::Transform3d base = robot.linkPose(robot.links()[0].name, values);
+    const fcl::Transform3d base = robot.linkPose(robot.links()[0].name, states[0]);
     configuration = std::make_shared<RandomBase>(configuration, base, *errors.base);
   }
   if (several) {

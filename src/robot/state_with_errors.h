@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// A state of a robot whose joints and base have errors of their own.
+// States of a robot whose joints and base have errors of their own.
 #pragma once
 
 #include "robot/robot_among_obstacles.h"
@@ -11,8 +11,10 @@ namespace fcl_prob::detail {
 /// is allowed with some obstacles only
 Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const RobotErrors& errors);
 
-/// \throws as RobotQuery::state() with errors
-ProbabilityResult stateWithErrors(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
-                                  const RobotErrors& errors, const ProbabilityRequest& request);
+/// In any of the states, all errors being the same in each.
+/// \throws as RobotQuery::motion() with errors
+ProbabilityResult statesWithErrors(const RobotAmongObstacles& among,
+                                   const std::vector<Eigen::VectorXd>& states,
+                                   const RobotErrors& errors, const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

@@ -161,9 +161,19 @@ TEST_CASE("path answers where joints and base have errors of their own", "[cli]"
   const std::string text = runCommand(path, folder).out;
   CHECK(text.find("\nconfidence interval [") != std::string::npos);
   CHECK(text.find("\nP that it touches itself: 0, ") != std::string::npos);
-  const CommandResult refused = run("--by-body");
-  CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find("errors of joints") != std::string::npos);
+  for (const char* option : {"--by-body", "--between"}) {
+    const CommandResult refused = run(option);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.find("errors of joints") != std::string::npos);
+  }
+  // The same errors all along: more is touched on the way than at its likeliest state.
+  folder.write("way.csv", "turn,elbow,grip\n0.5,0.3,0.02\n0.6,0.3,0.02\n0.7,0.3,0.02\n");
+  const CommandResult way = runCommand(
+      {"path", "--scene", folder.path("scene.json"), "--motion", folder.path("way.csv"), "--json"},
+      folder);
+  REQUIRE(way.exit_code == 0);
+  CHECK(json::parse(way.out).at("estimate").get<double>() > estimate);
+  CHECK(json::parse(way.out).count("touches_itself") == 0);
 }
 
 TEST_CASE("path tells of a state that collides with itself", "[cli]") {

@@ -365,6 +365,10 @@ def test_errors_of_joints_and_base():
     covariance = np.zeros((len(robot.joints), len(robot.joints)))
     covariance[robot.joints.index("turn"), robot.joints.index("turn")] = 0.1**2
     assert query.state(values, joint_error=covariance, relative_tolerance=0.05).estimate == by_name.estimate
+    way = query.motion([values, values + 0.05], joint_error={"turn": 0.1}, relative_tolerance=0.05)
+    assert way.estimate > by_name.estimate - 3 * by_name.standard_error
+    with pytest.raises(fcl_prob.InvalidRequest):
+        query.motion([values], errors="independent", joint_error={"turn": 0.1})
     base = fcl_prob.PoseError.from_standard_deviations([0.05] * 3, [0.0] * 3)
     assert query.state(values, base_error=base, relative_tolerance=0.05).probability > 0
     with pytest.raises(fcl_prob.InvalidRequest):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // Errors of joints and base beside the obstacles' displacements, against counting.
+#include <fcl/geometry/shape/sphere.h>
+
 #include "arm_motions.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/normal_mass.h"
@@ -13,8 +15,9 @@ using namespace fcl_prob_test;
 
 namespace {
 
-/// How often anything is touched where joints, base and obstacles are all drawn.
-double countedWithErrors(const RobotQuery& query, const Eigen::VectorXd& mean,
+/// How often anything is touched in any of the states, where joints, base and obstacles are all
+/// drawn, the same for each.
+double countedWithErrors(const RobotQuery& query, const std::vector<Eigen::VectorXd>& states,
                          const Eigen::VectorXd& deviations, double base, int draws) {
   std::mt19937_64 random(17);
   std::normal_distribution<double> normal;
@@ -23,18 +26,25 @@ double countedWithErrors(const RobotQuery& query, const Eigen::VectorXd& mean,
   };
   int hits = 0;
   for (int i = 0; i < draws; ++i) {
-    Eigen::VectorXd values = mean;
-    for (Eigen::Index k = 0; k < values.size(); ++k) values[k] += deviations[k] * normal(random);
+    Eigen::VectorXd error_of_joints = Eigen::VectorXd::Zero(deviations.size());
+    for (Eigen::Index k = 0; k < deviations.size(); ++k) {
+      error_of_joints[k] = deviations[k] * normal(random);
+    }
     const Eigen::Vector3d shift = base * three();
-    auto poses = query.robot().poses(values);
-    for (fcl::Transform3d& pose : poses) pose.translation() += shift;
-    bool hit = false;
+    std::vector<fcl::Transform3d> placed;
     for (const Obstacle& obstacle : query.obstacles()) {
       const auto& error = std::get<GaussianDisplacement>(obstacle.displacement);
-      fcl::Transform3d pose = obstacle.pose;
-      pose.translation() +=
+      placed.push_back(obstacle.pose);
+      placed.back().translation() +=
           error.mean() + error.axes() * error.standardDeviations().cwiseProduct(three());
-      hit = touchesAt(query.robot(), poses, obstacle, pose) || hit;
+    }
+    bool hit = false;
+    for (const Eigen::VectorXd& values : states) {
+      auto poses = query.robot().poses(values + error_of_joints);
+      for (fcl::Transform3d& pose : poses) pose.translation() += shift;
+      for (std::size_t j = 0; j < placed.size(); ++j) {
+        hit = hit || touchesAt(query.robot(), poses, query.obstacles()[j], placed[j]);
+      }
     }
     hits += hit;
   }
@@ -65,7 +75,7 @@ TEST_CASE("errors of joints, base and obstacles together are what counting finds
     REQUIRE(result.estimate);
     REQUIRE(result.standard_error);
     const double truth =
-        countedWithErrors(query, values, deviationsOf(errors.joints), 0.03, kDraws);
+        countedWithErrors(query, {values}, deviationsOf(errors.joints), 0.03, kDraws);
     const double of_truth = std::sqrt(truth * (1.0 - truth) / kDraws);
     CHECK(truth > 0.05);
     CHECK(truth < 0.95);
@@ -76,6 +86,69 @@ TEST_CASE("errors of joints, base and obstacles together are what counting finds
     decision.threshold = std::min(0.99, 2.0 * truth);
     CHECK(query.state(values, errors, decision).decision == Decision::below);
   }
+}
+
+TEST_CASE("errors that are the same at all waypoints are what counting finds") {
+  constexpr int kDraws = 4'000;
+  for (const std::size_t obstacles : {1, 2}) {
+    std::vector<Obstacle> all = ballAndBox();
+    all.resize(obstacles);
+    const RobotQuery query(shippedArm(), all);
+    std::vector<Eigen::VectorXd> states;
+    for (const double turn : {0.2, 0.5, 1.1}) {
+      states.push_back(query.robot().values({{"turn", turn}, {"shoulder", 0.15}, {"elbow", 0.3}}));
+    }
+    RobotErrors errors;
+    errors.joints = jointCovariance(query.robot(), {{"turn", 0.08}, {"shoulder", 0.05}});
+    errors.base = PoseError::fromStandardDeviations({0.03, 0.03, 0.03}, {0.0, 0.0, 0.0});
+    ProbabilityRequest request = withTolerance(0.02);
+    request.absolute_tolerance = 1e-3;
+    const RobotResult result = query.motion(states, errors, request);
+    const double truth =
+        countedWithErrors(query, states, deviationsOf(errors.joints), 0.03, kDraws);
+    const double of_truth = std::sqrt(truth * (1.0 - truth) / kDraws);
+    CAPTURE(obstacles, truth, *result.estimate, *result.standard_error);
+    CHECK(truth > 0.05);
+    CHECK(truth < 0.95);
+    CHECK(std::abs(*result.estimate - truth) <= 5.0 * std::hypot(of_truth, *result.standard_error));
+    double worst = 0.0;
+    for (const Eigen::VectorXd& values : states) {
+      worst = std::max(worst, query.state(values, errors, request).probability());
+    }
+    CHECK(*result.estimate > worst - 0.02);
+    request.method = ProbabilityMethod::interval;
+    CHECK_THROWS_AS(query.motion(states, errors, request), InvalidRequest);
+  }
+}
+
+TEST_CASE("errors of joints that slide add to those of an obstacle, at all waypoints together") {
+  const fcl_prob_test::TemporaryFolder folder;
+  const Robot cart(folder.write("cart.urdf", R"(<robot name="cart"><link name="base"/>
+    <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/><axis xyz="1 0 0"/>
+      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint><link name="slide"/>
+    <joint name="y" type="prismatic"><parent link="slide"/><child link="ball"/><axis xyz="0 1 0"/>
+      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint>
+    <link name="ball"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    </robot>)"));
+  const auto queryWith = [&](const Eigen::Vector3d& sigma) {
+    Obstacle ball;
+    ball.name = "ball";
+    ball.geometry = std::make_shared<fcl::Sphered>(0.15);
+    ball.displacement = GaussianDisplacement::fromStandardDeviations(sigma);
+    return RobotQuery(cart, {ball});
+  };
+  std::vector<Eigen::VectorXd> states;
+  for (const double x : {-0.3, 0.0, 0.2}) states.push_back(cart.values({{"x", x}, {"y", 0.33}}));
+  RobotErrors errors;
+  errors.joints = jointCovariance(cart, {{"x", 0.06}, {"y", 0.08}});
+  const RobotResult result =
+      queryWith({0.08, 0.06, 0.05}).motion(states, errors, withTolerance(0.005));
+  const Bounds truth = queryWith({0.1, 0.1, 0.05})
+                           .motion(states, ErrorsOverTime::persistent, withTolerance(1e-4))
+                           .any;
+  CAPTURE(*result.estimate, *result.standard_error, truth.lower, truth.upper);
+  CHECK(truth.lower > 0.1);
+  CHECK(std::abs(*result.estimate - truth.middle()) <= 4.0 * *result.standard_error + 1e-4);
 }
 
 TEST_CASE("certified intervals over errors of a robot hold what counting finds") {
@@ -101,7 +174,7 @@ TEST_CASE("certified intervals over errors of a robot hold what counting finds")
     request.method = ProbabilityMethod::interval;
     const RobotResult result = query.state(values, errors, request);
     const double truth =
-        countedWithErrors(query, values, deviationsOf(errors.joints), of_base, kDraws);
+        countedWithErrors(query, {values}, deviationsOf(errors.joints), of_base, kDraws);
     CAPTURE(i, small, of_base, truth, result.any.lower, result.any.upper, result.plan);
     const auto slack = [](double p) { return 5.0 * std::sqrt(p * (1.0 - p) / kDraws) + 1e-9; };
     CHECK_FALSE(result.estimate);
@@ -205,7 +278,7 @@ TEST_CASE("many states are decided with errors of the robot, as counting has the
   for (Eigen::Index i = 0; i < states.cols(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double truth =
-        countedWithErrors(query, states.col(i), deviationsOf(errors.joints), 0.0, kDraws);
+        countedWithErrors(query, {states.col(i)}, deviationsOf(errors.joints), 0.0, kDraws);
     const double slack = 5.0 * std::sqrt(truth * (1.0 - truth) / kDraws) + 5.0 / kDraws;
     CAPTURE(i, truth);
     if (certain[k] == ProbableDecision::certainly_below) CHECK(truth - slack < 0.2);
@@ -283,9 +356,10 @@ TEST_CASE("scenes have errors of joints and base") {
   CHECK(both.joints.trace() == Approx(0.13));
   CHECK(both.joints.sum() == Approx(0.15));
   CHECK(both.base);
-  CHECK_THROWS_AS(
-      sceneWith(R"("joint_error": {"sigma": {"elbow": 0.1}})", R"("waypoints": [{}, {}])"),
-      FileError);
+  CHECK(
+      errorsOf(sceneWith(R"("joint_error": {"sigma": {"elbow": 0.1}})", R"("waypoints": [{}, {}])"),
+               robot)
+          .joints.trace() == Approx(0.01));
   CHECK_THROWS_AS(sceneWith(R"("joint_error": {"joints": ["elbow"], "covariance": [1, 2]})", one),
                   FileError);
   const std::string twice =

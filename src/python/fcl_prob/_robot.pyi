@@ -163,6 +163,8 @@ class RobotQuery:
         largest_step: Optional[float] = None,
         between: str = "ignored",
         *,
+        joint_error: Union[None, Numbers, Mapping[str, float]] = None,
+        base_error: Optional[PoseError] = None,
         method: str = "auto",
         contact: str = "fcl",
         relative_tolerance: float = 0.01,
