@@ -3,7 +3,6 @@
 #include "exact/convex_pair_mass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,11 +12,9 @@
 #include "bounds/pair_bounds.h"
 #include "convex/pair_obstacle.h"
 #include "convex/resolved_part.h"
-#include "exact/curved_pair.h"
-#include "exact/ellipsoid_polytope.h"
+#include "exact/boundary_mass.h"
 #include "exact/layered_mass.h"
 #include "exact/polytope_section.h"
-#include "exact/rounded_pair.h"
 #include "exact/section_mass.h"
 #include "fcl_prob/bounds.h"
 #include "fcl_prob/normal_mass.h"
@@ -32,14 +29,6 @@ using detail::ResolvedPart;
 
 /// Certified mass that a displacement has in a convex obstacle.
 using MassOf = std::function<Bounds(const GaussianDisplacement&)>;
-
-/// Bounds on the mass in a convex obstacle of a displacement that also moves, along axes that were
-/// left out of it, by what rounds positions. The mass of what is left is log-concave in its mean
-/// (Prékopa), so that the masses at the mean and at six places `step` metres around it bound how it
-/// changes within so little. Where nothing is left: 1 if more than half of a displacement of `step`
-/// along all axes is in the obstacle, whose sides are then no nearer than that.
-/// {0, 1} where that tells nothing: beside the obstacle, or so near to its sides.
-Bounds massNear(const MassOf& mass_of, const ResolvedPart& resolved, double step);
 
 /// Of the step: the radius of a ball within the octahedron of the six places, which are where they
 /// should be to a thousandth (1/√3 = 0.577).
@@ -59,6 +48,13 @@ Bounds massAround(const MassOf& mass_of, const ResolvedPart& resolved, double st
   return {is_within ? 1.0 - kEpsilon : 0.0, 1.0};
 }
 
+/// Bounds on the mass in a convex obstacle of a displacement that also moves, along axes that were
+/// left out of it, by what rounds positions. The mass of what is left is log-concave in its mean
+/// (Prékopa), so that the masses at the mean and at six places `step` metres around it bound how it
+/// changes within so little. Where nothing is left: 1 if more than half of a displacement of `step`
+/// along all axes is in the obstacle, whose sides are then no nearer than that.
+/// {0, 1} where that tells nothing: beside the obstacle, or so near to its sides.
+//
 // With r the radius around the mean m within which the mass M is not below `around`, and u at a
 // distance d of m: u lies between m and a point at r, and m between u and the point at r on the
 // other side. So M(m) (around / M(m))^(d/r) <= M(u) <= M(m) (M(m) / around)^(d/r).
@@ -82,9 +78,6 @@ Bounds massNear(const MassOf& mass_of, const ResolvedPart& resolved, double step
   return {middle.lower / growth(middle.lower),
           std::min(1.0, middle.upper * growth(middle.upper) + kUnderflow)};
 }
-
-/// The masses of polytopes inside and around a curved body differ by about 4 / resolution.
-constexpr double kSandwichWidth = 1e-4;
 
 /// What is aimed at by sections of flat displacements: of polytopes, of others.
 constexpr double kRoundingWidth = 1e-10, kCurvedWidth = 1e-6;
@@ -157,30 +150,17 @@ Bounds detail::convexPairMass(const ConvexBody& a, const fcl::Transform3d& pose_
   }
   if (const auto ball = ballOfPair(a, pose_a, b, pose_b, displacement)) {
     known = ballMass(*ball, displacement);
-    if (known.width() <= kSandwichWidth * known.upper) return known;
+    if (isNarrowMass(known)) return known;
   }
   if (is_flat && narrowByLayers(kCurvedWidth, kFewSections)) return known;
-  if (frame.rank == 3 && isRoundedPair(a, b)) {
-    const RoundedEffort effort{false, interruption};
-    known = agreed(known, roundedPairMass(a, pose_a, b, pose_b, displacement, effort).mass);
-    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
-  }
-  if (frame.rank == 3 && isEllipsoidWithPolytope(a, b)) {
-    const RoundedEffort effort{false, interruption};
-    known = agreed(known, ellipsoidPolytopeMass(a, pose_a, b, pose_b, displacement, effort).mass);
-    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
-  }
-  if (frame.rank == 3 && isCurvedPair(a, b)) {
-    known = agreed(known, curvedPairMass(a, pose_a, b, pose_b, displacement, interruption));
-    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
-  }
-  if (frame.rank < 3 && isSectionPair(a, b)) {
-    known = agreed(known, sectionMass(a, pose_a, b, pose_b, displacement, interruption));
-    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
-  }
+  const RoundedEffort mass_only{false, interruption};
+  known = agreed(known, frame.rank == 3
+                            ? boundaryMass(a, pose_a, b, pose_b, displacement, mass_only).mass
+                            : sectionMass(a, pose_a, b, pose_b, displacement, interruption));
+  if (isNarrowMass(known)) return known;
   if (is_flat && !isDue(interruption)) {
     narrowByLayers(kCurvedWidth, kMostSections);
-    if (known.width() <= std::max(kSandwichWidth * known.upper, kNothing)) return known;
+    if (isNarrowMass(known)) return known;
   }
   using Faces = ConvexSetObstacle::Faces;
   const ConvexSetObstacle outer(frame, a.set(), b.set(), Faces::outer);

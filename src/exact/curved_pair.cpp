@@ -187,16 +187,9 @@ bool isCurvedPair(const ConvexBody& a, const ConvexBody& b) {
   return haveCurvedParts(a, b) && !isLeftOut("curved boundaries");
 }
 
-Bounds curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
-                      const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
-                      const Interruption& interruption) {
-  return curvedPairMassAndGradient(a, pose_a, b, pose_b, displacement, false, interruption).mass;
-}
-
-PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& pose_a,
-                                   const ConvexBody& b, const fcl::Transform3d& pose_b,
-                                   const GaussianDisplacement& displacement, bool with_gradient,
-                                   const Interruption& interruption) {
+PairMass curvedPairMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
+                        const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
+                        const RoundedEffort& effort) {
   const PairFrame frame = pairFrame(a, pose_a, b, pose_b, displacement);
   if (!frame.fits || frame.rank < 3) return {};
   const LongVector3 offset = offsetOf(a, pose_a, b, pose_b, displacement.mean());
@@ -207,9 +200,9 @@ PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& 
   const double handedness = whitening.determinant() < 0.0L ? -1.0 : 1.0;
   const Eigen::Vector3d reflection(handedness, 1.0, 1.0);
   const LongMatrix3 map = reflection.cast<long double>().asDiagonal() * whitening;
-  SurfaceEffort effort;
-  effort.with_moment = with_gradient;
-  effort.axes = axesAlong(reflection.asDiagonal() * direction);
+  SurfaceEffort of_surface;
+  of_surface.with_moment = effort.moment;
+  of_surface.axes = axesAlong(reflection.asDiagonal() * direction);
   for (int attempt = 0; attempt < kPerturbationAttempts; ++attempt) {
     auto parts = curvedParts(a, frame.rotation_a, b, frame.rotation_b, attempt);
     if (!parts) return {};
@@ -218,7 +211,7 @@ PairMass curvedPairMassAndGradient(const ConvexBody& a, const fcl::Transform3d& 
     const auto surface = placedSurface(*parts);
     if (!surface) continue;
     const SurfaceMass mass =
-        massWithin(surface->patches, guessOf(obstacle, direction), interruption, effort);
+        massWithin(surface->patches, guessOf(obstacle, direction), effort.interruption, of_surface);
     const LongVector3 middle = offset + parts->sum.frame * parts->middle.cast<long double>();
     const WithinBody within{(map * middle).cast<double>(), parts->inradius, mass.nearest};
     const auto share = shareBetween(surface->error, std::log(mass.mass.upper), within,

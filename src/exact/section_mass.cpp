@@ -39,10 +39,6 @@ Bounds lineMass(const PrincipalSection& section) {
 
 }  // namespace
 
-bool isSectionPair(const ConvexBody& a, const ConvexBody& b) {
-  return !a.isPolytope() || !b.isPolytope();
-}
-
 Bounds sectionMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                    const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                    const Interruption& interruption) {

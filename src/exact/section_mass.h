@@ -9,13 +9,9 @@
 
 namespace fcl_prob::detail {
 
-/// Whether sectionMass() knows the pair: it has to have an inside that is known.
-bool isSectionPair(const ConvexBody& a, const ConvexBody& b);
-
-/// Mass of an isSectionPair() under a displacement of rank 1 or 2, by support values and support
-/// points of its section: relative width about 1e-6 (rank 2) or what rounding of the sizes leaves
-/// (rank 1); at the worst [0, 1].
-/// \throws as pairFrame() does
+/// Mass of a pair that are not both polytopes under a displacement of rank 1 or 2, by support
+/// values and support points of its section: relative width about 1e-6 (rank 2) or what rounding of
+/// the sizes leaves (rank 1); at the worst [0, 1]. \throws as pairFrame() does
 Bounds sectionMass(const ConvexBody& a, const fcl::Transform3d& pose_a, const ConvexBody& b,
                    const fcl::Transform3d& pose_b, const GaussianDisplacement& displacement,
                    const Interruption& interruption);

@@ -13,10 +13,6 @@ namespace {
 /// Of a long double, or of what ExactSum gives.
 const long double kFine = std::max(std::numeric_limits<long double>::epsilon(), 0x1p-62L);
 
-bool isBall(const ConvexBody& body) {
-  return body.set().rounded() && body.set().rounded()->core.generatorCount() == 0;
-}
-
 using LongMatrix = Eigen::Matrix<long double, 3, 3>;
 
 /// RᵀR - I, up to 16 kFine: how far R is from a rotation.
@@ -34,6 +30,10 @@ double stretchOf(const LongMatrix& defect) {
 }
 
 }  // namespace
+
+bool isBall(const ConvexBody& body) {
+  return body.set().rounded() && body.set().rounded()->core.generatorCount() == 0;
+}
 
 std::optional<PrincipalBall> ballOfPair(const ConvexBody& a, const fcl::Transform3d& pose_a,
                                         const ConvexBody& b, const fcl::Transform3d& pose_b,

@@ -11,6 +11,9 @@
 
 namespace fcl_prob::detail {
 
+/// Or a point.
+bool isBall(const ConvexBody& body);
+
 /// The C-obstacle of two bodies that are balls, along the principal axes of the displacement;
 /// nothing for other bodies. What rounding and matrices that are only nearly rotations make of it
 /// is counted.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "query/exact_mass.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "base/budget.h"
@@ -11,10 +10,8 @@
 #include "bounds/convex_bound.h"
 #include "bounds/pair_bounds.h"
 #include "convex/pair_obstacle.h"
+#include "exact/boundary_mass.h"
 #include "exact/convex_pair_mass.h"
-#include "exact/curved_pair.h"
-#include "exact/ellipsoid_polytope.h"
-#include "exact/rounded_pair.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -22,12 +19,6 @@ namespace {
 /// Four times the points leave a quarter of the gap, at about ten times the cost: no way to small
 /// gaps.
 constexpr int kFineResolution = 4 * ConvexBody::kDefaultResolution;
-
-/// More is left only where a body is enclosed between polytopes.
-constexpr double kQuadratureWidth = 1e-4;
-
-/// What is below cannot be told from nothing.
-constexpr double kNothing = 1e-300;
 
 class ExactMass {
  public:
@@ -47,9 +38,7 @@ class ExactMass {
         findGradient();
       }
     }
-    if (!isSettled()) {
-      narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
-    }
+    if (!isSettled()) narrow(massOf(pair_.a.rootBody(), pair_.b.rootBody()));
     if (isOpenBetweenPolytopes()) {
       narrow({0.0, boundOf(pair_.a.rootBody(), pair_.b.rootBody())});
     }
@@ -100,22 +89,10 @@ class ExactMass {
   /// Of curved shapes.
   void findGradient() {
     if (displacement_.rank() < 3) return;
-    const PairMass both = massAndGradient(pair_.a.rootBody(), pair_.b.rootBody());
+    const PairMass both = boundaryMass(pair_.a.rootBody(), pair_.pose_a, pair_.b.rootBody(),
+                                       pair_.pose_b, displacement_, {true, limits_.interruption()});
     gradient_ = both.gradient;
     if (gradient_) narrow(both.mass);
-  }
-
-  PairMass massAndGradient(const ConvexBody& a, const ConvexBody& b) {
-    const RoundedEffort effort{true, limits_.interruption()};
-    if (isRoundedPair(a, b)) {
-      return roundedPairMass(a, pair_.pose_a, b, pair_.pose_b, displacement_, effort);
-    }
-    if (isEllipsoidWithPolytope(a, b)) {
-      return ellipsoidPolytopeMass(a, pair_.pose_a, b, pair_.pose_b, displacement_, effort);
-    }
-    if (!isCurvedPair(a, b)) return {};
-    return curvedPairMassAndGradient(a, pair_.pose_a, b, pair_.pose_b, displacement_, true,
-                                     limits_.interruption());
   }
 
   /// By support values, where the polytope around a curved body sticks out of it.
@@ -125,9 +102,8 @@ class ExactMass {
         .least;
   }
 
-  bool isBetweenPolytopes() const {
-    return !flat_ && mass_.width() > kQuadratureWidth * mass_.upper;
-  }
+  /// No quadrature leaves that much.
+  bool isBetweenPolytopes() const { return !flat_ && !isNarrowMass(mass_); }
   bool isOpenBetweenPolytopes() const {
     return status() == ProbabilityStatus::resolution_limit && isBetweenPolytopes();
   }

@@ -3,8 +3,7 @@
 #include "query/query_plan.h"
 
 #include "base/wings.h"
-#include "exact/curved_pair.h"
-#include "exact/ellipsoid_polytope.h"
+#include "exact/boundary_mass.h"
 #include "fcl_prob/exceptions.h"
 #include "fcl_prob/monte_carlo.h"
 #include "geometry/geometry_kind.h"
@@ -29,46 +28,28 @@ struct QueryPair {
   /// A Halfspace or Plane is one of them.
   bool anyUnbounded() const { return !a.hasPieces() || !b.hasPieces(); }
 
-  /// Convex shapes whose C-obstacle has an exact mass under a displacement.
-  bool haveExactMass(const GaussianDisplacement& displacement) const {
-    if (!kHasExact || !areConvex()) return false;
-    return displacement.rank() < 3 || areFlat() || areSpheres() || areRounded() || areCurved();
+  /// Of two convex shapes.
+  BoundaryKind kind() const {
+    if constexpr (kHasExact) return boundaryKind(a.rootBody(), b.rootBody());
+    return BoundaryKind::other;
   }
 
-  bool areFlat() const { return isPolytope(typeOf(a)) && isPolytope(typeOf(b)); }
+  /// Convex shapes whose C-obstacle has an exact mass under a displacement.
+  bool haveExactMass(const GaussianDisplacement& displacement) const {
+    return kHasExact && areConvex() && (displacement.rank() < 3 || kind() != BoundaryKind::other);
+  }
+
   bool areFlatOrMeshes() const {
     return (isMesh(a) || isPolytope(typeOf(a))) && (isMesh(b) || isPolytope(typeOf(b)));
   }
 
   int triangleCount() const { return triangleCount(a) + triangleCount(b); }
 
-  /// Their C-obstacle has a boundary of smooth patches, or is the image of a rounded polytope.
-  bool areCurved() const {
-    if constexpr (kHasExact) {
-      return areConvex() && !areRounded() &&
-             (isCurvedPair(a.rootBody(), b.rootBody()) ||
-              isEllipsoidWithPolytope(a.rootBody(), b.rootBody()));
-    } else {
-      return false;
-    }
-  }
-
-  /// Their C-obstacle is a polytope swept by a ball.
-  bool areRounded() const {
-    if (areFlat()) return false;
-    return isRoundedOrFlat(typeOf(a)) && isRoundedOrFlat(typeOf(b));
-  }
-
-  bool areSpheres() const { return typeOf(a) == fcl::GEOM_SPHERE && typeOf(b) == fcl::GEOM_SPHERE; }
-
   std::string name() const { return nodeTypeName(typeOf(a)) + " and " + nodeTypeName(typeOf(b)); }
 
  private:
   static fcl::NODE_TYPE typeOf(const PreparedGeometry& geometry) {
     return geometry.geometry().getNodeType();
-  }
-  static bool isRoundedOrFlat(fcl::NODE_TYPE type) {
-    return isPolytope(type) || type == fcl::GEOM_SPHERE || type == fcl::GEOM_CAPSULE;
   }
   static bool isPolytope(fcl::NODE_TYPE type) {
     return type == fcl::GEOM_BOX || type == fcl::GEOM_CONVEX || type == fcl::GEOM_TRIANGLE;
@@ -141,21 +122,18 @@ QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displ
   return plan;
 }
 
-std::string noteOnExactMass(const QueryPair& pair, const GaussianDisplacement& displacement) {
-  if (pair.areSpheres()) return "two spheres: their C-obstacle is a ball, mass by quadrature";
-  if (pair.areRounded() && displacement.rank() == 3) {
-    return "round and flat shapes: their C-obstacle is a polytope swept by a ball, mass by "
-           "quadrature";
+std::string noteOnExactMass(BoundaryKind kind, int rank) {
+  if (kind == BoundaryKind::ball)
+    return "two spheres: their C-obstacle is a ball, mass by quadrature";
+  if (kind == BoundaryKind::flat || (rank == 3 && kind == BoundaryKind::other)) {
+    return "both shapes are convex: exact mass of their C-obstacle, no tree";
   }
-  if (displacement.rank() < 3 && !pair.areFlat()) {
-    return displacement.rank() == 2
-               ? "curved shapes: mass of their C-obstacle's section between two polygons"
-               : "curved shapes: where a line meets their C-obstacle";
-  }
-  if (displacement.rank() == 3 && pair.areCurved()) {
-    return "curved shapes: mass of their C-obstacle by quadrature over its boundary";
-  }
-  return "both shapes are convex: exact mass of their C-obstacle, no tree";
+  if (rank == 2) return "curved shapes: mass of their C-obstacle's section between two polygons";
+  if (rank < 2) return "curved shapes: where a line meets their C-obstacle";
+  return kind == BoundaryKind::rounded
+             ? "round and flat shapes: their C-obstacle is a polytope swept by a ball, mass by "
+               "quadrature"
+             : "curved shapes: mass of their C-obstacle by quadrature over its boundary";
 }
 
 QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacement,
@@ -164,7 +142,7 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
   if (pair.anyUnbounded()) return planUnbounded();
   if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
   QueryPlan plan{Route::exact_mass, false, {}};
-  plan.notes.push_back(noteOnExactMass(pair, displacement));
+  plan.notes.push_back(noteOnExactMass(pair.kind(), displacement.rank()));
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
@@ -177,9 +155,12 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
   const bool has_gradient = displacement.rank() == 3;
   if (exact && (has_gradient || !request.gradient)) {
     QueryPlan plan = planExact(pair, displacement, request);
-    plan.partition_if_unresolved = request.gradient || (!pair.areFlat() && !pair.areSpheres());
+    const BoundaryKind kind = pair.kind();
+    const bool is_closed_form = kind == BoundaryKind::flat || kind == BoundaryKind::ball;
+    plan.partition_if_unresolved = request.gradient || !is_closed_form;
     // Quadrature over a boundary takes milliseconds, a bound microseconds.
-    plan.try_root_bound = !pair.areFlat() && !pair.areRounded() && displacement.rank() > 1;
+    plan.try_root_bound =
+        !is_closed_form && kind != BoundaryKind::rounded && displacement.rank() > 1;
     return plan;
   }
   QueryPlan plan = planPartition(pair, displacement, request);
