@@ -66,7 +66,7 @@ double endOf(const RobotQuery& query) {
 }
 
 void requireAfterStart(double latest, const TimedPlanningRequest& request) {
-  if (latest > request.start_time) return;
+  if (latest > request.start_time && std::isfinite(latest)) return;
   throw InvalidRequest("the latest time of arrival, " + detail::numberText(latest) +
                        " s, is not after the start, " + detail::numberText(request.start_time) +
                        " s");

@@ -161,6 +161,10 @@ TEST_CASE("a plan in time goes through states that a test of one's own allows at
     return planInTime(lane.robot, allowed, Lane::at(-1.0, 0.0), Lane::at(1.0, 0.0), request);
   };
   CHECK_THROWS_AS(plan(), InvalidRequest);  // nothing says how late it may be
+  for (const double latest : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    request.latest = latest;
+    CHECK_THROWS_AS(plan(), InvalidRequest);
+  }
   request.latest = 12.0;
   request.hold = 1.0;
   const TimedPlan found = plan();
