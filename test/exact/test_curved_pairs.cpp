@@ -302,7 +302,7 @@ TEST_CASE("needles, plates and covariances of ratios up to 1e6 hold what polytop
     const ConvexBody other = k % 3 == 0   ? ConvexBody(fcl::Sphered(random.logUniform(1e-3, 0.5)))
                              : k % 3 == 1 ? ConvexBody(fcl::Boxd(0.3, 0.001, 0.4))
                                           : ConvexBody(random.cloud(12, 0.4));
-    const Bounds mass = detail::curvedPairMass(shape, pose_a, other, pose_b, error, {});
+    const Bounds mass = detail::curvedPairMass(shape, pose_a, other, pose_b, error, {}).mass;
     const Bounds least =
         convexPairMass(prism(radius, top, length, false), pose_a, other, pose_b, error);
     const Bounds most =
@@ -325,7 +325,7 @@ TEST_CASE("bodies of a thousand deviations along one axis are certified to 1e-6"
                    : ConvexBody(fcl::Ellipsoidd(0.3, random.uniform(0.3, 0.6), 0.5));
     const ConvexBody other = ConvexBody(fcl::Sphered(random.uniform(0.3, 0.6)));
     const Pose pose_a = random.pose(0.0), pose_b = random.pose(0.6);
-    const Bounds mass = detail::curvedPairMass(shape, pose_a, other, pose_b, error, {});
+    const Bounds mass = detail::curvedPairMass(shape, pose_a, other, pose_b, error, {}).mass;
     INFO(k << ": " << mass.lower << " to " << mass.upper);
     CHECK(mass.lower > 0.0);
     CHECK(mass.width() <= 1e-6 * mass.upper);
