@@ -368,7 +368,7 @@ TEST_CASE("axes that are nearly parallel or perpendicular hold what polytopes en
         };
         const ConvexBody shape =
             is_capsule ? ConvexBody(capsule) : ConvexBody(fcl::Cylinderd(other, longer));
-        const Bounds mass = detail::curvedPairMass(cylinder, pose_a, shape, pose_b, error, {});
+        const Bounds mass = detail::curvedPairMass(cylinder, pose_a, shape, pose_b, error, {}).mass;
         const Bounds least = convexPairMass(prism(radius, radius, length, false), pose_a,
                                             second(false), pose_b, error);
         const Bounds most = convexPairMass(prism(radius, radius, length, true), pose_a,
@@ -390,7 +390,8 @@ TEST_CASE("a quadrature that is interrupted knows nothing, or what it knew") {
   const Pose pose = at({0.7, 0.2, 0.1});
   const auto massWithin = [&](int asked) {
     return detail::curvedPairMass(ellipsoid, Pose::Identity(), cylinder, pose, error,
-                                  [&asked] { return --asked < 0; });
+                                  {false, [&asked] { return --asked < 0; }})
+        .mass;
   };
   const Bounds whole = massWithin(1'000'000);
   CHECK(whole.width() <= kWidth * whole.upper);
@@ -414,7 +415,7 @@ TEST_CASE("cones beside what has an axis, in all ties, hold what polytopes enclo
         const ConvexBody cone(fcl::Coned(radius, length));
         const ConvexBody shape = top > 0.0 ? ConvexBody(fcl::Cylinderd(other, longer))
                                            : ConvexBody(fcl::Coned(other, longer));
-        const Bounds mass = detail::curvedPairMass(cone, pose_a, shape, pose_b, error, {});
+        const Bounds mass = detail::curvedPairMass(cone, pose_a, shape, pose_b, error, {}).mass;
         const Bounds least = convexPairMass(prism(radius, 0.0, length, false), pose_a,
                                             prism(other, top, longer, false), pose_b, error);
         const Bounds most = convexPairMass(prism(radius, 0.0, length, true), pose_a,
@@ -452,7 +453,8 @@ TEST_CASE("cones beside cones and cylinders are between pyramids and prisms as c
     const ConvexBody shape = top > 0.0 ? ConvexBody(fcl::Cylinderd(other, longer))
                                        : ConvexBody(fcl::Coned(other, longer));
     const Bounds mass = detail::curvedPairMass(ConvexBody(fcl::Coned(radius, length)), pose_a,
-                                               shape, pose_b, error, {});
+                                               shape, pose_b, error, {})
+                            .mass;
     INFO(radius << " " << length << " and " << other << " " << longer << ": " << mass.lower
                 << " to " << mass.upper << ", prisms " << least << " to " << most);
     CHECK(mass.width() <= kWidth * mass.upper);

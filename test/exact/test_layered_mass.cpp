@@ -109,7 +109,8 @@ TEST_CASE("cylinders and cones beside spheres, where next to nothing moves along
     checkTells(pair.mass(), truth, 1e-8, 1e-6);
     // By the boundary as well, which is wider the more deviations the bodies are long.
     const Bounds boundary =
-        detail::curvedPairMass(pair.a, pair.pose_a, pair.b, pair.pose_b, pair.displacement, {});
+        detail::curvedPairMass(pair.a, pair.pose_a, pair.b, pair.pose_b, pair.displacement, {})
+            .mass;
     checkTells(boundary, truth, 1e-8, thin > 1e-4 ? 1e-6 : 1.0);
   }
 }
