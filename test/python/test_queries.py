@@ -365,7 +365,8 @@ def test_errors_of_joints_and_base():
     covariance = np.zeros((len(robot.joints), len(robot.joints)))
     covariance[robot.joints.index("turn"), robot.joints.index("turn")] = 0.1**2
     assert query.state(values, joint_error=covariance, relative_tolerance=0.05).estimate == by_name.estimate
-    way = query.motion([values, values + 0.05], joint_error={"turn": 0.1}, relative_tolerance=0.05)
+    further = robot.values({"turn": 0.8, "shoulder": 0.15, "elbow": 0.3})
+    way = query.motion([values, further], joint_error={"turn": 0.1}, relative_tolerance=0.05)
     assert way.estimate > by_name.estimate - 3 * by_name.standard_error
     with pytest.raises(fcl_prob.InvalidRequest):
         query.motion([values], errors="independent", joint_error={"turn": 0.1})
