@@ -88,7 +88,7 @@ Eigen::MatrixXd validCovariance(const RobotAmongObstacles& among, const RobotErr
   requireStaying(among.obstacles(), "errors of a robot are");
   for (const Obstacle& obstacle : among.obstacles()) gaussianOf(obstacle);
   const auto joints = static_cast<Eigen::Index>(among.robot().joints().size());
-  const Eigen::MatrixXd covariance = covarianceOf(errors, joints);
+  Eigen::MatrixXd covariance = covarianceOf(errors, joints);
   const auto nowhere = [](const Eigen::VectorXd&) { return std::vector<fcl::Transform3d>(); };
   const RandomJoints validated(Eigen::VectorXd::Zero(joints), covariance, nowhere, {},
                                GaussianDisplacement());
