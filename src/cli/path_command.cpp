@@ -95,12 +95,13 @@ RobotScene sceneOf(const PathArguments& arguments) {
 }
 
 /// What has no answer where the robot itself has errors.
-void refuseWithErrors(const RobotScene& scene, const PathArguments& arguments) {
-  if (arguments.by_body || arguments.gradient || scene.errors != ErrorsOverTime::persistent ||
+void refuseWithErrors(const RobotScene& scene, const PathArguments& arguments, bool moves) {
+  const bool anew = moves && scene.errors != ErrorsOverTime::persistent;
+  if (arguments.by_body || arguments.gradient || anew || !arguments.certificate.empty() ||
       scene.between != BetweenWaypoints::ignored) {
     throw InvalidRequest(
         "errors of joints or base are persistent: with them there is no answer by body, anew at "
-        "waypoints or between them, and no gradient");
+        "waypoints or between them, and neither gradient nor certificate");
   }
 }
 
@@ -130,16 +131,13 @@ PathReport answer(RobotScene scene, const PathArguments& arguments) {
   scene.request.on_progress = std::ref(bar);
   const detail::Stopwatch watch;
   const RobotErrors errors = errorsOf(scene, query.robot());
-  if (!errors.none() && !arguments.certificate.empty()) {
-    throw InvalidRequest("no certificate with errors of joints and base");
-  }
-  if (!arguments.certificate.empty()) {
-    report.result = certifiedAnswer(query, waypoints, scene, arguments.certificate);
-  } else if (errors.none()) {
-    report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
-  } else {
-    refuseWithErrors(scene, arguments);
+  if (!errors.none()) {
+    refuseWithErrors(scene, arguments, waypoints.size() > 1);
     report.result = query.motion(waypoints, errors, scene.request);
+  } else if (!arguments.certificate.empty()) {
+    report.result = certifiedAnswer(query, waypoints, scene, arguments.certificate);
+  } else {
+    report.result = query.motion(waypoints, scene.errors, scene.request, scene.between);
   }
   report.time_ms = watch.milliseconds();
   if (arguments.by_body) report.by_body = query.byBody(waypoints, scene.request);

@@ -173,6 +173,15 @@ TEST_CASE("path answers where joints and base have errors of their own", "[cli]"
       folder);
   REQUIRE(way.exit_code == 0);
   CHECK(json::parse(way.out).at("estimate").get<double>() > estimate);
+  // How errors go on in time is asked of several waypoints only.
+  const CommandResult one = runCommand(
+      {"path", "--scene", folder.path("scene.json"), "--errors", "independent", "--json"}, folder);
+  REQUIRE(one.exit_code == 0);
+  CHECK(json::parse(one.out).at("estimate").get<double>() == estimate);
+  CHECK(runCommand({"path", "--scene", folder.path("scene.json"), "--motion",
+                    folder.path("way.csv"), "--errors", "independent"},
+                   folder)
+            .refused());
   CHECK(json::parse(way.out).count("touches_itself") == 0);
 }
 
