@@ -15,7 +15,7 @@ namespace fcl_prob::detail {
 /// Of the absolute tolerance: what all bodies that are left out may add up to.
 inline constexpr double kShareOfFar = 0.05;
 
-/// Of a threshold: so little that no answer that is that close to it is ever known.
+/// The same of a threshold: P that is closer to it than this share is left undecided.
 inline constexpr double kFarOfDecision = 1e-12;
 
 /// What those may add up to that are left out.

@@ -166,6 +166,9 @@ class ManagerCheck {
     if (complete_ && is_whole && !result_.stopped && result_.pairs_culled < left) {
       report("pairs_culled", out.str());
     }
+    // Any of those not looked at may touch for certain.
+    const bool unseen = complete_ && result_.interrupted && result_.pairs_culled < left;
+    if (unseen && result_.any.upper < 1.0) report("pairs not looked at", out.str());
     if (result_.pairs_culled > 10'000) report("pairs_culled", out.str());
   }
 
