@@ -57,67 +57,72 @@ Eigen::VectorXd deviationsOf(const Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-TEST_CASE("errors of joints, base and obstacles together are what counting finds") {
-  constexpr int kDraws = 4'000;
-  for (const std::size_t obstacles : {1, 2}) {
+namespace {
+
+/// The shipped arm beside one or two obstacles, with errors of joints and base.
+struct ArmWithErrors {
+  explicit ArmWithErrors(std::size_t obstacles) : query(shippedArm(), ballAndBox()) {
     std::vector<Obstacle> all = ballAndBox();
     all.resize(obstacles);
-    const RobotQuery query(shippedArm(), all);
-    const Eigen::VectorXd values =
-        query.robot().values({{"turn", 0.6}, {"shoulder", 0.15}, {"elbow", 0.3}});
-    RobotErrors errors;
+    query = query.withObstacles(all);
     errors.joints = jointCovariance(query.robot(), {{"turn", 0.08}, {"shoulder", 0.05}});
     errors.base = PoseError::fromStandardDeviations({0.03, 0.03, 0.03}, {0.0, 0.0, 0.0});
-    ProbabilityRequest request = withTolerance(0.02);
     request.absolute_tolerance = 1e-3;
-    const RobotResult result = query.state(values, errors, request);
-    CAPTURE(obstacles, result.plan);
+  }
+
+  Eigen::VectorXd turned(double turn) const {
+    return query.robot().values({{"turn", turn}, {"shoulder", 0.15}, {"elbow", 0.3}});
+  }
+
+  /// Checks the estimate; the value that counting finds.
+  double check(const std::vector<Eigen::VectorXd>& states, const RobotResult& result) const {
+    constexpr int kDraws = 4'000;
     REQUIRE(result.estimate);
     REQUIRE(result.standard_error);
     const double truth =
-        countedWithErrors(query, {values}, deviationsOf(errors.joints), 0.03, kDraws);
+        countedWithErrors(query, states, deviationsOf(errors.joints), 0.03, kDraws);
     const double of_truth = std::sqrt(truth * (1.0 - truth) / kDraws);
+    CAPTURE(query.obstacles().size(), truth, *result.estimate, *result.standard_error, result.plan);
     CHECK(truth > 0.05);
     CHECK(truth < 0.95);
     CHECK(std::abs(*result.estimate - truth) <= 5.0 * std::hypot(of_truth, *result.standard_error));
+    return truth;
+  }
+
+  RobotQuery query;
+  RobotErrors errors;
+  ProbabilityRequest request = withTolerance(0.02);
+};
+
+}  // namespace
+
+TEST_CASE("errors of joints, base and obstacles together are what counting finds") {
+  for (const std::size_t obstacles : {1, 2}) {
+    const ArmWithErrors arm(obstacles);
+    const Eigen::VectorXd values = arm.turned(0.6);
+    const double truth = arm.check({values}, arm.query.state(values, arm.errors, arm.request));
     ProbabilityRequest decision;
     decision.threshold = 0.3 * truth;
-    CHECK(query.state(values, errors, decision).decision == Decision::above);
+    CHECK(arm.query.state(values, arm.errors, decision).decision == Decision::above);
     decision.threshold = std::min(0.99, 2.0 * truth);
-    CHECK(query.state(values, errors, decision).decision == Decision::below);
+    CHECK(arm.query.state(values, arm.errors, decision).decision == Decision::below);
   }
 }
 
 TEST_CASE("errors that are the same at all waypoints are what counting finds") {
-  constexpr int kDraws = 4'000;
   for (const std::size_t obstacles : {1, 2}) {
-    std::vector<Obstacle> all = ballAndBox();
-    all.resize(obstacles);
-    const RobotQuery query(shippedArm(), all);
-    std::vector<Eigen::VectorXd> states;
-    for (const double turn : {0.2, 0.5, 1.1}) {
-      states.push_back(query.robot().values({{"turn", turn}, {"shoulder", 0.15}, {"elbow", 0.3}}));
-    }
-    RobotErrors errors;
-    errors.joints = jointCovariance(query.robot(), {{"turn", 0.08}, {"shoulder", 0.05}});
-    errors.base = PoseError::fromStandardDeviations({0.03, 0.03, 0.03}, {0.0, 0.0, 0.0});
-    ProbabilityRequest request = withTolerance(0.02);
-    request.absolute_tolerance = 1e-3;
-    const RobotResult result = query.motion(states, errors, request);
-    const double truth =
-        countedWithErrors(query, states, deviationsOf(errors.joints), 0.03, kDraws);
-    const double of_truth = std::sqrt(truth * (1.0 - truth) / kDraws);
-    CAPTURE(obstacles, truth, *result.estimate, *result.standard_error);
-    CHECK(truth > 0.05);
-    CHECK(truth < 0.95);
-    CHECK(std::abs(*result.estimate - truth) <= 5.0 * std::hypot(of_truth, *result.standard_error));
+    const ArmWithErrors arm(obstacles);
+    const std::vector<Eigen::VectorXd> states{arm.turned(0.2), arm.turned(0.5), arm.turned(1.1)};
+    const RobotResult result = arm.query.motion(states, arm.errors, arm.request);
+    arm.check(states, result);
     double worst = 0.0;
     for (const Eigen::VectorXd& values : states) {
-      worst = std::max(worst, query.state(values, errors, request).probability());
+      worst = std::max(worst, arm.query.state(values, arm.errors, arm.request).probability());
     }
     CHECK(*result.estimate > worst - 0.02);
-    request.method = ProbabilityMethod::interval;
-    CHECK_THROWS_AS(query.motion(states, errors, request), InvalidRequest);
+    ProbabilityRequest interval = arm.request;
+    interval.method = ProbabilityMethod::interval;
+    CHECK_THROWS_AS(arm.query.motion(states, arm.errors, interval), InvalidRequest);
   }
 }
 
