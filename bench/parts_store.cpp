@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "bench/parts_store.h"
 
-#include <cstring>
+#include <boost/crc.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -19,24 +19,22 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Fowler, Noll and Vo's hash FNV-1a.
+/// A cyclic redundancy check of 64 bits (ECMA-182, as XZ has it).
 class Hash {
  public:
   template <typename Number>
   void add(const Number& number) {
-    unsigned char bytes[sizeof(Number)];
-    std::memcpy(bytes, &number, sizeof(Number));
-    for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 0x100000001b3ULL;
+    crc_.process_bytes(&number, sizeof(Number));
   }
 
   std::string text() const {
     std::ostringstream text;
-    text << std::hex << std::setw(16) << std::setfill('0') << hash_;
+    text << std::hex << std::setw(16) << std::setfill('0') << crc_.checksum();
     return text.str();
   }
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  boost::crc_optimal<64, 0x42F0E1EBA9EA3693, ~0ULL, ~0ULL, true, true> crc_;
 };
 
 std::string nameOf(const TriangleMesh& mesh, const DecompositionRequest& request) {
