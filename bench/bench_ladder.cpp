@@ -19,8 +19,12 @@
 #include "bench/bench_task.h"
 #include "bench/benchmark.h"
 #include "bench/mixed_scenes.h"
+#include "bench/part_scenes.h"
 #include "cli/number_text.h"
 #include "fcl_prob/collision_probability.h"
+#ifdef FCL_PROB_HAS_ROBOT
+#include "bench/random_states.h"
+#endif
 
 namespace fcl_prob::cli {
 namespace {
@@ -31,6 +35,11 @@ constexpr double kMostSecondsOfRung = 1.0;
 constexpr double kOnce = 0.1;
 constexpr std::size_t kMixedScenes = 30;
 constexpr std::size_t kShapePairs = 40;
+constexpr std::size_t kPartScenes = 28;
+
+/// Of each robot, of those that have P between these two.
+constexpr int kStatesOfLadder = 10;
+constexpr Bounds kUncertain{1e-4, 0.9};
 
 using Ask = std::function<ProbabilityResult(const ProbabilityRequest&)>;
 
@@ -77,6 +86,58 @@ void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes
                       }});
   }
 }
+
+// Every other one as solids.
+void addPartScenes(const BenchOptions& options, std::vector<LadderScene>& scenes) {
+  PartScenes parts(options.models_folder, options.seed);
+  const std::size_t count = options.quick ? PartScenes::names().size() : kPartScenes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::shared_ptr<PreparedScene> drawn = parts.next(i % PartScenes::names().size()).scene;
+    scenes.push_back({"parts", [drawn, is_solid = i % 2 == 1] {
+                        const Ask ask = askOf(std::make_shared<PreparedScene>(
+                            drawn->objectA(), drawn->objectB(), drawn->displacement(), "obbrss"));
+                        return Ask([=](ProbabilityRequest request) {
+                          if (is_solid) request.contact = ContactMeaning::solid;
+                          return ask(request);
+                        });
+                      }});
+  }
+}
+
+#ifdef FCL_PROB_HAS_ROBOT
+Ask askOf(const Robot& robot, const Obstacle& person, const Eigen::VectorXd& values) {
+  const auto query = std::make_shared<RobotQuery>(robot, std::vector<Obstacle>{person});
+  return [query, values](const ProbabilityRequest& request) {
+    const RobotResult all = query->state(values, request);
+    ProbabilityResult result;
+    result.status = all.status;
+    if (!all.parts.empty()) result.statistics = all.parts[0].statistics;
+    return result;
+  };
+}
+
+// States whose P a rough interval does not exclude to be uncertain, each beside a person of its
+// own.
+void addRobotStates(const BenchOptions& options, std::vector<LadderScene>& scenes) {
+  const Geometry mesh = personMesh(options.models_folder);
+  ProbabilityRequest rough;
+  rough.method = ProbabilityMethod::interval;
+  rough.relative_tolerance = 0.5;
+  for (const char* name : {"KUKA iiwa", "Fetch"}) {
+    Uniforms random(options.seed);
+    const Robot robot = benchRobot(options.models_folder, name);
+    const RobotQuery query(robot, {personBeside(mesh, random)});
+    for (int found = 0; found < (options.quick ? kStatesOfLadder / 5 : kStatesOfLadder);) {
+      const Obstacle person = personBeside(mesh, random);
+      const Eigen::VectorXd values = drawnStates(robot, random, 1);
+      const Bounds p = query.withObstacles({person}).state(values, rough).any;
+      if (p.upper < kUncertain.lower || p.lower > kUncertain.upper) continue;
+      ++found;
+      scenes.push_back({"states", [=] { return askOf(robot, person, values); }});
+    }
+  }
+}
+#endif
 
 Geometry randomShape(Uniforms& random) {
   const auto size = [&random] { return random.logBetween(0.02, 0.2); };
@@ -195,7 +256,8 @@ class LadderTable {
     BenchReport report;
     report.title = "What each rung, and each mechanism, is worth";
     report.table = TextTable({"left out", "climbed", "answered", "share of time", "all: median",
-                              "mean", "90 %", "statues: mean", "mixed: mean", "shapes: mean"});
+                              "mean", "90 %", "statues: mean", "mixed: mean", "parts: mean",
+                              "states: mean", "shapes: mean"});
     for (const auto& [name, climbed] : rungs_) {
       const auto listed = std::find(whatCanBeLeftOut().begin(), whatCanBeLeftOut().end(), name);
       if (listed == whatCanBeLeftOut().end()) addRow(name, climbed, report);
@@ -204,8 +266,9 @@ class LadderTable {
     report.notes =
         "Intervals of 10 % and 1 %, estimates of 1 % and decisions at 5 %, 1 s at most, one "
         "thread:\n"
-        "the six statues, 30 mixed pairs (see `bench mixed`), 40 pairs of convex shapes. "
-        "`climbed`,\n"
+        "the six statues, 30 mixed pairs (`bench mixed`), 28 robot parts beside an arm (`bench\n"
+        "parts`), 10 states of each robot beside a person whose P is 1e-4 to 0.9, 40 pairs of\n"
+        "convex shapes. `climbed`,\n"
         "`answered`: of " +
         std::to_string(queries_) +
         " queries. The other columns: the time without it over that with it,\n"
@@ -233,7 +296,8 @@ class LadderTable {
                       is_rung ? std::to_string(climbed.answered) : "",
                       is_rung ? numberText(climbed.seconds / seconds_, 2) : "",
                       over("all", at(0.5)), over("all", mean), over("all", at(0.9)),
-                      over("statues", mean), over("mixed", mean), over("shapes", mean)});
+                      over("statues", mean), over("mixed", mean), over("parts", mean),
+                      over("states", mean), over("shapes", mean)});
   }
 
   const BenchOptions& options_;
@@ -249,6 +313,10 @@ class LadderTable {
 BenchReport benchLadder(const BenchOptions& options, const BenchProgress& progress) {
   std::vector<LadderScene> scenes;
   addMeshScenes(options, scenes);
+  addPartScenes(options, scenes);
+#ifdef FCL_PROB_HAS_ROBOT
+  addRobotStates(options, scenes);
+#endif
   addShapePairs(options, scenes);
   LadderTable table(options);
   bool goes_on = true;

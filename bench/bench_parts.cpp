@@ -2,42 +2,16 @@
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench parts: robot parts and a can beside a human arm, scenes at random.
 #include <algorithm>
-#include <filesystem>
 
 #include "bench/bench_task.h"
 #include "bench/benchmark.h"
-#include "bench/fcl_loop.h"
-#include "bench/pose_beside.h"
+#include "bench/part_scenes.h"
 #include "bench/result_hash.h"
 #include "bench/task_record.h"
-#include "bench/uniforms.h"
 #include "cli/number_text.h"
-#include "fcl_prob/mesh_io.h"
 
 namespace fcl_prob::cli {
 namespace {
-
-constexpr std::size_t kFclChecks = 10'000;
-constexpr double kLeastProbability = 1e-3;
-
-struct Part {
-  std::string name;
-  std::string file;  ///< below the models folder
-};
-
-const std::vector<Part>& parts() {
-  const std::string fetch = "fetch_robot/fetch_description/meshes/";
-  static const std::vector<Part> all{
-      {"finger", fetch + "l_gripper_finger_link.STL"},
-      {"gripper", fetch + "gripper_link.STL"},
-      {"wrist_roll", fetch + "wrist_roll_link_collision.STL"},
-      {"wrist_flex", fetch + "wrist_flex_link_collision.STL"},
-      {"forearm", fetch + "forearm_roll_link_collision.STL"},
-      {"shoulder_pan", fetch + "shoulder_pan_link_collision.STL"},
-      {"can", "objects/coke_can_500.obj"},
-  };
-  return all;
-}
 
 const std::vector<BenchTask>& tasks() {
   static const std::vector<BenchTask> all{intervalTask(0.1), intervalTask(0.01),
@@ -58,38 +32,22 @@ struct Measured {
 class PartsTable {
  public:
   explicit PartsTable(const BenchOptions& options)
-      : options_(options), random_(options.seed), measured_(2 * tasks().size()) {
-    const std::filesystem::path models(options.models_folder);
-    for (const Part& part : parts()) {
-      meshes_.push_back(loadMeshIsolated((models / part.file).string()));
-      geometries_.push_back(buildTree(meshes_.back(), "obbrss"));
-    }
-    arm_mesh_ = loadMeshIsolated((models / "human/human_arm_left_2000.obj").string());
-    arm_ = buildTree(arm_mesh_, "obbrss");
-  }
+      : options_(options),
+        drawn_(options.models_folder, options.seed),
+        measured_(2 * tasks().size()) {}
 
-  /// A scene of one part whose P is large enough.
+  /// All tasks for a scene of one part.
   void addScene(std::size_t part) {
-    for (;;) {
-      const double apart = random_.between(0.002, 0.08);
-      const fcl::Transform3d pose =
-          poseBeside(random_, geometries_[part], arm_mesh_, arm_, apart, 2.0, 30);
-      const GaussianDisplacement error = randomError(random_, 0.01, 0.05);
-      const PreparedScene scene({meshes_[part], pose}, {arm_mesh_, fcl::Transform3d::Identity()},
-                                error, "obbrss");
-      const FclLoop loop = timeFclLoop(scene, kFclChecks, options_.seed + scenes_);
-      if (loop.estimate() < kLeastProbability) continue;
-      std::size_t row = 0;
-      for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
-        for (const BenchTask& task : tasks()) {
-          const std::size_t of_task = row++;
-          if (task.name.find(options_.task) == std::string::npos) continue;
-          addTask(part, scene, contact, task, loop, of_task);
-        }
+    const PartScene drawn = drawn_.next(part);
+    std::size_t row = 0;
+    for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
+      for (const BenchTask& task : tasks()) {
+        const std::size_t of_task = row++;
+        if (task.name.find(options_.task) == std::string::npos) continue;
+        addTask(part, *drawn.scene, contact, task, drawn.loop, of_task);
       }
-      ++scenes_;
-      return;
     }
+    ++scenes_;
   }
 
   BenchReport take() {
@@ -144,7 +102,7 @@ class PartsTable {
     all.limits += stoppedByLimit(result.status);
     all.hash.add(result);
     nlohmann::ordered_json record{{"scene", scenes_},
-                                  {"part", parts()[part].name},
+                                  {"part", PartScenes::names()[part]},
                                   {"contact", contact == ContactMeaning::fcl ? "fcl" : "solid"}};
     addTaskTo(record, task, timed, loop);
     record.update({{"fcl_estimate", loop.estimate()},
@@ -154,11 +112,7 @@ class PartsTable {
   }
 
   const BenchOptions& options_;
-  Uniforms random_;
-  std::vector<TriangleMesh> meshes_;
-  std::vector<Geometry> geometries_;
-  TriangleMesh arm_mesh_;
-  Geometry arm_;
+  PartScenes drawn_;
   std::size_t scenes_ = 0;
   std::vector<Measured> measured_;
   nlohmann::ordered_json records_ = nlohmann::ordered_json::array();
@@ -167,13 +121,14 @@ class PartsTable {
 }  // namespace
 
 BenchReport benchParts(const BenchOptions& options, const BenchProgress& progress) {
-  const std::size_t scenes = options.quick ? 2 * parts().size() : 100;
+  const std::size_t scenes = options.quick ? 2 * PartScenes::names().size() : 100;
   PartsTable table(options);
   for (std::size_t i = 0; i < scenes; ++i) {
-    const Part& part = parts()[i % parts().size()];
-    if (part.name.find(options.only) == std::string::npos) continue;
-    if (!progress(static_cast<double>(i) / static_cast<double>(scenes), part.name)) break;
-    table.addScene(i % parts().size());
+    const std::size_t part = i % PartScenes::names().size();
+    const std::string& name = PartScenes::names()[part];
+    if (name.find(options.only) == std::string::npos) continue;
+    if (!progress(static_cast<double>(i) / static_cast<double>(scenes), name)) break;
+    table.addScene(part);
   }
   return table.take();
 }

@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench random-states: whole robots in any state beside a person, as a planner asks.
-#include <fcl/narrowphase/collision.h>
-
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <limits>
 
 #include "base/stopwatch.h"
 #include "bench/benchmark.h"
 #include "bench/least_distance.h"
-#include "bench/uniforms.h"
-#include "cli/geometry.h"
+#include "bench/random_states.h"
 #include "cli/number_text.h"
 #include "cli/random_displacement.h"
-#include "fcl_prob/mesh_io.h"
-#include "fcl_prob/robot_query.h"
 
 namespace fcl_prob::cli {
 namespace {
 
 constexpr double kThresholdOfStates = 0.05;
-constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kPaddings[] = {2.0, 3.0};  // largest standard deviations
 constexpr double kStepAside = 1e-3;         // metres, of an obstacle between two questions
 
@@ -34,38 +27,6 @@ constexpr int kStatesQuick = 50;
 /// What a state is sampled with, one of so many: that takes up to a second.
 constexpr std::uint64_t kSamplesOfRandomState = 10'000;
 constexpr std::size_t kStatesOfSampled = 100;
-
-Robot robotOf(const std::string& models_folder, const std::string& name) {
-  const std::filesystem::path models(models_folder);
-  if (name == "KUKA iiwa") return Robot((models / "kuka_iiwa/model.urdf").string());
-  RobotOptions options;
-  options.packages["fetch_description"] = (models / "fetch_robot/fetch_description").string();
-  return Robot((models / "fetch_robot/fetch_description/robots/fetch.urdf").string(), options);
-}
-
-/// Uniform within the limits; continuous joints within half a turn.
-Eigen::MatrixXd drawnStates(const Robot& robot, Uniforms& random, int count) {
-  Eigen::MatrixXd states(robot.joints().size(), count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    for (Eigen::Index i = 0; i < states.rows(); ++i) {
-      const RobotJoint& joint = robot.joints()[static_cast<std::size_t>(i)];
-      states(i, k) =
-          random.between(std::max(joint.lower, -kHalfTurn), std::min(joint.upper, kHalfTurn));
-    }
-  }
-  return states;
-}
-
-/// Standing on the floor, 0.4 to 1 m from the robot's axis.
-Obstacle personBeside(const Geometry& mesh, Uniforms& random) {
-  const double direction = random.between(-kHalfTurn, kHalfTurn),
-               distance = random.between(0.4, 1.0);
-  fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = distance * Eigen::Vector3d(std::cos(direction), std::sin(direction), 0.0);
-  pose.rotate(Eigen::AngleAxisd(random.between(-kHalfTurn, kHalfTurn), Eigen::Vector3d::UnitZ()));
-  pose.rotate(Eigen::AngleAxisd(0.5 * kHalfTurn, Eigen::Vector3d::UnitX()));
-  return {"person", mesh, pose, randomError(random, 0.01, 0.05)};
-}
 
 struct StateCosts {
   std::vector<double> certified, moved, collide, probable;  ///< milliseconds a state
@@ -90,19 +51,6 @@ void addPadding(const RobotQuery& query, const Eigen::VectorXd& values, Probable
     costs.false_alarms[i] += !allows && decision == ProbableDecision::certainly_below;
     costs.missed[i] += allows && decision == ProbableDecision::certainly_above;
   }
-}
-
-/// Of the bodies with the obstacle, until one does.
-bool touchesAny(const Robot& robot, const std::vector<fcl::Transform3d>& poses,
-                const fcl::CollisionGeometryd& obstacle, const fcl::Transform3d& pose) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    fcl::CollisionResultd result;
-    if (fcl::collide(robot.bodies()[i].geometry.get(), poses[i], &obstacle, pose,
-                     fcl::CollisionRequestd(), result) > 0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 double msOfCollide(const RobotQuery& query, const Eigen::VectorXd& values) {
@@ -211,14 +159,11 @@ BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& 
       "P\n"
       "is below, and that it allows though P is above. The times at the right are of certified\n"
       "decisions.\n";
-  const Geometry mesh = buildTree(
-      loadMeshIsolated(
-          (std::filesystem::path(options.models_folder) / "human/human_man_4980.obj").string()),
-      "obbrss");
+  const Geometry mesh = personMesh(options.models_folder);
   const std::vector<std::string> names{"KUKA iiwa", "Fetch"};
   for (std::size_t r = 0; r < names.size(); ++r) {
     if (names[r].find(options.only) == std::string::npos) continue;
-    const Robot robot = robotOf(options.models_folder, names[r]);
+    const Robot robot = benchRobot(options.models_folder, names[r]);
     Uniforms random(options.seed + r);
     StateCosts costs;
     const RobotQuery first(robot, {personBeside(mesh, random)});

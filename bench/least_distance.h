@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// What teams ask in place of a probability: how far a robot is from an obstacle.
+// What teams ask in place of a probability: how far a robot is from an obstacle, or whether they
+// touch.
 #pragma once
 
+#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
@@ -24,6 +26,19 @@ inline double leastDistance(const Robot& robot, const std::vector<fcl::Transform
     least = std::min(least, result.min_distance);
   }
   return least;
+}
+
+/// Whether any body touches the geometry at the pose; the first that does ends it.
+inline bool touchesAny(const Robot& robot, const std::vector<fcl::Transform3d>& poses,
+                       const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    fcl::CollisionResultd result;
+    if (fcl::collide(robot.bodies()[i].geometry.get(), poses[i], &geometry, pose,
+                     fcl::CollisionRequestd(), result) > 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace fcl_prob::cli

@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "bench/table2_methods.h"
 
-#include <fcl/narrowphase/collision.h>
-
 #include "bench/least_distance.h"
 #include "bench/table2_bounds.h"
 #include "cli/geometry.h"
@@ -19,12 +17,6 @@ constexpr int kSamplesOfState = 10'000;
 
 const GaussianDisplacement& gaussianOf(const Obstacle& obstacle) {
   return std::get<GaussianDisplacement>(obstacle.displacement);
-}
-
-bool doCollide(const fcl::CollisionGeometryd& a, const fcl::Transform3d& pose_a,
-               const fcl::CollisionGeometryd& b, const fcl::Transform3d& pose_b) {
-  fcl::CollisionResultd result;
-  return fcl::collide(&a, pose_a, &b, pose_b, fcl::CollisionRequestd(), result) > 0;
 }
 
 /// Displaced obstacles, the same standard normal numbers at every state.
@@ -52,16 +44,13 @@ class MonteCarloRow {
 
  private:
   bool isHit(const RobotQuery& query, const Poses& poses, std::size_t sample) const {
-    const auto& bodies = query.robot().bodies();
     for (std::size_t j = 0; j < query.obstacles().size(); ++j) {
       const Obstacle& obstacle = query.obstacles()[j];
       const GaussianDisplacement& error = gaussianOf(obstacle);
       const Eigen::Vector3d scaled = error.standardDeviations().cwiseProduct(normals_[j][sample]);
       fcl::Transform3d pose = obstacle.pose;
       pose.translation() += error.mean() + error.axes() * scaled;
-      for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (doCollide(*bodies[i].geometry, poses[i], *obstacle.geometry, pose)) return true;
-      }
+      if (touchesAny(query.robot(), poses, *obstacle.geometry, pose)) return true;
     }
     return false;
   }
@@ -101,12 +90,9 @@ class PaddingRow {
 
   double operator()(const Table2State& state, double) const {
     const Poses poses = state.query.robot().poses(state.values);
-    const auto& bodies = state.query.robot().bodies();
     for (const Obstacle& obstacle : state.query.obstacles()) {
       const fcl::CollisionGeometryd& thick = *padded_.at(&obstacle);
-      for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (doCollide(*bodies[i].geometry, poses[i], thick, obstacle.pose)) return 1.0;
-      }
+      if (touchesAny(state.query.robot(), poses, thick, obstacle.pose)) return 1.0;
     }
     return 0.0;
   }

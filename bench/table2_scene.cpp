@@ -182,14 +182,7 @@ bool Table2Scene::isFree(const Eigen::VectorXd& values) const {
   if (self.collides(values)) return false;
   const auto poses = robot().poses(values);
   const auto touches = [&](const ExactObstacle& obstacle) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      fcl::CollisionResultd result;
-      if (fcl::collide(robot().bodies()[i].geometry.get(), poses[i], obstacle.geometry.get(),
-                       obstacle.pose, fcl::CollisionRequestd(), result) > 0) {
-        return true;
-      }
-    }
-    return false;
+    return touchesAny(robot(), poses, *obstacle.geometry, obstacle.pose);
   };
   return std::none_of(exact.begin(), exact.end(), touches);
 }
