@@ -67,8 +67,9 @@ int choice(const Json& line, const std::string& name, const char* first, const c
 }
 
 Header read_header(const Json& line) {
-  check(field<int>(line, "fcl_prob_certificate") == 1, "must be of version 1");
   Header header;
+  header.version = field<int>(line, "fcl_prob_certificate");
+  check(header.version == 1 || header.version == 2, "must be of version 1 or 2");
   if (line.contains("name")) header.name = field<std::string>(line, "name");
   header.solid_contact = choice(line, "contact", "surface", "solid") == 1;
   header.mean = field<Vec>(line, "mean");
@@ -194,9 +195,12 @@ void Reader::read_part_or_caps(const Json& line) {
   check_indices(triangles, vertices.size());
   const bool convex = field<bool>(line, "convex");
   check(!convex || !vertices.empty(), "\"vertices\": none");
+  const bool swept = header.version > 1 && line.contains("radius");
+  const double radius = swept ? field<double>(line, "radius") : 0;
+  check(radius >= 0 && (convex || radius == 0), "\"radius\": is not for this part");
   parts[object].push_back({line_, field<std::array<Vec, 3>>(line, "rotation"),
                            field<Vec>(line, "translation"), vertices, triangles, convex,
-                           field<bool>(line, "solid")});
+                           field<bool>(line, "solid"), radius});
 }
 
 void Reader::read_objects() {

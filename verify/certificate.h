@@ -33,6 +33,7 @@ using Triangle = std::array<int, 3>;
 
 struct Header {
   std::string name;  // empty if it has none
+  int version = 1;
   bool solid_contact = false;
   int rank = 0;
   Vec mean{};
@@ -49,6 +50,7 @@ struct Part {
   std::vector<Triangle> triangles;
   bool convex = false;
   bool solid = false;
+  double radius = 0;  // of the ball that a convex part is swept by
 };
 
 /// Triangles that close a part; indices below the part's number of vertices are the part's.

@@ -75,6 +75,11 @@ Frame::Frame(const Header& header)
   if (determinant.sign() == 0 || !determinant.is_finite()) {
     throw Malformed(1, "axes depend on each other, or a deviation is zero");
   }
+  const Precision enough(192);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) inverse[i][j] = (cofactors[i][j] / determinant).nearest();
+    reach[i] = (sqrt(dot(cofactors[i], cofactors[i])) / abs(determinant)).outward(1);
+  }
 }
 
 BallVec Frame::to_world(const BallVec& v) const {
@@ -114,11 +119,14 @@ void Object::add_part(const Part& part, bool with_pieces) {
     }
     return;
   }
-  Piece piece{std::vector<int>(part.vertices.size()), part.triangles};
+  Piece piece{std::vector<int>(part.vertices.size()), part.triangles, part.radius};
   std::iota(piece.vertices.begin(), piece.vertices.end(), first);
   for (Triangle& face : piece.faces) {
     for (int& v : face) v += first;
   }
+  // Of a point or a segment.
+  const int last = piece.vertices.back();
+  if (piece.faces.empty()) piece.faces = {{first, last, last}};
   pieces.push_back(std::move(piece));
 }
 
@@ -157,9 +165,12 @@ int Object::build(int* first, int* last) {
       const double place = points[pieces[*piece].vertices[0]][i];
       lo[i] = std::min(lo[i], place);
       hi[i] = std::max(hi[i], place);
+      const double around = pieces[*piece].radius * frame_->reach[i];
       for (const int v : pieces[*piece].vertices) {
-        node.lo[i] = std::min(node.lo[i], points[v][i] - 2 * error[i]);
-        node.hi[i] = std::max(node.hi[i], points[v][i] + 2 * error[i]);
+        const double lowest = points[v][i] - around, highest = points[v][i] + around;
+        const double margin = 2 * error[i] + 4 * kUnit * (std::abs(points[v][i]) + around);
+        node.lo[i] = std::min(node.lo[i], lowest - margin);
+        node.hi[i] = std::max(node.hi[i], highest + margin);
       }
     }
   }

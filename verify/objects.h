@@ -26,11 +26,15 @@ struct Frame {
   std::array<BallVec, 3> columns;
   std::array<BallVec, 3> cofactors;  // each normal to the other two columns
   Ball determinant;
+  std::array<Vec, 3> inverse;  // rows of M'^-1, rounded
+  Vec reach{};                 // how far a ball of radius 1 reaches along y'_i, rounded up
 };
 
+/// The hull of its vertices, swept by a ball.
 struct Piece {
   std::vector<int> vertices;
   std::vector<Triangle> faces;  // triangle itself, or those of the hull
+  double radius = 0;
 };
 
 /// Of a tree of boxes.

@@ -48,6 +48,7 @@ int root(std::vector<int>& parent, int i) {
 // A closed surface of triangles that all support the vertices covers the boundary of the hull, if
 // the hull has an inside: where it covers it at all it does so as often everywhere.
 void check_convex(const Part& part) {
+  if (part.radius > 0 && part.triangles.empty() && part.vertices.size() <= 2) return;
   const Precision exact(ARF_PREC_EXACT);
   if (!is_closed(part.vertices, part.triangles, true)) {
     throw Malformed(part.line, "triangles of a convex part are not closed");

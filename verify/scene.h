@@ -21,7 +21,8 @@ bool separates(const Frame& frame, const Region& region, const Object& a, const 
                const Object& b, const Piece& l);
 
 /// The half-spaces of which `L - K` is the intersection: planes that support it on both sides,
-/// among them all of its faces.
+/// among them all of its faces. Where K or L is swept by a ball, those of what is swept, and its
+/// surface.
 class Faces {
  public:
   Faces(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l);
@@ -33,8 +34,14 @@ class Faces {
     BallVec slope;  // of the height over y
     Ball lo, hi;    // of L - K
   };
+  void add_surface(const Object& a, const Piece& k, const Object& b, const Piece& l);
+  bool is_near(const BallVec& corner, const Ball& times) const;
+
+  const Frame& frame_;
+  Ball radius_;  // of both balls together
   bool has_inside_ = false;
   std::vector<Slab> slabs_;
+  std::vector<std::array<BallVec, 3>> surface_;  // triangles
 };
 
 class Scene {

@@ -80,6 +80,8 @@ class Scene:
         rotation, translation = [exact(r) for r in part["rotation"]], exact(part["translation"])
         points = [[dot(r, v) + t for r, t in zip(rotation, translation)] for v in map(exact, part["vertices"])]
         faces = [[points[i] for i in t if i >= 0] for t in part["triangles"]]
+        if part.get("radius"):
+            raise ValueError("what is swept by a ball is not for this checker")
         if part["convex"]:
             edges = collections.Counter((t[i - 1], t[i]) for t in part["triangles"] for i in range(3))
             heights = [dot(cross(minus(f[1], f[0]), minus(f[2], f[0])), minus(p, f[0])) for f in faces for p in points]

@@ -3,8 +3,12 @@
 #include "query/certificate_writer.h"
 
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/sphere.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -75,6 +79,23 @@ bool isBox(const fcl::CollisionGeometryd& geometry) {
   return geometry.getNodeType() == fcl::GEOM_BOX;
 }
 
+/// What a sphere or capsule is: a point or segment, swept by a ball.
+struct Rounded {
+  std::vector<Eigen::Vector3d> vertices;
+  double radius;
+};
+
+std::optional<Rounded> roundedOf(const fcl::CollisionGeometryd& geometry) {
+  if (geometry.getNodeType() == fcl::GEOM_SPHERE) {
+    const auto& sphere = static_cast<const fcl::Sphered&>(geometry);
+    return Rounded{{Eigen::Vector3d::Zero()}, sphere.radius};
+  }
+  if (geometry.getNodeType() != fcl::GEOM_CAPSULE) return std::nullopt;
+  const auto& capsule = static_cast<const fcl::Capsuled&>(geometry);
+  const Eigen::Vector3d end(0.0, 0.0, 0.5 * capsule.lz);
+  return Rounded{{-end, end}, capsule.radius};
+}
+
 // A box, or a cell of an octree, which is one about its middle; triangles with their normals
 // outwards.
 TriangleMesh boxOf(const PieceTree& tree, const PieceTree::Part& part, int body,
@@ -101,10 +122,16 @@ void requireCertifiable(const CertifiedObject& object) {
     const fcl::CollisionGeometryd& geometry = *object.geometries[i];
     const GeometryKind kind = kindOf(geometry);
     if (kind == GeometryKind::mesh || kind == GeometryKind::octree || isBox(geometry)) continue;
+    if (roundedOf(geometry)) continue;
     throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " +
                               object.name + ": " + nodeTypeName(geometry.getNodeType()) +
-                              " is neither a mesh nor a Box or OcTree");
+                              " is no mesh, Box, Sphere, Capsule or OcTree");
   }
+}
+
+bool hasRounded(const CertifiedObject& object) {
+  return std::any_of(object.geometries.begin(), object.geometries.end(),
+                     [](const auto* geometry) { return roundedOf(*geometry).has_value(); });
 }
 
 }  // namespace
@@ -125,9 +152,11 @@ void CertificateWriter::frame(const Whitening& whitening,
                          std::to_string(displacement.rank()) + " of which the cells have " +
                          std::to_string(rank_) + " axes");
   }
-  out_ << R"({"fcl_prob_certificate":1,"name":)" << quoted(a_.name + " and " + b_.name)
-       << R"(,"contact":")" << (contact_ == ContactMeaning::solid ? "solid" : "surface")
-       << R"(","mean":)";
+  // Checkers of the first version know no balls.
+  const int version = hasRounded(a_) || hasRounded(b_) ? 2 : 1;
+  out_ << R"({"fcl_prob_certificate":)" << version << R"(,"name":)"
+       << quoted(a_.name + " and " + b_.name) << R"(,"contact":")"
+       << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
   writeVector(out_, displacement.mean());
   out_ << R"(,"axes":)";
   writeVectors(out_, rowsOf(displacement.axes().transpose(), rank_));
@@ -160,8 +189,13 @@ CertificateWriter::Numbers CertificateWriter::writeObject(const CertifiedObject&
       continue;
     }
     for (int body = part.bodies.begin; body < part.bodies.end; ++body) {
-      const TriangleMesh box = boxOf(tree, part, body, geometry);
       numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(body)] = numbers.pieces++;
+      if (const auto rounded = roundedOf(geometry)) {
+        numbers.vertices += static_cast<int>(rounded->vertices.size());
+        writePart({name, object.placed.parts[i]}, rounded->vertices, {}, true, rounded->radius);
+        continue;
+      }
+      const TriangleMesh box = boxOf(tree, part, body, geometry);
       numbers.vertices += static_cast<int>(box.vertices.size());
       writePart({name, object.placed.parts[i]}, box.vertices, trianglesOf(box), true);
     }
@@ -194,7 +228,8 @@ void CertificateWriter::writeMesh(const PieceTree& tree, const PieceTree::Part& 
 
 void CertificateWriter::writePart(const NamedPart& named,
                                   const std::vector<Eigen::Vector3d>& vertices,
-                                  const std::vector<Eigen::Vector3i>& triangles, bool convex) {
+                                  const std::vector<Eigen::Vector3i>& triangles, bool convex,
+                                  double radius) {
   out_ << R"({"part":")" << named.object << R"(","rotation":)";
   writeVectors(out_, rowsOf(named.placed.pose.linear(), 3));
   out_ << R"(,"translation":)";
@@ -204,7 +239,9 @@ void CertificateWriter::writePart(const NamedPart& named,
   out_ << R"(,"triangles":)";
   writeTriangles(out_, triangles);
   out_ << R"(,"convex":)" << (convex ? "true" : "false") << R"(,"solid":)"
-       << (named.placed.solid ? "true" : "false") << "}\n";
+       << (named.placed.solid ? "true" : "false");
+  if (radius > 0.0) out_ << R"(,"radius":)" << numberText(radius);
+  out_ << "}\n";
 }
 
 // Of a single mesh: the apexes are the vertices of its tree that are none of its own.

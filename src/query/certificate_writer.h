@@ -27,7 +27,7 @@ struct CertifiedObject {
 class CertificateWriter : public ClaimObserver {
  public:
   /// Keeps references to all arguments.
-  /// \throws UnsupportedGeometry naming a part that is no mesh, box or octree.
+  /// \throws UnsupportedGeometry naming a part that is no mesh, box, sphere, capsule or octree.
   CertificateWriter(std::ostream& out, const CertifiedObject& a, const CertifiedObject& b,
                     ContactMeaning contact);
   ~CertificateWriter() override { claim_observer = nullptr; }
@@ -71,7 +71,7 @@ class CertificateWriter : public ClaimObserver {
   void writeMesh(const PieceTree& tree, const PieceTree::Part& part,
                  const fcl::CollisionGeometryd& geometry, const NamedPart& named, Numbers& numbers);
   void writePart(const NamedPart& named, const std::vector<Eigen::Vector3d>& vertices,
-                 const std::vector<Eigen::Vector3i>& triangles, bool convex);
+                 const std::vector<Eigen::Vector3i>& triangles, bool convex, double radius = 0.0);
   void writeCaps(const CertifiedObject& object, const char* name, Numbers& numbers);
   Corners cornersOf(const Cell& cell) const;
   void writeCell(const Corners& corners, const CellClaims& claims);

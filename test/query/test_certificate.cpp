@@ -5,6 +5,8 @@
 #include "fcl_prob/certificate.h"
 
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 
@@ -124,14 +126,39 @@ TEST_CASE("Certified answers agree with others: groups, solids, ranks") {
   }
 }
 
+TEST_CASE("Certificates of spheres and capsules beside anything") {
+  const Geometry bumpy = makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 8, 10, 3));
+  const Geometry sphere = std::make_shared<fcl::Sphered>(0.1);
+  const Geometry capsule = std::make_shared<fcl::Capsuled>(0.08, 0.3);
+  for (const Geometry& rounded : {sphere, capsule}) {
+    for (const Geometry& other : {sphere, capsule, box, bumpy}) {
+      for (const GaussianDisplacement& displacement :
+           {normal(0.1, 0.15, 0.1), normal(0.1, 0.2, 0)}) {
+        ProbabilityRequest request;
+        request.relative_tolerance = 0.1;
+        const std::vector<fcl::CollisionObjectd> a{placed(rounded, {0.35, 0.05, 0.1})};
+        const std::vector<fcl::CollisionObjectd> b{placed(other, {0, 0, 0})};
+        const Certified certified = certify(a, b, displacement, request);
+        ProbabilityResult exact;
+        collisionProbability({&a[0]}, {&b[0]}, displacement, request, exact);
+        CHECK(*certified.result.lower <= *exact.upper);
+        CHECK(*certified.result.upper >= *exact.lower);
+        CHECK(certified.result.status == ProbabilityStatus::converged);
+        CHECK(certified.lines[0].find(R"({"fcl_prob_certificate":2,)") == 0);
+        CHECK(count(certified, R"("radius":)") == (other == box || other == bumpy ? 1 : 2));
+      }
+    }
+  }
+}
+
 TEST_CASE("What no certificate can be written of") {
   const auto at = [](const Geometry& geometry) { return placed(geometry, {0.3, 0, 0}); };
-  const auto sphere = std::make_shared<fcl::Sphered>(0.1);
+  const auto cone = std::make_shared<fcl::Coned>(0.1, 0.1);
   const auto half_space = std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), 0.0);
   const GaussianDisplacement error = normal(0.1, 0.1, 0.1);
-  CHECK_THROWS_AS(certify({at(sphere)}, {at(box)}, error), UnsupportedGeometry);
-  CHECK_THROWS_WITH(certify({at(box)}, {at(box), at(sphere)}, error),
-                    Catch::Matchers::Contains("member 1 of group B: Sphere"));
+  CHECK_THROWS_AS(certify({at(cone)}, {at(box)}, error), UnsupportedGeometry);
+  CHECK_THROWS_WITH(certify({at(box)}, {at(box), at(cone)}, error),
+                    Catch::Matchers::Contains("member 1 of group B: Cone"));
   CHECK_THROWS_AS(certify({at(box)}, {at(half_space)}, error), UnsupportedGeometry);
   CHECK_THROWS_AS(certify({at(box)}, {at(box)}, normal(0, 0, 0)), InvalidRequest);
   const auto absent = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);

@@ -136,3 +136,49 @@ def judge_spheres(a, b, radius_a, radius_b, inner_b, center_a, center_b, deviati
                                                           "outside": outside}}]}
         return {} if last else None
     return judge
+
+
+def swept_part(obj, vertices, radius, triangles=(), translation=(0, 0, 0)):
+    """The hull of the vertices swept by a ball."""
+    return {"part": obj, "rotation": IDENTITY, "translation": list(translation),
+            "vertices": [list(v) for v in vertices], "triangles": [list(t) for t in triangles], "convex": True,
+            "solid": False, "radius": radius}
+
+
+def distance_to_hull(points):
+    """Of 0 from the hull of points, by Frank and Wolfe's steps towards the lowest of them and away from the highest:
+    bounds from below and above."""
+    weights = [1.0 / len(points)] * len(points)
+
+    def dot(a, b):
+        return sum(x * y for x, y in zip(a, b))
+    for _ in range(300):
+        at = [sum(w * p[i] for w, p in zip(weights, points)) for i in range(3)]
+        heights = [dot(at, p) for p in points]
+        low = min(range(len(points)), key=lambda i: heights[i])
+        used = [i for i in range(len(points)) if weights[i] > 0]
+        high = max(used, key=lambda i: heights[i])
+        length = math.sqrt(dot(at, at))
+        if length == 0 or dot(at, at) - heights[low] < 1e-4 * length * length:
+            break
+        along = [a - b for a, b in zip(points[low], points[high])]
+        step = min(weights[high], max(0.0, -dot(at, along) / max(dot(along, along), 1e-300)))
+        weights[low] += step
+        weights[high] -= step
+    return (max(0.0, heights[low] / length) if length > 0 else 0.0), length
+
+
+def judge_swept(core_a, core_b, radius, deviations):
+    """Contact of two cores of which one is swept by a ball of this radius: whole cells only."""
+    def judge(lo, hi, last):
+        corners = [[deviations[k] * (hi if c >> k & 1 else lo)[k] if k < len(lo) else 0.0 for k in range(3)]
+                   for c in range(1 << len(lo))]
+        difference = [[x - y for x, y in zip(b, a)] for a in core_a for b in core_b]
+        if all(distance_to_hull([[x - y for x, y in zip(d, c)] for d in difference])[1] < radius * (1 - 1e-6)
+               for c in corners):
+            return {"contact": [{"planes": [], "by": {"pair": [0, 0]}}]}
+        if distance_to_hull([[x - y for x, y in zip(d, c)] for d in difference for c in corners])[0] > (
+                radius * (1 + 1e-6)):
+            return {"free": True}
+        return {} if last else None
+    return judge

@@ -139,6 +139,14 @@ def vertex_by_1_cm_maybe(of, lines, draw):
     return vertex_maybe(of, lines, draw, 1e-2)
 
 
+def radius_maybe(of, lines, draw):
+    swept = [i for i in of.parts if lines[i].get("radius")]
+    if not swept:
+        return False
+    lines[draw.choice(swept)]["radius"] *= draw.choice([0.99, 1.01])
+    return None
+
+
 def deviation_maybe(of, lines, draw):
     k = draw.randrange(len(lines[0]["deviations"]))
     lines[0]["deviations"][k] *= draw.choice([0.99, 1.01])
@@ -154,8 +162,8 @@ def witness_vertex_maybe(of, lines, draw):
 
 
 KINDS = [lower_raised, upper_lowered, leaf_dropped, leaf_twice, verdicts_exchanged, free_level_into_contact,
-         contact_level_into_free, pair_maybe, vertex_by_1e_12_maybe, vertex_by_1_cm_maybe, deviation_maybe,
-         witness_vertex_maybe]
+         contact_level_into_free, pair_maybe, vertex_by_1e_12_maybe, vertex_by_1_cm_maybe, radius_maybe,
+         deviation_maybe, witness_vertex_maybe]
 
 
 def main():

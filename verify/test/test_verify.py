@@ -16,8 +16,8 @@ import tempfile
 import unittest
 
 from judge_boxes import is_true
-from make import (IDENTITY, box_mass, box_part, header, judge_box, judge_spheres, mesh_part, sphere,
-                  split_cells)
+from make import (IDENTITY, box_mass, box_part, header, judge_box, judge_spheres, judge_swept, mesh_part,
+                  sphere, split_cells, swept_part)
 
 VERIFIER = sys.argv[1] if len(sys.argv) > 1 else "fcl_prob_verify"
 PYTHON_VERIFIER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "verify.py")
@@ -167,6 +167,22 @@ class TrueCertificates(unittest.TestCase):
             self.assertLess(answer.lower, mass_outer)
             self.assertGreater(answer.upper, mass_inner)
 
+    def test_balls(self):
+        lines, mass = two_balls()
+        answer = self.verify(lines)
+        self.assertGreater(answer.lower, 0.35 * mass)
+        self.assertLess(answer.lower, mass)
+        self.assertGreater(answer.upper, mass)
+        self.assertLess(answer.upper, 2 * mass)
+
+    def test_what_is_swept_by_balls(self):
+        draw = random.Random(3)
+        for case in range(6):
+            lines = swept_pair(draw, case)
+            answer = self.verify(lines)
+            self.assertGreater(answer.upper, answer.lower)
+            self.assertGreater(sum("cell" in line and "contact" in line for line in lines), 0)
+
     def test_open_box_with_a_cap(self):
         answer = self.verify(open_box())
         self.assertAlmostEqual(answer.lower, box_mass([-.25] * 3, [.25] * 3), delta=1e-14)
@@ -244,6 +260,39 @@ def two_spheres(solid, level=2, depth=12):
         return (0.5 * (math.erf((r - distance) / math.sqrt(2)) + math.erf((r + distance) / math.sqrt(2)))
                 - (density(r - distance) - density(r + distance)) / distance)
     return lines, mass(2 * inner), mass(2)
+
+
+def swept_header(deviations):
+    return {**header(len(deviations), (0, 0, 0), deviations), "fcl_prob_certificate": 2}
+
+
+def two_balls():
+    """At the same place: |ε| < 1.5 with standard normals."""
+    cells = split_cells([-4.0] * 3, [4.0] * 3, 12, judge_swept([[0, 0, 0]], [[0, 0, 0]], 1.5, [1, 1, 1]))
+    mass = math.erf(1.5 / math.sqrt(2)) - math.sqrt(2 / math.pi) * 1.5 * math.exp(-1.125)
+    return certificate(swept_header([1, 1, 1]), [swept_part("A", [[0, 0, 0]], 1.0), swept_part("B", [[0, 0, 0]], 0.5)],
+                       cells), mass
+
+
+def swept_pair(draw, case):
+    """A point or segment swept by a ball beside one, a triangle, or a box, all of them turned and moved at random."""
+    def points(count):
+        return [[draw.gauss(0, 0.6) for _ in range(3)] for _ in range(count)]
+    swept, radius = points(1 + case % 2), draw.uniform(0.8, 1.2)
+    kind = case // 2 % 3
+    if kind == 0:
+        core = points(1 + draw.randrange(2))
+        other, more = swept_part("B", core, 0.25), 0.25
+    elif kind == 1:
+        core, more = points(3), 0.0
+        other = mesh_part("B", core, [[0, 1, 2]])
+    else:
+        other, more = box_part("B", [-.5, -.25, -.125], [.25, .5, 1]), 0.0
+        core = other["vertices"]
+    deviations = [draw.uniform(0.5, 1.5) for _ in range(3 - case % 2)]
+    cells = split_cells([-3.0] * len(deviations), [3.0] * len(deviations), 9,
+                        judge_swept(swept, core, radius + more, deviations))
+    return certificate(swept_header(deviations), [swept_part("A", swept, radius), other], cells)
 
 
 def open_box():
@@ -530,6 +579,22 @@ class FalseCertificates(unittest.TestCase):
             lines[2]["triangles"].pop(rng.randrange(128))
             self.assertNotEqual(Answer(lines).code, 0)
 
+    def test_radii_that_are_not_so(self):
+        draw = random.Random(3)
+        for case in range(6):
+            lines = swept_pair(draw, case)
+            # Cells may be within the box whatever is swept.
+            for factor in (3.0,) if lines[2]["triangles"][1:] else (0.01, 3.0):
+                changed = json.loads(json.dumps(lines))
+                for part in changed[1:3]:
+                    part["radius"] = factor * part.get("radius", 0)
+                if not changed[2]["convex"]:
+                    del changed[2]["radius"]
+                self.assertEqual(Answer(changed).code, 1, (case, factor))
+            # Version 1 knows no balls.
+            lines[0]["fcl_prob_certificate"] = 1
+            self.assertNotEqual(Answer(lines).code, 0)
+
     def test_changes_of_caps_and_needles(self):
         def change(where):
             lines = open_box()
@@ -583,11 +648,22 @@ class Malformed(unittest.TestCase):
             self.assertEqual(Answer(text[:rng.randrange(len(text) - 2)]).code, 2)
         self.assertEqual(Answer(text + text.splitlines()[-1]).code, 2)
 
+    def test_radii(self):
+        lines, _ = two_balls()
+        for radius in (-1.0, "1", 1e400):
+            lines[1]["radius"] = radius
+            self.assertEqual(Answer(lines).code, 2)
+        triangle = mesh_part("A", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        lines[1] = {**triangle, "radius": 0.5}
+        self.assertEqual(Answer(lines).code, 2)
+        lines[1] = swept_part("A", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], 0.5)
+        self.assertEqual(Answer(lines).code, 2)
+
     def test_fields(self):
         lines, _, _ = two_boxes(2, depth=5)
         text = "".join(json.dumps(line) + "\n" for line in lines)
         for before, after in (('"cells": ', '"cells": 1'), ('"contact": "surface"', '"contact": "all"'),
-                              ('certificate": 1', 'certificate": 2'), ('"convex": true', '"convex": 1'),
+                              ('certificate": 1', 'certificate": 3'), ('"convex": true', '"convex": 1'),
                               ('"mean": [0, ', '"mean": [1e999, '), ('"mean": [0, ', '"mean": ['),
                               ('[0, 2, 1]', '[0, 2, 8]'), ('[0, 2, 1]', '[0, 2, -1]'),
                               ('"pair"', '"pear"'), ('"lower": ', '"lower": null, "x": ')):
