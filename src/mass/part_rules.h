@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "gaussian/density_kernels.h"
+#include "gaussian/density_kernel.h"
 #include "gaussian/gauss_legendre.h"
 #include "gaussian/normal_density.h"
 #include "mass/solid_part.h"
@@ -232,7 +232,7 @@ template <class Part>
 DensitySums evaluateBox(const Part& part, const ParameterBox& box, const PartPlan& plan) {
   DensityLines lines;
   addLines(part, box, partRule(plan.points[0]), partRule(plan.points[1]), lines);
-  return densityKernel()(lines, distanceNodes<Part>(box, partRule(plan.points[2])));
+  return densityOfLines(lines, distanceNodes<Part>(box, partRule(plan.points[2])));
 }
 
 }  // namespace fcl_prob::detail

@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 #include "base/symmetric_axes.h"
-#include "mass/rule_kernels.h"
+#include "mass/rule_kernel.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -57,8 +57,7 @@ struct PointRule {
   double meanDensity(const SimplexMass::Corners& v) const {
     double corners[12];
     for (int k = 0; k < 12; ++k) corners[k] = v[static_cast<std::size_t>(k / 3)][k % 3];
-    static const RuleKernel kernel = ruleKernel();
-    return kernel(share[0], weight, corners, kCount);
+    return weightedDensity(share[0], weight, corners, kCount);
   }
 };
 

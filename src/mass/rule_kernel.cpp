@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// To be compiled once for every instruction set, four numbers at a time by the vector extension of
-// gcc and clang: the same operations in the same order.
+#include "mass/rule_kernel.h"
+
 #include <cstdint>
 #include <cstring>
 
-#include "mass/rule_kernels.h"
+#include "base/with_avx2.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -14,10 +14,10 @@ constexpr int kRuleLanes = 4;
 typedef double RuleLanes __attribute__((vector_size(32)));
 typedef std::uint64_t RuleBits __attribute__((vector_size(32)));
 
-inline void load(const double* from, RuleLanes& lanes) { std::memcpy(&lanes, from, sizeof lanes); }
+void load(const double* from, RuleLanes& lanes) { std::memcpy(&lanes, from, sizeof lanes); }
 
 /// Replaces s by exp(-s) for 0 <= s <= kMostRuleExponent, quicker than to the last digit.
-inline void fastExp(RuleLanes& s) {
+void fastExp(RuleLanes& s) {
   constexpr double kMagic = 0x1.8p52;  // added, it leaves the integer in the lowest bits
   constexpr double kLog2e = 1.44269504088896340736;
   constexpr double kLn2High = 0x1.62e42fefa38p-1;
@@ -38,8 +38,11 @@ inline void fastExp(RuleLanes& s) {
   s = scale * series;
 }
 
-inline double weightedDensity(const double* shares, const double* weights, const double* corners,
-                              int count) {
+}  // namespace
+
+FCL_PROB_WITH_AVX2
+double weightedDensity(const double* shares, const double* weights, const double* corners,
+                       int count) {
   RuleLanes sum{};
   const RuleLanes most = RuleLanes{} + kMostRuleExponent;
   for (int first = 0; first < count; first += kRuleLanes) {
@@ -60,5 +63,4 @@ inline double weightedDensity(const double* shares, const double* weights, const
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-}  // namespace
 }  // namespace fcl_prob::detail

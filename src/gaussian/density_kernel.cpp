@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
-// To be compiled once for every instruction set, four numbers at a time by the vector extension of
-// gcc and clang, which also has them where there are no such registers: the same operations in the
-// same order.
+#include "gaussian/density_kernel.h"
+
 #include <cstdint>
 #include <cstring>
 
-#include "gaussian/density_kernels.h"
+#include "base/with_avx2.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -18,7 +17,7 @@ typedef std::uint64_t LaneBits __attribute__((vector_size(32)));
 /// Replaces x, -708 <= x <= 0, by exp(x): 2^k exp(r), |r| <= log(2)/2, by Taylor's polynomial of
 /// degree 11, whose remainder is below 7e-15. 2^k is added to the exponent's bits; k is in the low
 /// bits of x log₂e plus 1.5 2^52.
-inline void exponentiate(Lanes& x) {
+void exponentiate(Lanes& x) {
   constexpr double kRound = 6755399441055744.0, kLog2E = 1.4426950408889634;
   // The first has zeros at its end, so that its product with k is exact (Cody and Waite 1980).
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
@@ -39,12 +38,15 @@ inline void exponentiate(Lanes& x) {
   std::memcpy(&x, &bits, sizeof x);
 }
 
-inline void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
+void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
 
-inline double sumOf(const Lanes& lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
+double sumOf(const Lanes& lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
 
-/// Four lines at a time, node by node.
-inline DensitySums densityOfLines(const DensityLines& lines, const DensityNodes& nodes) {
+}  // namespace
+
+// Four lines at a time, node by node.
+FCL_PROB_WITH_AVX2
+DensitySums densityOfLines(const DensityLines& lines, const DensityNodes& nodes) {
   Lanes total{}, moment[3] = {}, farthest{};
   const Lanes least = Lanes{} - 708.0;
   for (int first = 0; first < lines.count; first += kLanes) {
@@ -84,5 +86,4 @@ inline DensitySums densityOfLines(const DensityLines& lines, const DensityNodes&
   return sums;
 }
 
-}  // namespace
 }  // namespace fcl_prob::detail

@@ -28,13 +28,6 @@ struct DensitySums {
 };
 
 /// A term is right to (|y|² + 40) 2^-52 of itself, and to 1e-307 of its weight.
-using DensityKernel = DensitySums (*)(const DensityLines& lines, const DensityNodes& nodes);
-
-/// The fastest for the processor; all of them have identical results.
-DensityKernel densityKernel();
-
-#if defined(__x86_64__)
-DensityKernel densityKernelAvx2();
-#endif
+DensitySums densityOfLines(const DensityLines& lines, const DensityNodes& nodes);
 
 }  // namespace fcl_prob::detail

@@ -5,7 +5,7 @@
 
 namespace fcl_prob::detail {
 
-/// What fastExp() in rule_kernels.inl.h may be off by, relative: its series ends behind the seventh
+/// What fastExp() in rule_kernel.cpp may be off by, relative: its series ends behind the seventh
 /// power, and 0.347⁸ / 8! · e^0.347 < 7.4e-9.
 inline constexpr double kRuleExpError = 8e-9;
 
@@ -17,14 +17,7 @@ inline constexpr double kMostRuleExponent = 700.0;
 /// \param shares   those of the corner v_k from shares[k count] on
 /// \param corners  v_k at corners[3 k]
 /// \param count    a multiple of four: what is not needed has no weight
-using RuleKernel = double (*)(const double* shares, const double* weights, const double* corners,
-                              int count);
-
-/// The fastest for the processor; all of them have identical results.
-RuleKernel ruleKernel();
-
-#if defined(__x86_64__)
-RuleKernel ruleKernelAvx2();
-#endif
+double weightedDensity(const double* shares, const double* weights, const double* corners,
+                       int count);
 
 }  // namespace fcl_prob::detail
