@@ -8,7 +8,9 @@
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <utility>
@@ -22,6 +24,7 @@
 #include "bench/part_scenes.h"
 #include "cli/number_text.h"
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/mesh_io.h"
 #ifdef FCL_PROB_HAS_ROBOT
 #include "bench/random_states.h"
 #endif
@@ -35,7 +38,8 @@ constexpr double kMostSecondsOfRung = 1.0;
 constexpr double kOnce = 0.1;
 constexpr std::size_t kMixedScenes = 30;
 constexpr std::size_t kShapePairs = 40;
-constexpr std::size_t kPartScenes = 28;
+constexpr std::size_t kPartScenes = 21;  // beside an arm, and beside a tray
+constexpr double kTrayLength = 0.4;
 
 /// Of each robot, of those that have P between these two.
 constexpr int kStatesOfLadder = 10;
@@ -52,8 +56,10 @@ struct LadderScene {
 /// Rungs, and mechanisms inside of them, by the names that detail::isLeftOut() is asked for.
 const std::vector<std::string>& whatCanBeLeftOut() {
   static const std::vector<std::string> all{
-      "root volumes",  "convex meshes",   "exact mass",       "lines", "columns", "polytope cells",
-      "nearly convex", "layers of nodes", "curved boundaries"};
+      "root volumes",      "convex meshes",  "exact mass",         "lines",
+      "columns",           "polytope cells", "nearly convex",      "layers of nodes",
+      "curved boundaries", "parts of cells", "layers by topology", "closest approach",
+      "inner mass",        "polygons"};
   return all;
 }
 
@@ -87,13 +93,27 @@ void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes
   }
 }
 
-// Every other one as solids.
-void addPartScenes(const BenchOptions& options, std::vector<LadderScene>& scenes) {
-  PartScenes parts(options.models_folder, options.seed);
-  const std::size_t count = options.quick ? PartScenes::names().size() : kPartScenes;
+/// A tray with flat sides, as CAD has them, 0.4 m long.
+TriangleMesh trayMesh(const std::string& models_folder) {
+  const std::filesystem::path models(models_folder);
+  TriangleMesh tray = loadMeshIsolated((models / "cad/1002_tray_bottom.STL").string());
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : tray.vertices) box.extend(vertex);
+  for (Eigen::Vector3d& vertex : tray.vertices) {
+    vertex = (vertex - box.center()) * (kTrayLength / box.sizes().maxCoeff());
+  }
+  return tray;
+}
+
+// Every other one as solids, if the other body is closed.
+void addPartScenes(const BenchOptions& options, const std::string& group, TriangleMesh beside,
+                   std::vector<LadderScene>& scenes) {
+  PartScenes parts(options.models_folder, options.seed, std::move(beside));
+  const std::size_t names = PartScenes::names().size();
+  const std::size_t count = options.quick ? names : kPartScenes;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::shared_ptr<PreparedScene> drawn = parts.next(i % PartScenes::names().size()).scene;
-    scenes.push_back({"parts", [drawn, is_solid = i % 2 == 1] {
+    const std::shared_ptr<PreparedScene> drawn = parts.next(i % names).scene;
+    scenes.push_back({group, [drawn, is_solid = group == "parts" && i % 2 == 1] {
                         const Ask ask = askOf(std::make_shared<PreparedScene>(
                             drawn->objectA(), drawn->objectB(), drawn->displacement(), "obbrss"));
                         return Ask([=](ProbabilityRequest request) {
@@ -257,7 +277,7 @@ class LadderTable {
     report.title = "What each rung, and each mechanism, is worth";
     report.table = TextTable({"left out", "climbed", "answered", "share of time", "all: median",
                               "mean", "90 %", "statues: mean", "mixed: mean", "parts: mean",
-                              "states: mean", "shapes: mean"});
+                              "trays: mean", "states: mean", "shapes: mean"});
     for (const auto& [name, climbed] : rungs_) {
       const auto listed = std::find(whatCanBeLeftOut().begin(), whatCanBeLeftOut().end(), name);
       if (listed == whatCanBeLeftOut().end()) addRow(name, climbed, report);
@@ -266,8 +286,9 @@ class LadderTable {
     report.notes =
         "Intervals of 10 % and 1 %, estimates of 1 % and decisions at 5 %, 1 s at most, one "
         "thread:\n"
-        "the six statues, 30 mixed pairs (`bench mixed`), 28 robot parts beside an arm (`bench\n"
-        "parts`), 10 states of each robot beside a person whose P is 1e-4 to 0.9, 40 pairs of\n"
+        "the six statues, 30 mixed pairs (`bench mixed`), 21 robot parts beside an arm (`bench\n"
+        "parts`) and 21 beside a tray of flat sides, 10 states of each robot beside a person whose "
+        "P is 1e-4 to 0.9, 40 pairs of\n"
         "convex shapes. `climbed`,\n"
         "`answered`: of " +
         std::to_string(queries_) +
@@ -297,7 +318,7 @@ class LadderTable {
                       is_rung ? numberText(climbed.seconds / seconds_, 2) : "",
                       over("all", at(0.5)), over("all", mean), over("all", at(0.9)),
                       over("statues", mean), over("mixed", mean), over("parts", mean),
-                      over("states", mean), over("shapes", mean)});
+                      over("trays", mean), over("states", mean), over("shapes", mean)});
   }
 
   const BenchOptions& options_;
@@ -313,7 +334,8 @@ class LadderTable {
 BenchReport benchLadder(const BenchOptions& options, const BenchProgress& progress) {
   std::vector<LadderScene> scenes;
   addMeshScenes(options, scenes);
-  addPartScenes(options, scenes);
+  addPartScenes(options, "parts", armMesh(options.models_folder), scenes);
+  addPartScenes(options, "trays", trayMesh(options.models_folder), scenes);
 #ifdef FCL_PROB_HAS_ROBOT
   addRobotStates(options, scenes);
 #endif

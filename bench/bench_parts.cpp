@@ -33,7 +33,7 @@ class PartsTable {
  public:
   explicit PartsTable(const BenchOptions& options)
       : options_(options),
-        drawn_(options.models_folder, options.seed),
+        drawn_(options.models_folder, options.seed, armMesh(options.models_folder)),
         measured_(2 * tasks().size()) {}
 
   /// All tasks for a scene of one part.

@@ -3,6 +3,7 @@
 #include "bench/part_scenes.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "bench/pose_beside.h"
 #include "fcl_prob/mesh_io.h"
@@ -31,26 +32,32 @@ const std::vector<std::string>& PartScenes::names() {
   return all;
 }
 
-PartScenes::PartScenes(const std::string& models_folder, std::uint64_t seed)
-    : seed_(seed), random_(seed) {
+TriangleMesh armMesh(const std::string& models_folder) {
+  const std::filesystem::path models(models_folder);
+  return loadMeshIsolated((models / "human/human_arm_left_2000.obj").string());
+}
+
+PartScenes::PartScenes(const std::string& models_folder, std::uint64_t seed, TriangleMesh beside)
+    : seed_(seed),
+      random_(seed),
+      beside_mesh_(std::move(beside)),
+      beside_(buildTree(beside_mesh_, "obbrss")) {
   const std::filesystem::path models(models_folder);
   for (const char* file : kPartFiles) {
     meshes_.push_back(loadMeshIsolated((models / file).string()));
     geometries_.push_back(buildTree(meshes_.back(), "obbrss"));
   }
-  arm_mesh_ = loadMeshIsolated((models / "human/human_arm_left_2000.obj").string());
-  arm_ = buildTree(arm_mesh_, "obbrss");
 }
 
 PartScene PartScenes::next(std::size_t part) {
   for (;;) {
     const double apart = random_.between(0.002, 0.08);
     const fcl::Transform3d pose =
-        poseBeside(random_, geometries_[part], arm_mesh_, arm_, apart, 2.0, 30);
+        poseBeside(random_, geometries_[part], beside_mesh_, beside_, apart, 2.0, 30);
     const GaussianDisplacement error = randomError(random_, 0.01, 0.05);
     PartScene drawn{std::make_unique<PreparedScene>(
                         LoadedObject{meshes_[part], pose},
-                        LoadedObject{arm_mesh_, fcl::Transform3d::Identity()}, error, "obbrss"),
+                        LoadedObject{beside_mesh_, fcl::Transform3d::Identity()}, error, "obbrss"),
                     {}};
     drawn.loop = timeFclLoop(*drawn.scene, kChecksOfPart, seed_ + drawn_);
     if (drawn.loop.estimate() < kLeastOfPart) continue;

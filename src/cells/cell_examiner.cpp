@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/left_out.h"
 #include "mass/cell_layer.h"
 
 namespace fcl_prob::detail {
@@ -137,7 +138,7 @@ std::optional<CuttingPair> CellExaminer::findLeader() {
 
 void CellExaminer::improveByTopology(std::optional<CuttingPair>& best) {
   const Cell& cell = front_.cell();
-  if (cell.empty() || !witness()) return;
+  if (cell.empty() || !witness() || isLeftOut("layers by topology")) return;
   near_ = front_.coarse();
   for (const CuttingPair& cutting : front_.cutting()) {
     if (!cutting.pair.isLayer()) near_.push_back(cutting.pair);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/constants.h"
+#include "base/left_out.h"
 #include "convex/slab_kernels.h"
 #include "fcl_prob/normal_mass.h"
 
@@ -161,6 +162,7 @@ LineSpan InnerMass::within(const std::vector<int>& faces, const Eigen::Vector3d&
 
 // In small columns what all lines of one have in common is nearly what each of them has.
 double InnerMass::of(const Column& column, const Eigen::Vector3d& point) const {
+  if (isLeftOut("inner mass")) return 0.0;
   const Strips first = stripsOf(column.lo[0], column.hi[0]);
   const Strips second = stripsOf(column.lo[1], column.hi[1]);
   const Strip all_first = unitedStrip(first), all_second = unitedStrip(second);
