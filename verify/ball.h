@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cfloat>
+#include <cmath>
 #include <utility>
 
 namespace verify {
@@ -117,6 +118,7 @@ template <class V>
 V plus(const V& a, const V& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
+inline double length(const Vec& v) { return std::sqrt(dot(v, v)); }
 inline BallVec balls(const Vec& v) { return {Ball(v[0]), Ball(v[1]), Ball(v[2])}; }
 
 }  // namespace verify

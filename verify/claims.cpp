@@ -86,7 +86,8 @@ void check_witness(const Scene& scene, const Region& region, const Witness& witn
     require(static_cast<std::size_t>(witness.pair[x]) < scene.objects[x].pieces.size(),
             "there is no piece " + std::to_string(witness.pair[x]));
   }
-  require(scene.faces(witness.pair[0], witness.pair[1]).contain(region),
+  const Object &a = scene.objects[0], &b = scene.objects[1];
+  require(contains(scene.frame, region, a, a.pieces[witness.pair[0]], b, b.pieces[witness.pair[1]]),
           "the pieces do not certainly touch in all of it");
 }
 

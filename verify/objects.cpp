@@ -82,6 +82,59 @@ Frame::Frame(const Header& header)
   }
 }
 
+Vec Frame::normal_in_world(const Vec& n) const {
+  Vec result{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result[j] += n[i] * inverse[i][j];
+  }
+  return result;
+}
+
+Vec Piece::turned(const Vec& v) const {
+  if (radius == 0) return {};
+  return {dot((*rotation)[0], v), dot((*rotation)[1], v), dot((*rotation)[2], v)};
+}
+
+BallVec Piece::turned(const BallVec& v) const {
+  BallVec result;
+  for (int i = 0; i < 3 && radius > 0; ++i) result[i] = dot(balls((*rotation)[i]), v);
+  return result;
+}
+
+Vec Piece::turned_back(const Vec& n) const {
+  Vec result{};
+  for (int i = 0; i < 3 && radius > 0; ++i) {
+    for (int j = 0; j < 3; ++j) result[j] += (*rotation)[i][j] * n[i];
+  }
+  return result;
+}
+
+BallVec Piece::turned_back(const BallVec& n) const {
+  BallVec result;
+  for (int i = 0; i < 3 && radius > 0; ++i) {
+    for (int j = 0; j < 3; ++j) result[j] = result[j] + Ball((*rotation)[i][j]) * n[i];
+  }
+  return result;
+}
+
+Vec Piece::farthest_swept(const Vec& normal) const {
+  Vec back = turned_back(normal);
+  const double size = length(back);
+  for (double& x : back) x = size > 0 ? radius * (1 - 8 * kUnit) * x / size : 0;
+  return back;
+}
+
+bool Piece::sweeps(const Vec& point) const {
+  const BallVec at = balls(point);
+  return dot(at, at) <= Ball(radius) * Ball(radius);
+}
+
+double Piece::size_of_rotation() const {
+  double sum = 0;
+  for (int i = 0; i < 3 && radius > 0; ++i) sum += dot((*rotation)[i], (*rotation)[i]);
+  return std::sqrt(sum) * (1 + 16 * kUnit);
+}
+
 BallVec Frame::to_world(const BallVec& v) const {
   BallVec result;
   for (int i = 0; i < 3; ++i) result = plus(result, scaled(columns[i], v[i]));
@@ -115,24 +168,18 @@ void Object::add_part(const Part& part, bool with_pieces) {
   if (!part.convex) {
     for (const Triangle& t : part.triangles) {
       const Triangle moved{first + t[0], first + t[1], first + t[2]};
-      pieces.push_back({{moved.begin(), moved.end()}, {moved}});
+      pieces.push_back({{moved.begin(), moved.end()}});
     }
     return;
   }
-  Piece piece{std::vector<int>(part.vertices.size()), part.triangles, part.radius};
+  Piece piece{std::vector<int>(part.vertices.size()), part.radius, &part.rotation};
   std::iota(piece.vertices.begin(), piece.vertices.end(), first);
-  for (Triangle& face : piece.faces) {
-    for (int& v : face) v += first;
-  }
-  // Of a point or a segment.
-  const int last = piece.vertices.back();
-  if (piece.faces.empty()) piece.faces = {{first, last, last}};
   pieces.push_back(std::move(piece));
 }
 
 void Object::add_caps(const Part& part, const Caps& caps) {
   for (const Vec& vertex : caps.vertices) add_vertex(part, vertex);
-  for (const Triangle& t : caps.triangles) pieces.push_back({{t.begin(), t.end()}, {t}});
+  for (const Triangle& t : caps.triangles) pieces.push_back({{t.begin(), t.end()}});
 }
 
 Object Object::single(int vertex) const {
@@ -141,7 +188,7 @@ Object Object::single(int vertex) const {
   result.points = {points[vertex]};
   result.error = error;
   result.bound = bound;
-  result.pieces = {{{0}, {}}};
+  result.pieces = {{{0}}};
   result.finish();
   return result;
 }
@@ -165,10 +212,11 @@ int Object::build(int* first, int* last) {
       const double place = points[pieces[*piece].vertices[0]][i];
       lo[i] = std::min(lo[i], place);
       hi[i] = std::max(hi[i], place);
-      const double around = pieces[*piece].radius * frame_->reach[i];
+      const double around =
+          pieces[*piece].radius * pieces[*piece].size_of_rotation() * frame_->reach[i];
       for (const int v : pieces[*piece].vertices) {
         const double lowest = points[v][i] - around, highest = points[v][i] + around;
-        const double margin = 2 * error[i] + 4 * kUnit * (std::abs(points[v][i]) + around);
+        const double margin = 2 * error[i] + 8 * kUnit * (std::abs(points[v][i]) + around);
         node.lo[i] = std::min(node.lo[i], lowest - margin);
         node.hi[i] = std::max(node.hi[i], highest + margin);
       }

@@ -19,6 +19,8 @@ struct Frame {
   explicit Frame(const Header& header);
   /// `M' v` of a vector of y'.
   BallVec to_world(const BallVec& v) const;
+  /// What is a normal n in y' is `M'^-T n` there, rounded.
+  Vec normal_in_world(const Vec& n) const;
 
   int rank;
   slong bits;  // the precision in which to decide: all exact, if there is no whitening
@@ -30,11 +32,23 @@ struct Frame {
   Vec reach{};                 // how far a ball of radius 1 reaches along y'_i, rounded up
 };
 
-/// The hull of its vertices, swept by a ball.
+/// The hull of its vertices, swept by a ball that is turned with its part.
 struct Piece {
   std::vector<int> vertices;
-  std::vector<Triangle> faces;  // triangle itself, or those of the hull
   double radius = 0;
+  const std::array<Vec, 3>* rotation = nullptr;  // of the part; only where there is a ball
+
+  /// From the frame of the part to the world, and R^T of a normal in the world.
+  Vec turned(const Vec& v) const;
+  BallVec turned(const BallVec& v) const;
+  Vec turned_back(const Vec& n) const;
+  BallVec turned_back(const BallVec& n) const;
+  /// The point of the ball that is farthest along a normal in the world, rounded: in the frame of
+  /// the part.
+  Vec farthest_swept(const Vec& normal) const;
+  /// Whether that certainly is a point of the ball.
+  bool sweeps(const Vec& point) const;
+  double size_of_rotation() const;  // not below its norm
 };
 
 /// Of a tree of boxes.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -177,19 +176,19 @@ bool separates_by_doubles(const Frame& frame, const Region& region, const Object
   for (int i = 0; i < 3; ++i) {
     error[i] = a.error[i] + b.error[i] + 16 * kUnit * (a.bound[i] + b.bound[i] + region.bound[i]);
   }
-  // In the world the normal is w = M'^-T n.
-  const double radius = (k.radius + l.radius) * (1 + 4 * kUnit);
   const auto sweep = [&](const Vec& n) -> std::optional<Swept<double>> {
-    if (radius == 0) return std::nullopt;
-    Vec w{};
-    double rounding = 0;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) w[j] += n[i] * frame.inverse[i][j];
-      rounding += 16 * kUnit * std::abs(n[i]) * frame.reach[i];
+    if (k.radius + l.radius == 0) return std::nullopt;
+    const Vec w = frame.normal_in_world(n);
+    double rounding = 0;  // of w
+    for (int i = 0; i < 3; ++i) rounding += 32 * kUnit * std::abs(n[i]) * frame.reach[i];
+    Swept<double> swept;
+    for (const Piece* piece : {&k, &l}) {
+      const double size = piece->radius * piece->size_of_rotation();
+      swept.height += piece->radius * length(piece->turned_back(w)) * (1 + 32 * kUnit) +
+                      size * (rounding + 32 * kUnit * length(w));
+      const Vec at = piece->turned(piece->farthest_swept(w));
+      for (int i = 0; i < 3; ++i) swept.at[i] += dot(frame.inverse[i], at);
     }
-    const double length = std::sqrt(dot(w, w));
-    Swept<double> swept{radius * (length + rounding) * (1 + 16 * kUnit), {}};
-    for (int i = 0; i < 3; ++i) swept.at[i] = radius * dot(frame.inverse[i], w) / length;
     return swept;
   };
   const auto accept = [&](const Vec& n, const Least<double>& found) {
@@ -199,75 +198,216 @@ bool separates_by_doubles(const Frame& frame, const Region& region, const Object
   return search(corners, minus(minus(corners.l[0], corners.k[0]), corners.q[0]), sweep, accept);
 }
 
-// How much of each corner the point of a triangle has that is nearest to 0, up to rounding.
-Vec nearest_weights(const std::array<Vec, 3>& t) {
-  Vec best{};
-  double least = HUGE_VAL;
-  const auto consider = [&](const Vec& weights) {
-    Vec point{};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) point[j] += weights[i] * t[i][j];
-    }
-    const double distance = dot(point, point);
-    if (!(distance < least)) return;
-    least = distance;
-    best = weights;
-  };
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const Vec along = minus(t[j], t[i]);
-    const double share = -dot(t[i], along) / dot(along, along);
-    Vec weights{};
-    weights[i] = 1;
-    consider(weights);
-    weights[i] = 1 - share;
-    weights[j] = share;
-    if (share > 0 && share < 1) consider(weights);
-  }
-  const Vec e = minus(t[1], t[0]), f = minus(t[2], t[0]);
-  const double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), det = ee * ff - ef * ef;
-  const double s = (dot(t[0], f) * ef - dot(t[0], e) * ff) / det;
-  const double u = (dot(t[0], e) * ef - dot(t[0], f) * ee) / det;
-  if (s > 0 && u > 0 && s + u < 1) consider({1 - s - u, s, u});
-  return best;
-}
-
-// An edge, and from one of its ends the third vertices of the faces at it.
-struct Edge {
-  BallVec from, along;
-  std::vector<BallVec> sides;
-  bool has_on_both_sides(const BallVec& normal) const {
-    return sides.size() == 2 && dot(normal, sides[0]).sign() * dot(normal, sides[1]).sign() < 0;
-  }
+// A point of L - K.
+struct Sum {
+  int k = -1, l = -1;  // vertices; none for the mean of all,
+  int more = 0;        // in which the first ones count for so much more
+  Vec of_k{}, of_l{};  // what the balls add to that, in the frames of their parts
+  Vec seen{};          // in the coordinates of points, from the corner that is looked for, rounded
 };
 
-std::vector<Edge> edges_of(const Object& object, const Piece& piece) {
-  std::map<std::pair<int, int>, Edge> edges;
-  for (const Triangle& face : piece.faces) {
-    for (int i = 0; i < 3; ++i) {
-      const auto [from, to] = std::minmax(face[i], face[(i + 1) % 3]);
-      Edge& edge = edges[{from, to}];
-      edge.from = object.exact[from];
-      edge.along = minus(object.exact[to], edge.from);
-      edge.sides.push_back(minus(object.exact[face[(i + 2) % 3]], object.exact[from]));
+// Whether one corner of a region is in L - K: it is if it is in a simplex of four points of it.
+class Enclosure {
+ public:
+  Enclosure(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l)
+      : frame_(frame), a_(a), b_(b), k_(k), l_(l) {}
+
+  bool holds(const Vec& corner, const BallVec& exact, const Ball& times) {
+    corner_ = corner;
+    exact_ = frame_.to_world(exact);
+    times_ = &times;
+    // The mean of some vertices, and others where it is in line with what should not be.
+    for (int attempt = 0; attempt < 4; ++attempt) {
+      if (is_inside(middle(attempt))) return true;
     }
+    return false;
   }
-  std::vector<Edge> result;
-  for (const auto& edge : edges) result.push_back(edge.second);
-  return result;
-}
+
+ private:
+  Sum middle(int more) const {
+    Sum sum;
+    sum.more = more;
+    const auto mean = [&](const Object& object, const Piece& piece) {
+      Vec result{};
+      double count = 0;
+      for (const int v : piece.vertices) {
+        const double share = v == piece.vertices[0] ? 1 + more : 1;
+        for (int i = 0; i < 3; ++i) result[i] += share * object.points[v][i];
+        count += share;
+      }
+      for (double& x : result) x /= count;
+      return result;
+    };
+    sum.seen = minus(minus(mean(b_, l_), mean(a_, k_)), corner_);
+    return sum;
+  }
+
+  // The farthest along a normal.
+  Sum farthest(const Vec& n) const {
+    Sum sum;
+    double highest = -HUGE_VAL, lowest = HUGE_VAL;
+    for (const int v : l_.vertices) {
+      const double height = dot(n, b_.points[v]);
+      if (height > highest) sum.l = v;
+      highest = std::max(highest, height);
+    }
+    for (const int v : k_.vertices) {
+      const double height = dot(n, a_.points[v]);
+      if (height < lowest) sum.k = v;
+      lowest = std::min(lowest, height);
+    }
+    sum.seen = minus(minus(b_.points[sum.l], a_.points[sum.k]), corner_);
+    if (k_.radius + l_.radius == 0) return sum;
+    const Vec w = frame_.normal_in_world(n);
+    sum.of_k = k_.farthest_swept(opposite(w));
+    sum.of_l = l_.farthest_swept(w);
+    const Vec moved = minus(l_.turned(sum.of_l), k_.turned(sum.of_k));
+    for (int i = 0; i < 3; ++i) sum.seen[i] += dot(frame_.inverse[i], moved);
+    return sum;
+  }
+
+  // The ray from the middle to the corner leads through a triangle of points, or beside it: then on
+  // the other side of the plane of two of them and the middle there is a third one. While the
+  // corner is beyond it the triangle is moved outwards (Snethen, XenoCollide, 2008).
+  bool is_inside(const Sum& middle) const {
+    Sum p = farthest(middle.seen == Vec{} ? Vec{1, 0, 0} : opposite(middle.seen));
+    const BallVec at = exact(p);
+    if (std::all_of(at.begin(), at.end(), [](const Ball& x) { return x.is_zero(); })) return true;
+    Sum q = farthest(normal_to(p.seen, middle.seen));
+    Sum r = farthest(cross(minus(p.seen, middle.seen), minus(q.seen, middle.seen)));
+    const std::array<Sum*, 3> corners{&p, &q, &r};
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Side side = side_of({middle, p, q, r});
+      if (side == kInside || side == kUnclear) return side == kInside;
+      if (side == kBeyond) {
+        if (!move_outwards(middle, p, q, r)) return false;
+        continue;
+      }
+      Sum& replaced = *corners[side];
+      const Sum &one = *corners[(side + 1) % 3], &two = *corners[(side + 2) % 3];
+      const Vec n = cross(minus(one.seen, middle.seen), minus(two.seen, middle.seen));
+      const bool flip = dot(n, minus(replaced.seen, middle.seen)) > 0;
+      replaced = farthest(flip ? opposite(n) : n);
+    }
+    return false;
+  }
+
+  // False where no point is farther.
+  bool move_outwards(const Sum& middle, Sum& p, Sum& q, Sum& r) const {
+    Vec n = cross(minus(q.seen, p.seen), minus(r.seen, p.seen));
+    if (dot(n, minus(p.seen, middle.seen)) < 0) {
+      std::swap(q, r);
+      n = opposite(n);
+    }
+    const Sum beyond = farthest(n);
+    if (!(dot(n, beyond.seen) > dot(n, p.seen))) return false;
+    const Vec across = cross(beyond.seen, middle.seen);
+    if (dot(p.seen, across) > 0) {
+      (dot(q.seen, across) > 0 ? p : r) = beyond;
+    } else {
+      (dot(r.seen, across) > 0 ? q : p) = beyond;
+    }
+    return true;
+  }
+
+  static Vec opposite(const Vec& v) { return {-v[0], -v[1], -v[2]}; }
+
+  // Some direction across both.
+  static Vec normal_to(const Vec& a, const Vec& b) {
+    const Vec n = cross(a, b);
+    if (dot(n, n) > 1e-20 * dot(a, a) * dot(b, b)) return n;  // not in line
+    const Vec c = std::abs(a[0]) < std::abs(a[1]) ? Vec{1, 0, 0} : Vec{0, 1, 0};
+    return cross(a, c);
+  }
+
+  // How much all vertices count in a mean.
+  static Ball count(const Sum& mean, const Piece& piece) {
+    return Ball(static_cast<double>(piece.vertices.size()) + mean.more);
+  }
+
+  // In balls, in the world, from the corner, times a positive number.
+  BallVec exact(const Sum& sum) const {
+    BallVec result;
+    if (sum.l >= 0) {
+      result = minus(plus(b_.exact[sum.l], l_.turned(balls(sum.of_l))),
+                     plus(a_.exact[sum.k], k_.turned(balls(sum.of_k))));
+      for (Ball& x : result) x = x * *times_;
+      return minus(result, exact_);
+    }
+    const Ball more(sum.more);
+    const auto total = [&](const Object& object, const Piece& piece) {
+      BallVec all = object.exact[piece.vertices[0]];
+      for (Ball& x : all) x = x * more;
+      for (const int v : piece.vertices) all = plus(all, object.exact[v]);
+      return all;
+    };
+    const BallVec of_k = total(a_, k_), of_l = total(b_, l_);
+    const Ball k_count = count(sum, k_), l_count = count(sum, l_);
+    for (int i = 0; i < 3; ++i) {
+      result[i] = (of_l[i] * k_count - of_k[i] * l_count) * *times_ - exact_[i] * k_count * l_count;
+    }
+    return result;
+  }
+
+  // Where the corner is: within the simplex of the middle and three points, beside it where the
+  // first, second or third of them is not, beyond them, or that cannot be told.
+  enum Side { kFirst, kSecond, kThird, kBeyond, kInside, kUnclear };
+
+  Side side_of(const std::array<Sum, 4>& points) const {
+    for (const Sum& sum : points) {
+      if (!k_.sweeps(sum.of_k) || !l_.sweeps(sum.of_l)) return kUnclear;
+    }
+    const slong all = Ball::bits;
+    for (const slong bits : {slong{128}, all}) {
+      const Precision precision(bits);
+      std::array<BallVec, 4> v;
+      for (int i = 0; i < 4; ++i) v[i] = exact(points[i]);
+      // The corner is the mean of the points by these weights, volumes, of which all but the last
+      // are of vectors that are scaled alike.
+      const Ball weights[] = {
+          -dot(v[0], cross(v[2], v[3])), dot(v[0], cross(v[1], v[3])),
+          -dot(v[0], cross(v[1], v[2])),
+          dot(v[1], cross(v[2], v[3])) * count(points[0], k_) * count(points[0], l_)};
+      const int side = (weights[0] + weights[1] + weights[2] + weights[3]).sign();
+      bool is_clear = side != 0;
+      for (int i = 0; i < 4 && is_clear; ++i) {
+        const Ball weight = side > 0 ? weights[i] : -weights[i];
+        if (weight.sign() < 0) return static_cast<Side>(i);
+        is_clear = Ball(0) <= weight;
+      }
+      if (is_clear) return kInside;
+    }
+    return kUnclear;
+  }
+
+  static constexpr int kMostSteps = 100;
+
+  const Frame& frame_;
+  const Object &a_, &b_;
+  const Piece &k_, &l_;
+  Vec corner_{};
+  BallVec exact_;  // the corner in the world, times `times_`
+  const Ball* times_ = nullptr;
+};
 
 }  // namespace
 
 bool separates(const Frame& frame, const Region& region, const Object& a, const Piece& k,
                const Object& b, const Piece& l) {
   if (separates_by_doubles(frame, region, a, k, b, l)) return true;
-  const Ball radius = Ball(k.radius) + Ball(l.radius);
-  const Precision precision(radius.is_zero() ? Ball::bits : kSweptBits);
+  const bool is_swept = k.radius + l.radius > 0;
+  const Precision precision(is_swept ? kSweptBits : Ball::bits);
   const auto sweep = [&](const BallVec& n) -> std::optional<Swept<Ball>> {
-    if (radius.is_zero()) return std::nullopt;
-    const Ball length = sqrt(dot(n, n)), share = radius / length;
-    return Swept<Ball>{radius * length, {share * n[0], share * n[1], share * n[2]}};
+    if (!is_swept) return std::nullopt;
+    Swept<Ball> swept;
+    for (const Piece* piece : {&k, &l}) {
+      if (piece->radius == 0) continue;
+      const BallVec back = piece->turned_back(n);
+      const Ball size = sqrt(dot(back, back)), share = Ball(piece->radius) / size;
+      swept.height = swept.height + share * dot(back, back);
+      swept.at = plus(swept.at, piece->turned({share * back[0], share * back[1], share * back[2]}));
+    }
+    return swept;
   };
   Corners<Ball> corners;
   for (const int v : k.vertices) corners.k.push_back(a.exact[v]);
@@ -284,101 +424,11 @@ bool separates(const Frame& frame, const Region& region, const Object& a, const 
   return search(corners, minus(corners.l[0], corners.k[0]), sweep, accept);
 }
 
-Faces::Faces(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l)
-    : frame_(frame), radius_(Ball(k.radius) + Ball(l.radius)) {
-  std::vector<BallVec> of_k, of_l;
-  for (const int v : k.vertices) of_k.push_back(a.exact[v]);
-  for (const int v : l.vertices) of_l.push_back(b.exact[v]);
-  const auto add = [&](const BallVec& normal) {
-    const BallVec opposite{-normal[0], -normal[1], -normal[2]};
-    std::size_t at = 0;
-    Slab slab;
-    slab.lo = least_of(normal, of_l, at) + least_of(opposite, of_k, at);
-    slab.hi = -(least_of(opposite, of_l, at) + least_of(normal, of_k, at));
-    for (int i = 0; i < frame.rank; ++i) slab.slope[i] = dot(normal, frame.columns[i]);
-    slabs_.push_back(slab);
-    // Of what is in a plane all edges are, and all normals are normal to it.
-    has_inside_ = has_inside_ || slab.lo < slab.hi;
-  };
-  const std::vector<Edge> edges_k = edges_of(a, k), edges_l = edges_of(b, l);
-  for (const auto& [object, piece] : {std::pair{&a, &k}, std::pair{&b, &l}}) {
-    for (const Triangle& t : piece->faces) {
-      const BallVec& from = object->exact[t[0]];
-      add(cross(minus(object->exact[t[1]], from), minus(object->exact[t[2]], from)));
-    }
-  }
-  // The plane along both edges supports K or L only if both faces at its edge are on one side.
-  for (const Edge& e : edges_k) {
-    for (const Edge& f : edges_l) {
-      const BallVec normal = cross(e.along, f.along);
-      if (!e.has_on_both_sides(normal) && !f.has_on_both_sides(normal)) add(normal);
-    }
-  }
-  if (!radius_.is_zero()) add_surface(a, k, b, l);
-}
-
-// Of the surface of L - K, and if it is flat of all of it, triangles.
-void Faces::add_surface(const Object& a, const Piece& k, const Object& b, const Piece& l) {
-  for (const Triangle& t : l.faces) {
-    for (const int v : k.vertices) {
-      surface_.emplace_back();
-      for (int i = 0; i < 3; ++i) surface_.back()[i] = minus(b.exact[t[i]], a.exact[v]);
-    }
-  }
-  for (const Triangle& t : k.faces) {
-    for (const int v : l.vertices) {
-      surface_.emplace_back();
-      for (int i = 0; i < 3; ++i) surface_.back()[i] = minus(b.exact[v], a.exact[t[i]]);
-    }
-  }
-  for (const Edge& e : edges_of(a, k)) {
-    for (const Edge& f : edges_of(b, l)) {
-      const BallVec corner = minus(f.from, e.from),
-                    opposite = minus(plus(corner, f.along), e.along);
-      surface_.push_back({corner, plus(corner, f.along), opposite});
-      surface_.push_back({corner, minus(corner, e.along), opposite});
-    }
-  }
-}
-
-// Whether a corner is no farther from the surface than the ball reaches.
-bool Faces::is_near(const BallVec& corner, const Ball& times) const {
-  const Precision precision(kSweptBits);
-  const BallVec at = frame_.to_world(corner);
-  for (const std::array<BallVec, 3>& triangle : surface_) {
-    std::array<BallVec, 3> seen;  // from the corner, times `times`
-    std::array<Vec, 3> rounded;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        seen[i][j] = triangle[i][j] * times - at[j];
-        rounded[i][j] = (seen[i][j] / times).nearest();
-      }
-    }
-    const Vec weights = nearest_weights(rounded);
-    BallVec sum;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) sum[j] = sum[j] + Ball(weights[i]) * seen[i][j];
-    }
-    const Ball reach = radius_ * times * (Ball(weights[0]) + Ball(weights[1]) + Ball(weights[2]));
-    if (dot(sum, sum) <= reach * reach) return true;
-  }
-  return false;
-}
-
-bool Faces::contain(const Region& region) const {
-  const slong all = Ball::bits;
-  const auto inside = [&](const Slab& slab, std::size_t corner, slong bits) {
-    const Precision precision(bits);
-    const Ball height = dot(slab.slope, region.exact[corner]);
-    const Ball& times = region.times[corner];
-    return slab.lo * times <= height && height <= slab.hi * times;
-  };
-  for (std::size_t i = 0; i < region.exact.size(); ++i) {
-    const bool within =
-        has_inside_ && std::all_of(slabs_.begin(), slabs_.end(), [&](const Slab& slab) {
-          return inside(slab, i, 64) || inside(slab, i, all);
-        });
-    if (!within && (radius_.is_zero() || !is_near(region.exact[i], region.times[i]))) return false;
+bool contains(const Frame& frame, const Region& region, const Object& a, const Piece& k,
+              const Object& b, const Piece& l) {
+  Enclosure enclosure(frame, a, k, b, l);
+  for (std::size_t i = 0; i < region.corners.size(); ++i) {
+    if (!enclosure.holds(region.corners[i], region.exact[i], region.times[i])) return false;
   }
   return true;
 }

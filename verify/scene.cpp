@@ -45,33 +45,6 @@ int root(std::vector<int>& parent, int i) {
   return i;
 }
 
-// A closed surface of triangles that all support the vertices covers the boundary of the hull, if
-// the hull has an inside: where it covers it at all it does so as often everywhere.
-void check_convex(const Part& part) {
-  if (part.radius > 0 && part.triangles.empty() && part.vertices.size() <= 2) return;
-  const Precision exact(ARF_PREC_EXACT);
-  if (!is_closed(part.vertices, part.triangles, true)) {
-    throw Malformed(part.line, "triangles of a convex part are not closed");
-  }
-  const BallVec row = balls(part.rotation[0]);
-  const int mirrored = dot(row, cross(balls(part.rotation[1]), balls(part.rotation[2]))).sign();
-  if (mirrored == 0) throw Malformed(part.line, "rotation is singular");
-  std::vector<BallVec> points;
-  for (const Vec& v : part.vertices) points.push_back(balls(v));
-  bool has_inside = false;
-  for (const Triangle& t : part.triangles) {
-    const BallVec& from = points[t[0]];
-    const BallVec normal = cross(minus(points[t[1]], from), minus(points[t[2]], from));
-    const Ball level = dot(normal, from);
-    for (const BallVec& point : points) {
-      const int side = mirrored * (dot(normal, point) - level).sign();
-      if (side > 0) throw Malformed(part.line, "a vertex is outside of a face");
-      has_inside |= side < 0;
-    }
-  }
-  if (!has_inside) throw Malformed(part.line, "a convex part is in a plane");
-}
-
 // A box of directions, seen from the point, that the ray along d misses for certain.
 bool misses(const Vec& lo, const Vec& hi, const Vec& d) {
   Vec center, half;
@@ -117,7 +90,6 @@ void Scene::add_object(int x, const std::vector<Caps>& cap_lines) {
   const Object none(frame, x, parts[0][0].translation);
   Object all = none, only_caps = none, with_caps = none;
   for (const Part& part : parts[x]) {
-    if (part.convex) check_convex(part);
     all.add_part(part);
     if (!solid_contact || !part.solid || part.convex) continue;
     if (!verify::is_closed(part.vertices, part.triangles, true)) {
@@ -278,16 +250,6 @@ Scene::Crossings Scene::crossings(int x, int vertex, const Object& surface,
     if (result.known) return result;
   }
   return {};
-}
-
-const Faces& Scene::faces(int k, int l) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  auto& known = faces_[{k, l}];
-  if (!known) {
-    const auto &a = objects[0], &b = objects[1];
-    known = std::make_unique<const Faces>(frame, a, a.pieces[k], b, b.pieces[l]);
-  }
-  return *known;
 }
 
 Scene::Nesting Scene::nesting(const BallVec& y) const {

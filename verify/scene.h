@@ -4,9 +4,6 @@
 // cells.
 #pragma once
 
-#include <map>
-#include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -20,29 +17,10 @@ namespace verify {
 bool separates(const Frame& frame, const Region& region, const Object& a, const Piece& k,
                const Object& b, const Piece& l);
 
-/// The half-spaces of which `L - K` is the intersection: planes that support it on both sides,
-/// among them all of its faces. Where K or L is swept by a ball, those of what is swept, and its
-/// surface.
-class Faces {
- public:
-  Faces(const Frame& frame, const Object& a, const Piece& k, const Object& b, const Piece& l);
-  /// Whether `L - K` has an inside and certainly contains the displacements of the region.
-  bool contain(const Region& region) const;
-
- private:
-  struct Slab {
-    BallVec slope;  // of the height over y
-    Ball lo, hi;    // of L - K
-  };
-  void add_surface(const Object& a, const Piece& k, const Object& b, const Piece& l);
-  bool is_near(const BallVec& corner, const Ball& times) const;
-
-  const Frame& frame_;
-  Ball radius_;  // of both balls together
-  bool has_inside_ = false;
-  std::vector<Slab> slabs_;
-  std::vector<std::array<BallVec, 3>> surface_;  // triangles
-};
+/// Whether pieces k of a and l of b certainly touch everywhere in the region: its corners are in
+/// `L - K`, which is convex.
+bool contains(const Frame& frame, const Region& region, const Object& a, const Piece& k,
+              const Object& b, const Piece& l);
 
 class Scene {
  public:
@@ -62,8 +40,6 @@ class Scene {
   };
   /// What a ray from a vertex of object x crosses of `surface`, of the other object, at y.
   Crossings crossings(int x, int vertex, const Object& surface, const BallVec& y) const;
-  /// Of a pair of pieces; kept, since many cells share them. Threads may ask at the same time.
-  const Faces& faces(int k, int l) const;
 
   Frame frame;
   bool solid_contact;
@@ -81,8 +57,6 @@ class Scene {
 
   std::array<std::vector<Object>, 2> solids_;
   std::array<std::vector<int>, 2> representatives_;  // a vertex of each component
-  mutable std::mutex mutex_;
-  mutable std::map<std::pair<int, int>, std::unique_ptr<const Faces>> faces_;
 };
 
 /// What has been verified, added up. One a thread.

@@ -20,11 +20,12 @@ namespace fcl_prob {
 /// displacements, and what proves it. verify/FORMAT.md says how it is written, `fcl_prob_verify`
 /// checks it.
 ///
-/// Members are meshes (as surfaces, or as solids where the request says so), boxes, spheres,
-/// capsules and octrees, a cell of which is written as the box that it is in doubles. Everything is
-/// proven by boxes of the displacement space, on one thread: what other queries use besides
-/// (exact masses, bounds by root volumes, polytope cells) is left out, so that this takes longer
-/// than they do. The certificate is one of what is known where a limit ends the query, too.
+/// Members are meshes (as surfaces, or as solids where the request says so), Boxes, Convexes,
+/// TrianglePs, Spheres, Capsules and OcTrees, a cell of which is written as the box that it is in
+/// doubles. Everything is proven by boxes of the displacement space, on one thread: what other
+/// queries use besides (exact masses, bounds by root volumes, polytope cells) is left out, so that
+/// this takes longer than they do. The certificate is one of what is known where a limit ends the
+/// query, too.
 ///
 /// \param certificate  JSON Lines; what is left in it after an exception is of no use
 /// \param result       assigned only on success

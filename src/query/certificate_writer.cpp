@@ -14,6 +14,7 @@
 
 #include "base/number_text.h"
 #include "fcl_prob/exceptions.h"
+#include "geometry/convex_vertices.h"
 #include "geometry/mesh_visitor.h"
 #include "geometry/outer_mesh.h"
 
@@ -79,21 +80,26 @@ bool isBox(const fcl::CollisionGeometryd& geometry) {
   return geometry.getNodeType() == fcl::GEOM_BOX;
 }
 
-/// What a sphere or capsule is: a point or segment, swept by a ball.
-struct Rounded {
+/// The hull of some points, swept by a ball.
+struct SweptHull {
   std::vector<Eigen::Vector3d> vertices;
-  double radius;
+  double radius = 0.0;
 };
 
-std::optional<Rounded> roundedOf(const fcl::CollisionGeometryd& geometry) {
+/// What a polytope, sphere or capsule is, metres, geometry's frame; nothing for others.
+std::optional<SweptHull> sweptHullOf(const fcl::CollisionGeometryd& geometry) {
   if (geometry.getNodeType() == fcl::GEOM_SPHERE) {
     const auto& sphere = static_cast<const fcl::Sphered&>(geometry);
-    return Rounded{{Eigen::Vector3d::Zero()}, sphere.radius};
+    return SweptHull{{Eigen::Vector3d::Zero()}, sphere.radius};
   }
-  if (geometry.getNodeType() != fcl::GEOM_CAPSULE) return std::nullopt;
-  const auto& capsule = static_cast<const fcl::Capsuled&>(geometry);
-  const Eigen::Vector3d end(0.0, 0.0, 0.5 * capsule.lz);
-  return Rounded{{-end, end}, capsule.radius};
+  if (geometry.getNodeType() == fcl::GEOM_CAPSULE) {
+    const auto& capsule = static_cast<const fcl::Capsuled&>(geometry);
+    const Eigen::Vector3d end(0.0, 0.0, 0.5 * capsule.lz);
+    return SweptHull{{-end, end}, capsule.radius};
+  }
+  auto vertices = polytopeVertices(geometry);
+  if (!vertices) return std::nullopt;
+  return SweptHull{std::move(*vertices)};
 }
 
 // A box, or a cell of an octree, which is one about its middle; triangles with their normals
@@ -121,17 +127,19 @@ void requireCertifiable(const CertifiedObject& object) {
   for (std::size_t i = 0; i < object.geometries.size(); ++i) {
     const fcl::CollisionGeometryd& geometry = *object.geometries[i];
     const GeometryKind kind = kindOf(geometry);
-    if (kind == GeometryKind::mesh || kind == GeometryKind::octree || isBox(geometry)) continue;
-    if (roundedOf(geometry)) continue;
+    if (kind == GeometryKind::mesh || kind == GeometryKind::octree) continue;
+    if (sweptHullOf(geometry)) continue;
     throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " +
                               object.name + ": " + nodeTypeName(geometry.getNodeType()) +
-                              " is no mesh, Box, Sphere, Capsule or OcTree");
+                              " is no mesh, polytope, Sphere, Capsule or OcTree");
   }
 }
 
-bool hasRounded(const CertifiedObject& object) {
-  return std::any_of(object.geometries.begin(), object.geometries.end(),
-                     [](const auto* geometry) { return roundedOf(*geometry).has_value(); });
+// Boxes have had triangles from the first version on.
+bool isOfFirstVersion(const CertifiedObject& object) {
+  return std::all_of(object.geometries.begin(), object.geometries.end(), [](const auto* geometry) {
+    return isBox(*geometry) || !sweptHullOf(*geometry);
+  });
 }
 
 }  // namespace
@@ -152,8 +160,7 @@ void CertificateWriter::frame(const Whitening& whitening,
                          std::to_string(displacement.rank()) + " of which the cells have " +
                          std::to_string(rank_) + " axes");
   }
-  // Checkers of the first version know no balls.
-  const int version = hasRounded(a_) || hasRounded(b_) ? 2 : 1;
+  const int version = isOfFirstVersion(a_) && isOfFirstVersion(b_) ? 1 : 2;
   out_ << R"({"fcl_prob_certificate":)" << version << R"(,"name":)"
        << quoted(a_.name + " and " + b_.name) << R"(,"contact":")"
        << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
@@ -190,9 +197,10 @@ CertificateWriter::Numbers CertificateWriter::writeObject(const CertifiedObject&
     }
     for (int body = part.bodies.begin; body < part.bodies.end; ++body) {
       numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(body)] = numbers.pieces++;
-      if (const auto rounded = roundedOf(geometry)) {
-        numbers.vertices += static_cast<int>(rounded->vertices.size());
-        writePart({name, object.placed.parts[i]}, rounded->vertices, {}, true, rounded->radius);
+      const auto hull = isBox(geometry) ? std::nullopt : sweptHullOf(geometry);
+      if (hull) {
+        numbers.vertices += static_cast<int>(hull->vertices.size());
+        writePart({name, object.placed.parts[i]}, hull->vertices, {}, true, hull->radius);
         continue;
       }
       const TriangleMesh box = boxOf(tree, part, body, geometry);

@@ -24,8 +24,8 @@ constexpr std::size_t kMostCells = 2000;
 bool mayHaveCertificate(const Scene& scene) {
   const auto isSimple = [](const Member& member) {
     const Kind kind = member.shape.kind;
-    return (kind == Kind::mesh || kind == Kind::box || kind == Kind::octree ||
-            kind == Kind::sphere || kind == Kind::capsule) &&
+    const bool is_curved = kind == Kind::ellipsoid || kind == Kind::cone || kind == Kind::cylinder;
+    return !is_curved && kind != Kind::halfspace && kind != Kind::plane &&
            member.shape.isOccupied();
   };
   return (scene.question == Question::pair || scene.question == Question::group) &&

@@ -11,8 +11,8 @@
 
 namespace fcl_prob_audit {
 
-/// Writes the certificate of a pair or group of meshes, boxes, spheres, capsules and
-/// octrees, and has `verifier`
+/// Writes the certificate of a pair or group of meshes, polytopes, spheres, capsules
+/// and octrees, and has `verifier`
 /// (fcl_prob_verify) check it; scenes that no certificate can be written of are passed over.
 void checkByVerifier(const Scene& scene, const std::string& verifier, Tally& tally,
                      std::vector<Violation>& found);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 // Obstacles of several bodies, contacts that are allowed, and obstacles that change.
 #include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cone.h>
 
 #include <sstream>
 
@@ -235,7 +236,11 @@ TEST_CASE("certificates of a state and a motion: one an obstacle, the same inter
   const RobotResult three =
       query.certified({values, 1.5 * values, 2.0 * values}, withTolerance(0.05), motion);
   CHECK(three.any.upper >= one.any.lower);
-  const RobotQuery ball(robot, ballAndBox());
-  std::ostringstream unused;
-  CHECK_THROWS_AS(ball.certified({values}, {}, unused), UnsupportedGeometry);
+  std::ostringstream of_ball, unused;
+  CHECK(RobotQuery(robot, ballAndBox()).certified({values}, {}, of_ball).any.upper > 0.0);
+  CHECK(of_ball.str().find("\"radius\":") != std::string::npos);
+  std::vector<Obstacle> cone = ballAndBox();
+  cone[0].geometry = std::make_shared<fcl::Coned>(0.1, 0.2);
+  const RobotQuery beside(robot, cone);
+  CHECK_THROWS_AS(beside.certified({values}, {}, unused), UnsupportedGeometry);
 }

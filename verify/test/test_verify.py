@@ -656,8 +656,6 @@ class Malformed(unittest.TestCase):
         triangle = mesh_part("A", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         lines[1] = {**triangle, "radius": 0.5}
         self.assertEqual(Answer(lines).code, 2)
-        lines[1] = swept_part("A", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], 0.5)
-        self.assertEqual(Answer(lines).code, 2)
 
     def test_fields(self):
         lines, _, _ = two_boxes(2, depth=5)
