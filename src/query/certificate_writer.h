@@ -27,7 +27,8 @@ struct CertifiedObject {
 class CertificateWriter : public ClaimObserver {
  public:
   /// Keeps references to all arguments.
-  /// \throws UnsupportedGeometry naming a part that is no mesh, polytope, sphere, capsule or octree.
+  /// \throws UnsupportedGeometry naming a part that is no mesh, polytope, sphere, capsule or
+  /// octree.
   CertificateWriter(std::ostream& out, const CertifiedObject& a, const CertifiedObject& b,
                     ContactMeaning contact);
   ~CertificateWriter() override { claim_observer = nullptr; }
