@@ -59,7 +59,7 @@ const std::vector<std::string>& whatCanBeLeftOut() {
       "root volumes",      "convex meshes",  "exact mass",         "lines",
       "columns",           "polytope cells", "nearly convex",      "layers of nodes",
       "curved boundaries", "parts of cells", "layers by topology", "closest approach",
-      "inner mass",        "polygons"};
+      "polygons"};
   return all;
 }
 

@@ -31,9 +31,6 @@ constexpr double kGapOfHalf = 0.35;
 // Of what may be in a column: what one line does not tell of.
 constexpr double kUnseen = 0.3;
 
-// Of what the line in the middle has: a bound from below that is more is good enough.
-constexpr double kEnoughOfMiddle = 0.5;
-
 // Of a sum of masses.
 constexpr double kRounded = 1e-12;
 
@@ -91,12 +88,6 @@ const WholeBodyLines::LineContacts& ColumnLooks::middleOf(int column) {
   if (!is_new) return known.middle;
   const LineColumns::Node& node = columns_[column];
   known.middle = lines_.contactsOn(detail::middleOf(node.column), node.met, taken_);
-  const auto parent = known_.find(node.parent);
-  if (parent == known_.end()) return known.middle;
-  // The parent's best touch is its first one.
-  auto& touches = known.middle.touches;
-  const auto& of_parent = parent->second.middle.touches;
-  if (!of_parent.empty()) touches.push_back(of_parent.front());
   return known.middle;
 }
 
@@ -108,21 +99,10 @@ double ColumnLooks::mostOf(int column) {
   return known.most;
 }
 
-// One body at one point is asked where the triangles of the chain do not tell most of it: that
-// takes longer, but says something of columns that the C-obstacles cover in part.
 double ColumnLooks::leastOf(int column) {
   KnownColumn& known = known_.at(column);
   if (std::exchange(known.has_least, true)) return known.least;
-  const Column& place = columns_[column].column;
-  known.least = lines_.leastOn(place, known.middle.chain);
-  if (known.least > kEnoughOfMiddle * known.middle.mass) return known.least;
-  auto& touches = known.middle.touches;
-  for (auto& touch : touches) {
-    const double least = lines_.leastOn(place, touch);
-    if (!(least > known.least)) continue;
-    known.least = least;
-    std::swap(touch, touches.front());
-  }
+  known.least = lines_.leastOn(columns_[column].column, known.middle.chain);
   return known.least;
 }
 

@@ -16,20 +16,11 @@ class InnerMass {
   /// Keeps a reference to the fan.
   explicit InnerMass(const WhitenedFan& fan);
 
-  /// No more than what the lines of a column have of P put to a point, under N(0, 1), in the mean:
-  /// certain but for the rounding of the sum.
-  double of(const Column& column, const Eigen::Vector3d& point) const;
-
   /// A part of what one line has of P put to a point, nearly all of it; lo > hi: nothing. Certain.
   LineSpan on(const Eigen::Vector2d& u, const Eigen::Vector3d& point) const;
 
  private:
   double leftOf(int face, const Eigen::Vector3d& from) const;
-  double widthOf(int face, const Eigen::Vector2d& half) const;
-  std::vector<int> endsWithin(const std::vector<int>& faces, const Eigen::Vector3d& from,
-                              const Eigen::Vector2d& half) const;
-  LineSpan within(const std::vector<int>& faces, const Eigen::Vector3d& from,
-                  const Eigen::Vector2d& half) const;
 
   /// Faces at which lines enter P, or leave it: where the line at u = 0 does, with P put to 0, and
   /// how much later beside it.
@@ -40,7 +31,6 @@ class InnerMass {
   Ends endsOf(double sign) const;
 
   const WhitenedFan& fan_;
-  std::vector<int> all_faces_;  ///< their indices
   Ends entries_, exits_;
   std::vector<int> along_;  ///< faces that are neither
 };

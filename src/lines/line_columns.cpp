@@ -97,7 +97,6 @@ void LineColumns::divideOne(int node, double rest) {
   for (const Column& half : {low, high}) {
     nodes_.push_back(nodeOf(half, met, most));
     Node& child = nodes_.back();
-    child.parent = node;
     child.weight = by_mass_ ? child.mass() : child.most > 0.0 ? weight : 0.0;
   }
 }

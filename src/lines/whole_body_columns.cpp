@@ -83,11 +83,6 @@ double WholeBodyLines::mostOn(const Met& met) {
   return std::min(1.0, mass * (1.0 + kRoundedLines));
 }
 
-double WholeBodyLines::leastOn(const Column& column, const Touch& touch) const {
-  const Member& member = members_[static_cast<std::size_t>(touch.member)];
-  return member.inner.of(column, touch.point) * (1.0 - kRoundedLines);
-}
-
 // In order of where the column may first meet them, until no other one can be met before those.
 CornerValues WholeBodyLines::entriesAt(const CornerMeans& means, const Column& column,
                                        const Met& met) {

@@ -119,12 +119,8 @@ WholeBodyLines::LineContacts WholeBodyLines::contactsOn(const Eigen::Vector2d& u
                                                         Taken taken) {
   // Such lines are far from each other.
   known_.clear();
-  LineContacts contacts{massOn(u, met, kRoughly, taken), {}, {}};
-  for (const Stretch& stretch : stretches_) {
-    contacts.touches.push_back({stretch.first.member->index, stretch.point});
-  }
-  contacts.chain = chainOf();
-  return contacts;
+  const double mass = massOn(u, met, kRoughly, taken);
+  return {mass, chainOf()};
 }
 
 // Triangles that together make most of the stretch with the largest mass, in order.
@@ -258,13 +254,12 @@ void WholeBodyLines::test(const Visit& visit, const Eigen::Vector2d& u) {
   }
   const auto from = line.first(triangle, u, 1.0, visit.span.hi);
   if (!from) return;
-  const Eigen::Vector3d point = line.touchedPoint(u);
   if (!to) {
     LineSpan left{std::max(*from, visit.span.lo), visit.span.hi};
     if (isSettled(left)) return;
     to = endOf({visit.place, left}, u);
   }
-  if (to && *from < *to) add({{*from, *to}, visit.place, visit.place, point});
+  if (to && *from < *to) add({{*from, *to}, visit.place, visit.place});
 }
 
 // Where what is behind the end of the part that is easily known makes no difference, that will do.
@@ -293,7 +288,6 @@ void WholeBodyLines::add(Stretch stretch) {
     if (last->span.lo < stretch.span.lo) {
       stretch.span.lo = last->span.lo;
       stretch.first = last->first;
-      stretch.point = last->point;
     }
     if (last->span.hi > stretch.span.hi) {
       stretch.span.hi = last->span.hi;

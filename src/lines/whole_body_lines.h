@@ -79,12 +79,6 @@ class WholeBodyLines {
   /// No less than what a line has of collisions, under N(0, 1): certain.
   static double mostOn(const Met& met);
 
-  /// One member where it touches a point of the other mesh.
-  struct Touch {
-    int member;
-    Eigen::Vector3d point;
-  };
-
   /// A triangle of the other mesh, where a member touches it.
   struct Touching {
     int member;
@@ -92,8 +86,7 @@ class WholeBodyLines {
   };
 
   struct LineContacts {
-    double mass;  ///< about what the line has of collisions, under N(0, 1)
-    std::vector<Touch> touches;
+    double mass;                  ///< about what the line has of collisions, under N(0, 1)
     std::vector<Touching> chain;  ///< of one stretch of contact, the next where one ends
   };
 
@@ -101,10 +94,7 @@ class WholeBodyLines {
   LineContacts contactsOn(const Eigen::Vector2d& u, const Met& met, Taken taken);
 
   /// No more than what the lines of a column have of collisions in the mean, under N(0, 1):
-  /// certain. Those with one member there are counted.
-  double leastOn(const Column& column, const Touch& touch) const;
-
-  /// The same, for those with the triangles of a chain. Nothing is counted where a line at a corner
+  /// certain. Those with the triangles of a chain are counted, and nothing where a line at a corner
   /// of the column misses one.
   double leastOn(const Column& column, const std::vector<Touching>& chain);
 
@@ -156,7 +146,6 @@ class WholeBodyLines {
     LineSpan span;
     Place first;            ///< what begins it
     Place last;             ///< what ends it
-    Eigen::Vector3d point;  ///< of the triangle that begins it, where it is touched first
   };
 
   void addMember(const WholeBody& whole, std::size_t index, const WhitenedPair& pair,

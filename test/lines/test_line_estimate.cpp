@@ -232,13 +232,9 @@ TEST_CASE("lines have as much of a C-obstacle as the points on them", "[lines]")
       const auto middle = lines->contactsOn(u, all, Taken::cores);
       CHECK(std::fabs(middle.mass - mass) <= 0.1 * mass + 2e-6);
       const double mean = meanOnLines(*lines, around);
-      for (const auto& touch : middle.touches) {
-        const double least = lines->leastOn(around, touch);
-        CHECK(least <= mean + 1e-3);
-        covered += least > 0.0;
-      }
       const double of_chain = lines->leastOn(around, middle.chain);
       CHECK(of_chain <= mean + 1e-3);
+      covered += of_chain > 0.0;
       followed += of_chain > 0.8 * mean;
       CHECK(lines->mostMeanOn(around, lines->meet(around, all)) >= mean - 1e-3);
       CHECK(std::fabs(lines->massOn(u, all, {1e-3, 1e-9}, Taken::cores) - mass) <=
@@ -279,9 +275,6 @@ TEST_CASE("bounds by columns hold at the rims of thin plates", "[lines]") {
       // The mean is of 144 lines, some of which pass the rims.
       CHECK(lines->mostMeanOn(column, met) >= 0.7 * mean);
       CHECK(lines->leastOn(column, middle.chain) <= 1.3 * mean);
-      for (const auto& touch : middle.touches) {
-        CHECK(lines->leastOn(column, touch) <= 1.3 * mean);
-      }
       partial += mean > 0.0 && middle.mass == 0.0;
       covered += lines->leastOn(column, middle.chain) > 0.0;
     }
