@@ -24,7 +24,7 @@ class LineColumns {
     double most;          ///< of any line
     double measure;       ///< of the normal distribution across the lines
     double weight = 0.0;  ///< how much it should be divided
-    int left = -1;  ///< child; the right one is behind it
+    int left = -1;        ///< child; the right one is behind it
 
     double mass() const { return most * measure; }
   };

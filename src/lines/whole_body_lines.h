@@ -144,8 +144,8 @@ class WholeBodyLines {
   /// A part of the line on which surfaces touch.
   struct Stretch {
     LineSpan span;
-    Place first;            ///< what begins it
-    Place last;             ///< what ends it
+    Place first;  ///< what begins it
+    Place last;   ///< what ends it
   };
 
   void addMember(const WholeBody& whole, std::size_t index, const WhitenedPair& pair,
