@@ -389,8 +389,10 @@ def test_certificates():
     assert lines[0]["fcl_prob_certificate"] == 1 and lines[0]["deviations"] == [0.1, 0.1, 0.1]
     assert (lines[-1]["lower"], lines[-1]["upper"]) == (result.lower, result.upper)
     assert lines[-1]["cells"] == sum("cell" in line for line in lines)
-    with pytest.raises(fcl_prob.UnsupportedGeometry, match="Sphere"):
-        fcl_prob.certified_probability(fcl_prob.Sphere(0.1), box, error)
+    _, of_ball = fcl_prob.certified_probability(fcl_prob.Sphere(0.1), box, error, pose_a=[0.25, 0, 0])
+    assert [json.loads(line).get("radius") for line in of_ball.splitlines()[1:3]] == [0.1, None]
+    with pytest.raises(fcl_prob.UnsupportedGeometry, match="Cone"):
+        fcl_prob.certified_probability(fcl_prob.Cone(0.1, 0.2), box, error)
 
 
 def test_contained_is_a_product_of_masses_within_a_box():
