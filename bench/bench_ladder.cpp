@@ -8,7 +8,6 @@
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -75,6 +74,12 @@ Ask askOf(std::shared_ptr<PreparedScene> scene) {
   };
 }
 
+/// Of a scene that was drawn, prepared once more.
+Ask askAnew(const PreparedScene& drawn) {
+  return askOf(std::make_shared<PreparedScene>(drawn.objectA(), drawn.objectB(),
+                                               drawn.displacement(), "obbrss"));
+}
+
 void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes) {
   for (const BenchScene& scene : benchScenes()) {
     scenes.push_back({"statues", [scene, folder = options.models_folder] {
@@ -86,10 +91,7 @@ void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes
   const std::size_t count = options.quick ? kMixedScenes / 5 : kMixedScenes;
   for (std::size_t i = 0; i < count; ++i) {
     const std::shared_ptr<PreparedScene> drawn = mixed.next().scene;
-    scenes.push_back({"mixed", [drawn] {
-                        return askOf(std::make_shared<PreparedScene>(
-                            drawn->objectA(), drawn->objectB(), drawn->displacement(), "obbrss"));
-                      }});
+    scenes.push_back({"mixed", [drawn] { return askAnew(*drawn); }});
   }
 }
 
@@ -97,11 +99,8 @@ void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes
 TriangleMesh trayMesh(const std::string& models_folder) {
   const std::filesystem::path models(models_folder);
   TriangleMesh tray = loadMeshIsolated((models / "cad/1002_tray_bottom.STL").string());
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : tray.vertices) box.extend(vertex);
-  for (Eigen::Vector3d& vertex : tray.vertices) {
-    vertex = (vertex - box.center()) * (kTrayLength / box.sizes().maxCoeff());
-  }
+  const double scale = kTrayLength / longestSide(tray);
+  for (Eigen::Vector3d& vertex : tray.vertices) vertex *= scale;
   return tray;
 }
 
@@ -114,8 +113,7 @@ void addPartScenes(const BenchOptions& options, const std::string& group, Triang
   for (std::size_t i = 0; i < count; ++i) {
     const std::shared_ptr<PreparedScene> drawn = parts.next(i % names).scene;
     scenes.push_back({group, [drawn, is_solid = group == "parts" && i % 2 == 1] {
-                        const Ask ask = askOf(std::make_shared<PreparedScene>(
-                            drawn->objectA(), drawn->objectB(), drawn->displacement(), "obbrss"));
+                        const Ask ask = askAnew(*drawn);
                         return Ask([=](ProbabilityRequest request) {
                           if (is_solid) request.contact = ContactMeaning::solid;
                           return ask(request);
@@ -136,8 +134,8 @@ Ask askOf(const Robot& robot, const Obstacle& person, const Eigen::VectorXd& val
   };
 }
 
-// States whose P a rough interval does not exclude to be uncertain, each beside a person of its
-// own.
+// Random states, each beside a person of its own, whose P may lie within kUncertain as far as a
+// rough interval tells.
 void addRobotStates(const BenchOptions& options, std::vector<LadderScene>& scenes) {
   const Geometry mesh = personMesh(options.models_folder);
   ProbabilityRequest rough;

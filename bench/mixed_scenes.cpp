@@ -38,12 +38,6 @@ const std::vector<std::string>& models() {
   return all;
 }
 
-double longestSide(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
-  return box.sizes().maxCoeff();
-}
-
 // Most of its hull is within it.
 bool isNearlyConvex(const TriangleMesh& mesh) {
   constexpr double kNearly = 0.9;
@@ -59,6 +53,12 @@ bool isNearlyConvex(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+double longestSide(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  return box.sizes().maxCoeff();
+}
 
 MixedScenes::MixedScenes(const std::string& models_folder, std::uint64_t seed)
     : models_folder_(models_folder), seed_(seed), random_(seed) {}

@@ -13,6 +13,9 @@
 
 namespace fcl_prob::cli {
 
+/// Of the box around its vertices, along the axes.
+double longestSide(const TriangleMesh& mesh);
+
 struct MixedScene {
   std::string name;   ///< "wingnut 0.021 m, Head 0.35 m"
   double small_size;  ///< longest side of the smaller one over the largest deviation

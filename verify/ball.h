@@ -118,7 +118,11 @@ template <class V>
 V plus(const V& a, const V& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
-inline double length(const Vec& v) { return std::sqrt(dot(v, v)); }
+template <class V>
+V opposite(const V& v) {
+  return {-v[0], -v[1], -v[2]};
+}
+inline double length(const Vec& v) { return std::hypot(v[0], v[1], v[2]); }
 inline BallVec balls(const Vec& v) { return {Ball(v[0]), Ball(v[1]), Ball(v[2])}; }
 
 }  // namespace verify

@@ -90,49 +90,19 @@ Vec Frame::normal_in_world(const Vec& n) const {
   return result;
 }
 
-Vec Piece::turned(const Vec& v) const {
-  if (radius == 0) return {};
-  return {dot((*rotation)[0], v), dot((*rotation)[1], v), dot((*rotation)[2], v)};
-}
-
-BallVec Piece::turned(const BallVec& v) const {
-  BallVec result;
-  for (int i = 0; i < 3 && radius > 0; ++i) result[i] = dot(balls((*rotation)[i]), v);
-  return result;
-}
-
-Vec Piece::turned_back(const Vec& n) const {
-  Vec result{};
-  for (int i = 0; i < 3 && radius > 0; ++i) {
-    for (int j = 0; j < 3; ++j) result[j] += (*rotation)[i][j] * n[i];
-  }
-  return result;
-}
-
-BallVec Piece::turned_back(const BallVec& n) const {
-  BallVec result;
-  for (int i = 0; i < 3 && radius > 0; ++i) {
-    for (int j = 0; j < 3; ++j) result[j] = result[j] + Ball((*rotation)[i][j]) * n[i];
-  }
-  return result;
-}
-
 Vec Piece::farthest_swept(const Vec& normal) const {
-  Vec back = turned_back(normal);
-  const double size = length(back);
-  for (double& x : back) x = size > 0 ? radius * (1 - 8 * kUnit) * x / size : 0;
-  return back;
-}
-
-bool Piece::sweeps(const Vec& point) const {
-  const BallVec at = balls(point);
-  return dot(at, at) <= Ball(radius) * Ball(radius);
+  Vec point = turned_back(normal);
+  const double size = length(point);
+  for (double& x : point) x = size > 0 ? radius * (1 - 8 * kUnit) * x / size : 0;
+  const BallVec exact = balls(point);
+  const bool is_within = dot(exact, exact) <= Ball(radius) * Ball(radius);
+  return is_within ? point : Vec{};
 }
 
 double Piece::size_of_rotation() const {
-  double sum = 0;
-  for (int i = 0; i < 3 && radius > 0; ++i) sum += dot((*rotation)[i], (*rotation)[i]);
-  return std::sqrt(sum) * (1 + 16 * kUnit);
+  if (radius == 0) return 0;
+  const auto& [x, y, z] = *rotation;
+  return std::hypot(length(x), length(y), length(z)) * (1 + 16 * kUnit);
 }
 
 BallVec Frame::to_world(const BallVec& v) const {

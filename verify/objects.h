@@ -38,16 +38,27 @@ struct Piece {
   double radius = 0;
   const std::array<Vec, 3>* rotation = nullptr;  // of the part; only where there is a ball
 
-  /// From the frame of the part to the world, and R^T of a normal in the world.
-  Vec turned(const Vec& v) const;
-  BallVec turned(const BallVec& v) const;
-  Vec turned_back(const Vec& n) const;
-  BallVec turned_back(const BallVec& n) const;
-  /// The point of the ball that is farthest along a normal in the world, rounded: in the frame of
-  /// the part.
+  /// R v, from the frame of the part to the world; 0 without a ball.
+  template <class T>
+  std::array<T, 3> turned(const std::array<T, 3>& v) const {
+    std::array<T, 3> result{};
+    for (int i = 0; i < 3 && radius > 0; ++i) {
+      for (int j = 0; j < 3; ++j) result[i] = result[i] + T((*rotation)[i][j]) * v[j];
+    }
+    return result;
+  }
+  /// R^T n, of a normal in the world; 0 without a ball.
+  template <class T>
+  std::array<T, 3> turned_back(const std::array<T, 3>& n) const {
+    std::array<T, 3> result{};
+    for (int i = 0; i < 3 && radius > 0; ++i) {
+      for (int j = 0; j < 3; ++j) result[j] = result[j] + T((*rotation)[i][j]) * n[i];
+    }
+    return result;
+  }
+  /// A point of the ball, in the frame of the part: about the one that is farthest along a normal
+  /// in the world.
   Vec farthest_swept(const Vec& normal) const;
-  /// Whether that certainly is a point of the ball.
-  bool sweeps(const Vec& point) const;
   double size_of_rotation() const;  // not below its norm
 };
 

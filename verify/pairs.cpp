@@ -122,9 +122,8 @@ T least_of(const V<T>& normal, const std::vector<V<T>>& points, std::size_t& at)
 template <class T>
 Least<T> least(const Corners<T>& corners, const V<T>& normal, const T& swept) {
   Least<T> result;
-  const V<T> opposite{-normal[0], -normal[1], -normal[2]};
   const T apart = least_of(normal, corners.l, result.at[0]) +
-                  least_of(opposite, corners.k, result.at[1]) - swept;
+                  least_of(opposite(normal), corners.k, result.at[1]) - swept;
   for (std::size_t i = 0; i < corners.q.size(); ++i) {
     const T height = apart * corners.times[i] - dot(normal, corners.q[i]);
     result.weak = result.weak && T(0) <= height;
@@ -198,12 +197,10 @@ bool separates_by_doubles(const Frame& frame, const Region& region, const Object
   return search(corners, minus(minus(corners.l[0], corners.k[0]), corners.q[0]), sweep, accept);
 }
 
-// A point of L - K.
+// A point of L - K, as seen from the corner that is looked for.
 struct Sum {
-  int k = -1, l = -1;  // vertices; none for the mean of all,
-  int more = 0;        // in which the first ones count for so much more
-  Vec of_k{}, of_l{};  // what the balls add to that, in the frames of their parts
-  Vec seen{};          // in the coordinates of points, from the corner that is looked for, rounded
+  Vec seen{};     // in the coordinates of points, rounded
+  BallVec exact;  // in the world, times a positive number
 };
 
 // Whether one corner of a region is in L - K: it is if it is in a simplex of four points of it.
@@ -214,55 +211,72 @@ class Enclosure {
 
   bool holds(const Vec& corner, const BallVec& exact, const Ball& times) {
     corner_ = corner;
-    exact_ = frame_.to_world(exact);
     times_ = &times;
-    // The mean of some vertices, and others where it is in line with what should not be.
-    for (int attempt = 0; attempt < 4; ++attempt) {
-      if (is_inside(middle(attempt))) return true;
+    const slong all = Ball::bits;
+    for (const slong bits : {slong{128}, all}) {
+      const Precision precision(bits);
+      exact_ = frame_.to_world(exact);
+      // The mean of all vertices, and others where it is in line with what should not be.
+      for (int attempt = 0; attempt < 4; ++attempt) {
+        if (is_inside(middle(attempt))) return true;
+      }
     }
     return false;
   }
 
  private:
-  Sum middle(int more) const {
-    Sum sum;
-    sum.more = more;
-    const auto mean = [&](const Object& object, const Piece& piece) {
-      Vec result{};
-      double count = 0;
-      for (const int v : piece.vertices) {
-        const double share = v == piece.vertices[0] ? 1 + more : 1;
-        for (int i = 0; i < 3; ++i) result[i] += share * object.points[v][i];
-        count += share;
+  // The first vertices count for so much more; `weight_of_middle_` is by what it is multiplied.
+  Sum middle(int more) {
+    const auto mean = [&](const Object& object, const Piece& piece, Vec& rounded, BallVec& total) {
+      const double count = static_cast<double>(piece.vertices.size()) + more;
+      for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
+        const double share = v == 0 ? 1 + more : 1;
+        const int vertex = piece.vertices[v];
+        for (int i = 0; i < 3; ++i) {
+          rounded[i] += share / count * object.points[vertex][i];
+          total[i] = total[i] + Ball(share) * object.exact[vertex][i];
+        }
       }
-      for (double& x : result) x /= count;
-      return result;
+      return Ball(count);
     };
-    sum.seen = minus(minus(mean(b_, l_), mean(a_, k_)), corner_);
+    Vec of_k{}, of_l{};
+    BallVec all_k, all_l;
+    const Ball k_count = mean(a_, k_, of_k, all_k), l_count = mean(b_, l_, of_l, all_l);
+    weight_of_middle_ = k_count * l_count;
+    Sum sum;
+    sum.seen = minus(minus(of_l, of_k), corner_);
+    for (int i = 0; i < 3; ++i) {
+      sum.exact[i] =
+          (all_l[i] * k_count - all_k[i] * l_count) * *times_ - exact_[i] * weight_of_middle_;
+    }
     return sum;
   }
 
   // The farthest along a normal.
   Sum farthest(const Vec& n) const {
-    Sum sum;
+    int at_k = 0, at_l = 0;
     double highest = -HUGE_VAL, lowest = HUGE_VAL;
     for (const int v : l_.vertices) {
       const double height = dot(n, b_.points[v]);
-      if (height > highest) sum.l = v;
+      if (height > highest) at_l = v;
       highest = std::max(highest, height);
     }
     for (const int v : k_.vertices) {
       const double height = dot(n, a_.points[v]);
-      if (height < lowest) sum.k = v;
+      if (height < lowest) at_k = v;
       lowest = std::min(lowest, height);
     }
-    sum.seen = minus(minus(b_.points[sum.l], a_.points[sum.k]), corner_);
-    if (k_.radius + l_.radius == 0) return sum;
-    const Vec w = frame_.normal_in_world(n);
-    sum.of_k = k_.farthest_swept(opposite(w));
-    sum.of_l = l_.farthest_swept(w);
-    const Vec moved = minus(l_.turned(sum.of_l), k_.turned(sum.of_k));
-    for (int i = 0; i < 3; ++i) sum.seen[i] += dot(frame_.inverse[i], moved);
+    Sum sum;
+    sum.seen = minus(minus(b_.points[at_l], a_.points[at_k]), corner_);
+    BallVec exact = minus(b_.exact[at_l], a_.exact[at_k]);
+    if (k_.radius + l_.radius > 0) {
+      const Vec w = frame_.normal_in_world(n);
+      const Vec of_k = k_.farthest_swept(opposite(w)), of_l = l_.farthest_swept(w);
+      const Vec moved = minus(l_.turned(of_l), k_.turned(of_k));
+      for (int i = 0; i < 3; ++i) sum.seen[i] += dot(frame_.inverse[i], moved);
+      exact = plus(exact, minus(l_.turned(balls(of_l)), k_.turned(balls(of_k))));
+    }
+    for (int i = 0; i < 3; ++i) sum.exact[i] = exact[i] * *times_ - exact_[i];
     return sum;
   }
 
@@ -271,13 +285,13 @@ class Enclosure {
   // corner is beyond it the triangle is moved outwards (Snethen, XenoCollide, 2008).
   bool is_inside(const Sum& middle) const {
     Sum p = farthest(middle.seen == Vec{} ? Vec{1, 0, 0} : opposite(middle.seen));
-    const BallVec at = exact(p);
-    if (std::all_of(at.begin(), at.end(), [](const Ball& x) { return x.is_zero(); })) return true;
+    const auto is_zero = [](const Ball& x) { return x.is_zero(); };
+    if (std::all_of(p.exact.begin(), p.exact.end(), is_zero)) return true;
     Sum q = farthest(normal_to(p.seen, middle.seen));
     Sum r = farthest(cross(minus(p.seen, middle.seen), minus(q.seen, middle.seen)));
     const std::array<Sum*, 3> corners{&p, &q, &r};
     for (int step = 0; step < kMostSteps; ++step) {
-      const Side side = side_of({middle, p, q, r});
+      const Side side = side_of({&middle.exact, &p.exact, &q.exact, &r.exact});
       if (side == kInside || side == kUnclear) return side == kInside;
       if (side == kBeyond) {
         if (!move_outwards(middle, p, q, r)) return false;
@@ -310,8 +324,6 @@ class Enclosure {
     return true;
   }
 
-  static Vec opposite(const Vec& v) { return {-v[0], -v[1], -v[2]}; }
-
   // Some direction across both.
   static Vec normal_to(const Vec& a, const Vec& b) {
     const Vec n = cross(a, b);
@@ -320,64 +332,24 @@ class Enclosure {
     return cross(a, c);
   }
 
-  // How much all vertices count in a mean.
-  static Ball count(const Sum& mean, const Piece& piece) {
-    return Ball(static_cast<double>(piece.vertices.size()) + mean.more);
-  }
-
-  // In balls, in the world, from the corner, times a positive number.
-  BallVec exact(const Sum& sum) const {
-    BallVec result;
-    if (sum.l >= 0) {
-      result = minus(plus(b_.exact[sum.l], l_.turned(balls(sum.of_l))),
-                     plus(a_.exact[sum.k], k_.turned(balls(sum.of_k))));
-      for (Ball& x : result) x = x * *times_;
-      return minus(result, exact_);
-    }
-    const Ball more(sum.more);
-    const auto total = [&](const Object& object, const Piece& piece) {
-      BallVec all = object.exact[piece.vertices[0]];
-      for (Ball& x : all) x = x * more;
-      for (const int v : piece.vertices) all = plus(all, object.exact[v]);
-      return all;
-    };
-    const BallVec of_k = total(a_, k_), of_l = total(b_, l_);
-    const Ball k_count = count(sum, k_), l_count = count(sum, l_);
-    for (int i = 0; i < 3; ++i) {
-      result[i] = (of_l[i] * k_count - of_k[i] * l_count) * *times_ - exact_[i] * k_count * l_count;
-    }
-    return result;
-  }
-
   // Where the corner is: within the simplex of the middle and three points, beside it where the
   // first, second or third of them is not, beyond them, or that cannot be told.
   enum Side { kFirst, kSecond, kThird, kBeyond, kInside, kUnclear };
 
-  Side side_of(const std::array<Sum, 4>& points) const {
-    for (const Sum& sum : points) {
-      if (!k_.sweeps(sum.of_k) || !l_.sweeps(sum.of_l)) return kUnclear;
+  Side side_of(const std::array<const BallVec*, 4>& points) const {
+    const auto& [m, p, q, r] = points;
+    // The corner is the mean of the points by these weights, volumes.
+    const BallVec of_middle = cross(*q, *r);
+    const Ball weights[] = {-dot(*m, of_middle), dot(*m, cross(*p, *r)), -dot(*m, cross(*p, *q)),
+                            dot(*p, of_middle) * weight_of_middle_};
+    const int side = (weights[0] + weights[1] + weights[2] + weights[3]).sign();
+    if (side == 0) return kUnclear;
+    for (int i = 0; i < 4; ++i) {
+      const Ball weight = side > 0 ? weights[i] : -weights[i];
+      if (weight.sign() < 0) return static_cast<Side>(i);
+      if (!(Ball(0) <= weight)) return kUnclear;
     }
-    const slong all = Ball::bits;
-    for (const slong bits : {slong{128}, all}) {
-      const Precision precision(bits);
-      std::array<BallVec, 4> v;
-      for (int i = 0; i < 4; ++i) v[i] = exact(points[i]);
-      // The corner is the mean of the points by these weights, volumes, of which all but the last
-      // are of vectors that are scaled alike.
-      const Ball weights[] = {
-          -dot(v[0], cross(v[2], v[3])), dot(v[0], cross(v[1], v[3])),
-          -dot(v[0], cross(v[1], v[2])),
-          dot(v[1], cross(v[2], v[3])) * count(points[0], k_) * count(points[0], l_)};
-      const int side = (weights[0] + weights[1] + weights[2] + weights[3]).sign();
-      bool is_clear = side != 0;
-      for (int i = 0; i < 4 && is_clear; ++i) {
-        const Ball weight = side > 0 ? weights[i] : -weights[i];
-        if (weight.sign() < 0) return static_cast<Side>(i);
-        is_clear = Ball(0) <= weight;
-      }
-      if (is_clear) return kInside;
-    }
-    return kUnclear;
+    return kInside;
   }
 
   static constexpr int kMostSteps = 100;
@@ -388,6 +360,7 @@ class Enclosure {
   Vec corner_{};
   BallVec exact_;  // the corner in the world, times `times_`
   const Ball* times_ = nullptr;
+  Ball weight_of_middle_;
 };
 
 }  // namespace
@@ -405,7 +378,8 @@ bool separates(const Frame& frame, const Region& region, const Object& a, const 
       const BallVec back = piece->turned_back(n);
       const Ball size = sqrt(dot(back, back)), share = Ball(piece->radius) / size;
       swept.height = swept.height + share * dot(back, back);
-      swept.at = plus(swept.at, piece->turned({share * back[0], share * back[1], share * back[2]}));
+      swept.at =
+          plus(swept.at, piece->turned(BallVec{share * back[0], share * back[1], share * back[2]}));
     }
     return swept;
   };

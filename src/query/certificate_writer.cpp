@@ -86,8 +86,10 @@ struct SweptHull {
   double radius = 0.0;
 };
 
-/// What a polytope, sphere or capsule is, metres, geometry's frame; nothing for others.
+/// What a polytope, sphere or capsule is, metres, geometry's frame; nothing for others, and for
+/// boxes, which are written with their triangles.
 std::optional<SweptHull> sweptHullOf(const fcl::CollisionGeometryd& geometry) {
+  if (isBox(geometry)) return std::nullopt;
   if (geometry.getNodeType() == fcl::GEOM_SPHERE) {
     const auto& sphere = static_cast<const fcl::Sphered&>(geometry);
     return SweptHull{{Eigen::Vector3d::Zero()}, sphere.radius};
@@ -127,7 +129,7 @@ void requireCertifiable(const CertifiedObject& object) {
   for (std::size_t i = 0; i < object.geometries.size(); ++i) {
     const fcl::CollisionGeometryd& geometry = *object.geometries[i];
     const GeometryKind kind = kindOf(geometry);
-    if (kind == GeometryKind::mesh || kind == GeometryKind::octree) continue;
+    if (kind == GeometryKind::mesh || kind == GeometryKind::octree || isBox(geometry)) continue;
     if (sweptHullOf(geometry)) continue;
     throw UnsupportedGeometry("no certificate of member " + std::to_string(i) + " of " +
                               object.name + ": " + nodeTypeName(geometry.getNodeType()) +
@@ -135,11 +137,10 @@ void requireCertifiable(const CertifiedObject& object) {
   }
 }
 
-// Boxes have had triangles from the first version on.
-bool isOfFirstVersion(const CertifiedObject& object) {
-  return std::all_of(object.geometries.begin(), object.geometries.end(), [](const auto* geometry) {
-    return isBox(*geometry) || !sweptHullOf(*geometry);
-  });
+// The first version had none.
+bool hasSweptHulls(const CertifiedObject& object) {
+  return std::any_of(object.geometries.begin(), object.geometries.end(),
+                     [](const auto* geometry) { return sweptHullOf(*geometry).has_value(); });
 }
 
 }  // namespace
@@ -160,7 +161,7 @@ void CertificateWriter::frame(const Whitening& whitening,
                          std::to_string(displacement.rank()) + " of which the cells have " +
                          std::to_string(rank_) + " axes");
   }
-  const int version = isOfFirstVersion(a_) && isOfFirstVersion(b_) ? 1 : 2;
+  const int version = hasSweptHulls(a_) || hasSweptHulls(b_) ? 2 : 1;
   out_ << R"({"fcl_prob_certificate":)" << version << R"(,"name":)"
        << quoted(a_.name + " and " + b_.name) << R"(,"contact":")"
        << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
@@ -197,8 +198,7 @@ CertificateWriter::Numbers CertificateWriter::writeObject(const CertifiedObject&
     }
     for (int body = part.bodies.begin; body < part.bodies.end; ++body) {
       numbers.of_piece[tree.triangles.size() + static_cast<std::size_t>(body)] = numbers.pieces++;
-      const auto hull = isBox(geometry) ? std::nullopt : sweptHullOf(geometry);
-      if (hull) {
+      if (const auto hull = sweptHullOf(geometry)) {
         numbers.vertices += static_cast<int>(hull->vertices.size());
         writePart({name, object.placed.parts[i]}, hull->vertices, {}, true, hull->radius);
         continue;
