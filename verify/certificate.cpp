@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the fcl_prob authors
 #include "certificate.h"
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
 
@@ -75,7 +76,7 @@ Header read_header(const Json& line) {
   header.mean = field<Vec>(line, "mean");
   header.axes = field<std::vector<Vec>>(line, "axes");
   header.rank = static_cast<int>(header.axes.size());
-  check(header.rank >= 1 && header.rank <= 3, "\"axes\": must be one to three");
+  check(header.rank >= 2 - header.version && header.rank <= 3, "\"axes\": must be one to three");
   header.deviations = field<std::vector<double>>(line, "deviations");
   check(header.deviations.size() == header.axes.size(), "\"deviations\": must be as many as axes");
   check(line.contains("whitening"), "\"whitening\" is missing");
@@ -97,6 +98,9 @@ std::vector<Plane> read_planes(const Json& line, const char* name, int rank) {
   std::vector<Plane> result;
   for (const auto& numbers : field<std::vector<std::vector<double>>>(line, name)) {
     check(numbers.size() == static_cast<std::size_t>(rank) + 1, "planes have rank + 1 numbers");
+    // What is on a plane weighs nothing, unless all is.
+    check(std::any_of(numbers.begin(), numbers.end() - 1, [](double m) { return m != 0; }),
+          "planes must have a normal");
     result.emplace_back();
     std::copy(numbers.begin(), numbers.end() - 1, result.back().normal.begin());
     result.back().level = numbers.back();

@@ -35,8 +35,10 @@ std::size_t largest(const BallVec& v) {
 }
 
 // Fills up the columns of the displacement to a basis, along axes, by what is about as long as the
-// first one.
-void complete(std::array<BallVec, 3>& columns, int rank) {
+// first one, or as the objects where there is none.
+void complete(std::array<BallVec, 3>& columns, int rank, double size) {
+  if (rank == 0) columns[0][0] = Ball(size);
+  rank = std::max(rank, 1);
   const std::size_t first = largest(columns[0]);
   const Ball length = columns[0][first];
   if (rank == 1) columns[1][(first + 1) % 3] = columns[2][(first + 2) % 3] = length;
@@ -45,7 +47,7 @@ void complete(std::array<BallVec, 3>& columns, int rank) {
 
 }  // namespace
 
-Frame::Frame(const Header& header)
+Frame::Frame(const Header& header, double size)
     : rank(header.rank),
       bits(header.whitening.empty() ? ARF_PREC_EXACT : 320),
       mean(balls(header.mean)) {
@@ -69,7 +71,7 @@ Frame::Frame(const Header& header)
       }
     }
   }
-  complete(columns, rank);
+  complete(columns, rank, size);
   for (int i = 0; i < 3; ++i) cofactors[i] = cross(columns[(i + 1) % 3], columns[(i + 2) % 3]);
   determinant = dot(columns[0], cofactors[0]);
   if (determinant.sign() == 0 || !determinant.is_finite()) {

@@ -16,7 +16,8 @@ namespace verify {
 
 /// `ε(y) = mean + Σ columns[i] y_i` over i below the rank.
 struct Frame {
-  explicit Frame(const Header& header);
+  /// \param size  about how large the objects are: a length where the rank is zero
+  Frame(const Header& header, double size);
   /// `M' v` of a vector of y'.
   BallVec to_world(const BallVec& v) const;
   /// What is a normal n in y' is `M'^-T n` there, rounded.

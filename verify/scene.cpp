@@ -76,10 +76,26 @@ int crossing(const BallVec& d, const std::array<BallVec, 3>& t, bool& unclear) {
   return side == sign[0] ? side : 0;
 }
 
+// The largest coordinate of what parts are made of.
+double size_of(const std::array<std::vector<Part>, 2>& parts) {
+  double size = 0;
+  for (const std::vector<Part>& object : parts) {
+    for (const Part& part : object) {
+      size = std::max(size, part.radius);
+      for (const Vec& v : part.vertices) {
+        for (const double x : v) size = std::max(size, std::abs(x));
+      }
+    }
+  }
+  return size > 0 ? size : 1;
+}
+
 }  // namespace
 
 Scene::Scene(const Reader& reader)
-    : frame(reader.header), solid_contact(reader.header.solid_contact), parts(reader.parts) {
+    : frame(reader.header, size_of(reader.parts)),
+      solid_contact(reader.header.solid_contact),
+      parts(reader.parts) {
   for (const int x : {0, 1}) {
     add_object(x, reader.caps[x]);
     add_components(x);

@@ -99,6 +99,8 @@ class Scene:
 def region_corners(lo, hi, planes):
     """Corners of the box cut by half-spaces `m·y >= s`; none if it has no inside."""
     rank = len(lo)
+    if rank == 0:
+        return [[]]
     unit = [[Fraction(int(i == k)) for k in range(rank)] for i in range(rank)]
     sides = [(u, l) for u, l in zip(unit, lo)] + [([-x for x in u], -h) for u, h in zip(unit, hi)]
     sides += [(exact(p[:-1]), Fraction(p[-1])) for p in planes]

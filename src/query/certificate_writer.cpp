@@ -137,7 +137,7 @@ void requireCertifiable(const CertifiedObject& object) {
   }
 }
 
-// The first version had none.
+// The first version had none of these, and no displacement that is certain.
 bool hasSweptHulls(const CertifiedObject& object) {
   return std::any_of(object.geometries.begin(), object.geometries.end(),
                      [](const auto* geometry) { return sweptHullOf(*geometry).has_value(); });
@@ -156,12 +156,12 @@ CertificateWriter::CertificateWriter(std::ostream& out, const CertifiedObject& a
 void CertificateWriter::frame(const Whitening& whitening,
                               const GaussianDisplacement& displacement) {
   rank_ = whitening.rank();
-  if (rank_ < displacement.rank() || rank_ == 0) {
+  if (rank_ < displacement.rank()) {
     throw InvalidRequest("no certificate of a displacement of rank " +
                          std::to_string(displacement.rank()) + " of which the cells have " +
                          std::to_string(rank_) + " axes");
   }
-  const int version = hasSweptHulls(a_) || hasSweptHulls(b_) ? 2 : 1;
+  const int version = rank_ == 0 || hasSweptHulls(a_) || hasSweptHulls(b_) ? 2 : 1;
   out_ << R"({"fcl_prob_certificate":)" << version << R"(,"name":)"
        << quoted(a_.name + " and " + b_.name) << R"(,"contact":")"
        << (contact_ == ContactMeaning::solid ? "solid" : "surface") << R"(","mean":)";
@@ -290,6 +290,11 @@ CertificateWriter::Corners CertificateWriter::cornersOf(const Cell& cell) const 
 }
 
 void CertificateWriter::claim(const Claim& claim) {
+  const auto* const planes = claim.within.planes.data();
+  const bool bounds_nothing =
+      std::any_of(planes, planes + claim.within.count,
+                  [&](const auto& plane) { return plane.m.head(rank_).isZero(0.0); });
+  if (bounds_nothing) return;  // all of the cell or nothing, by a level that rounding decides
   const Corners corners = cornersOf(claim.cell);
   if (claim.within.count == 0) {
     CellClaims whole;

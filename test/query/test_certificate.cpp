@@ -155,6 +155,25 @@ TEST_CASE("Certificates of spheres, capsules and polytopes beside anything") {
   }
 }
 
+TEST_CASE("Certificates of displacements of which nothing is random") {
+  const Geometry bumpy = makeModel<fcl::OBBRSSd>(bumpyMesh(0.3, 8, 10, 3));
+  const std::vector<fcl::CollisionObjectd> a{placed(box, {0, 0, 0})}, b{placed(bumpy, {0, 0, 0})};
+  for (const double x : {0.05, 0.25, 0.35, 0.6}) {
+    for (const ContactMeaning contact : {ContactMeaning::fcl, ContactMeaning::solid}) {
+      ProbabilityRequest request;
+      request.contact = contact;
+      const Certified certified = certify(a, b, normal(0, 0, 0).withMean({x, 0.01, 0.02}), request);
+      ProbabilityResult other;
+      collisionProbability({&a[0]}, {&b[0]}, normal(0, 0, 0).withMean({x, 0.01, 0.02}), request,
+                           other);
+      CHECK(*certified.result.lower == Approx(*other.lower).margin(1e-12));
+      CHECK(*certified.result.upper == Approx(*other.upper).margin(1e-12));
+      CHECK(certified.lines[0].find(R"({"fcl_prob_certificate":2,)") == 0);
+      CHECK(count(certified, *other.lower == 1.0 ? R"("contact":[{)" : R"("free":true)") == 1);
+    }
+  }
+}
+
 TEST_CASE("What no certificate can be written of") {
   const auto at = [](const Geometry& geometry) { return placed(geometry, {0.3, 0, 0}); };
   const auto cone = std::make_shared<fcl::Coned>(0.1, 0.1);
@@ -164,7 +183,7 @@ TEST_CASE("What no certificate can be written of") {
   CHECK_THROWS_WITH(certify({at(box)}, {at(box), at(cone)}, error),
                     Catch::Matchers::Contains("member 1 of group B: Cone"));
   CHECK_THROWS_AS(certify({at(box)}, {at(half_space)}, error), UnsupportedGeometry);
-  CHECK_THROWS_AS(certify({at(box)}, {at(box)}, normal(0, 0, 0)), InvalidRequest);
+  CHECK_THROWS_AS(certify({at(box)}, {at(box)}, normal(0.1, 0.1, 1e-40)), InvalidRequest);
   const auto absent = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
   absent->cost_density = 0.0;  // not occupied: fcl::collide leaves it out
   CHECK_THROWS_AS(certify({at(absent)}, {at(box)}, error), UnsupportedGeometry);

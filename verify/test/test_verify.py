@@ -222,6 +222,21 @@ class TrueCertificates(unittest.TestCase):
                 lines = certificate(header(3), [a, b], [{"cell": [-1, -.5, -.5, end, .5, .5], "free": True}])
                 self.assertEqual(Answer(lines).code, code)
 
+    def test_nothing_is_random(self):
+        # P is 0 or 1 by the one displacement that there is; touching at the boundary is contact.
+        cell = {"cell": []}
+        for gap, contact in ((1e-300, False), (0.0, True), (-.5, True)):
+            a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [0, 0, gap], [1, 1, 1])
+            head = {**header(0, mean=(.25, 0, -1)), "fcl_prob_certificate": 2}
+            touching = {**cell, "contact": [{"planes": [], "by": {"pair": [0, 0]}}]}
+            for claim, is_true in ((touching, contact), ({**cell, "free": True}, not contact)):
+                answer = Answer(certificate(head, [a, b], [claim]))
+                self.assertEqual(answer.code, 0 if is_true else 1, answer.text)
+                if is_true:
+                    self.assertEqual((answer.lower, answer.upper), (float(contact), float(contact)))
+            self.assertEqual(Answer(certificate(head, [a, b], [cell, cell])).code, 1)
+            self.assertEqual(Answer(certificate({**head, "fcl_prob_certificate": 1}, [a, b], [cell])).code, 2)
+
 
 def boxes_of_two_parts(rank):
     """A is two boxes; contact is the union of two boxes of y that do not overlap. And P."""
@@ -656,6 +671,17 @@ class Malformed(unittest.TestCase):
         triangle = mesh_part("A", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         lines[1] = {**triangle, "radius": 0.5}
         self.assertEqual(Answer(lines).code, 2)
+
+    def test_planes_without_a_normal(self):
+        # { 0·y < 0 } is empty: it would be free of anything, and leave nothing of the cell.
+        a, b = box_part("A", [0, 0, 0], [1, 1, 1]), box_part("B", [0, 0, 0], [1, 1, 1])
+        for rank in (0, 1, 2, 3):
+            head = {**header(rank), "fcl_prob_certificate": 2}
+            for level in (-1.0, 0.0, 1.0):
+                sides = [-8.0] * rank + [8.0] * rank
+                for cell in ({"free": [[0.0] * rank + [level]]},
+                             {"contact": [{"planes": [[0.0] * rank + [level]], "by": {"pair": [0, 0]}}]}):
+                    self.assertEqual(Answer(certificate(head, [a, b], [{"cell": sides, **cell}])).code, 2)
 
     def test_fields(self):
         lines, _, _ = two_boxes(2, depth=5)
