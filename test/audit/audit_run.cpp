@@ -90,8 +90,10 @@ double now() {
 
 Scene sceneAt(const AuditPlan& plan, std::uint64_t index) {
   if (plan.family.empty()) return generate(plan.seed, index);
-  for (const Family& family : families()) {
-    if (family.name == plan.family) return generate(plan.seed, index, family);
+  for (const auto* all : {&families(), &slowFamilies()}) {
+    for (const Family& family : *all) {
+      if (family.name == plan.family) return generate(plan.seed, index, family);
+    }
   }
   throw std::invalid_argument("no family is called " + plan.family);
 }

@@ -194,6 +194,22 @@ std::vector<Family> questionFamilies() {
 
 }  // namespace
 
+const std::vector<Family>& slowFamilies() {
+  static const std::vector<Family> all{family("many triangles", of(kMesh, kMesh), [](Traits& t) {
+    t.solid = 0.4;
+    t.smaller = 0.3;
+    t.mesh.large = 1.0;
+    t.mesh.most_shells = 2;
+    t.mesh.nested = 0.5;
+    t.mesh.open = 0.2;
+    t.mesh.thin = 0.2;
+    t.mesh.least_thinness = 1e-3;
+    t.on_grid = 0.0;
+    t.ranks = {3, 3, 3, 2, 1, 0};
+  })};
+  return all;
+}
+
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> result = shapeFamilies();

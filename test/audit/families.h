@@ -42,6 +42,10 @@ struct Family {
   bool limited = false;  ///< all sorts of limits
 };
 
+/// Each in turn.
 const std::vector<Family>& families();
+
+/// Of scenes that take seconds each: by name only.
+const std::vector<Family>& slowFamilies();
 
 }  // namespace fcl_prob_audit

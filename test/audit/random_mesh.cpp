@@ -78,7 +78,23 @@ TriangleMesh convexShell(RandomBodies& random, const MeshStructure& structure) {
   return mesh;
 }
 
+/// So many triangles that trees have levels, and that the library looks for vertices that are
+/// inside.
+TriangleMesh largeShell(RandomBodies& random) {
+  switch (random.integer(0, 2)) {
+    case 0:
+      return bumpyMesh(0.5, random.integer(15, 22), random.integer(20, 25),
+                       static_cast<std::uint64_t>(random.integer(1, 1 << 20)));
+    case 1:
+      return torusMesh(0.4, random.uniform(0.05, 0.2), random.integer(32, 40),
+                       random.integer(8, 13));
+    default:
+      return sphereMesh(0.5, random.integer(15, 20), random.integer(20, 25));
+  }
+}
+
 TriangleMesh anyShell(RandomBodies& random, const MeshStructure& structure) {
+  if (structure.large > 0.0 && chance(random, structure.large)) return largeShell(random);
   if (chance(random, structure.convex)) return convexShell(random, structure);
   switch (random.integer(0, 6)) {
     case 0:

@@ -26,11 +26,12 @@ struct MeshStructure {
   double flat = 0.0;    ///< ... to nothing
   double convex = 0.0;  ///< a shell is a hull, with many vertices at times
   double dented = 0.0;  ///< of such a shell: but for one vertex, by 1e-12 to 0.2
+  double large = 0.0;   ///< a shell has 500 to 1,100 triangles
 };
 
-/// About 1 m wide around its origin (without what is far away), at most some dozens of triangles.
-/// Coordinates are multiples of 2^-20 (of 2^-40 where shells may be convex) but for thin ones.
-/// Shells are closed unless `open` says so.
+/// About 1 m wide around its origin (without what is far away), at most some dozens of triangles
+/// where no shell is large. Coordinates are multiples of 2^-20 (of 2^-40 where shells may be
+/// convex) but for thin ones. Shells are closed unless `open` says so.
 TriangleMesh randomMesh(RandomBodies& random, const MeshStructure& structure);
 
 /// The faces of the hull of some points.
