@@ -24,6 +24,9 @@ CertifiedObject certifiedObject(const PlacedMembers& members, ContactMeaning con
     throw UnsupportedGeometry("no certificate with a half-space or plane");
   }
   CertifiedObject object{members.group.placed(members.poses, contact), {}, members.group.name()};
+  if (object.placed.tree->isEmpty()) {
+    throw UnsupportedGeometry("no certificate of " + object.name + ": nothing of it is occupied");
+  }
   for (const std::size_t i : members.group.bounded()) {
     object.geometries.push_back(&members.group.members()[i]->geometry());
   }

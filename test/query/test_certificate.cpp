@@ -4,6 +4,7 @@
 // Whether the claims hold is for verify/ and the audit.
 #include "fcl_prob/certificate.h"
 
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -187,6 +188,9 @@ TEST_CASE("What no certificate can be written of") {
   const auto absent = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
   absent->cost_density = 0.0;  // not occupied: fcl::collide leaves it out
   CHECK_THROWS_AS(certify({at(absent)}, {at(box)}, error), UnsupportedGeometry);
+  const auto nothing = std::make_shared<fcl::OcTreed>(0.1);
+  CHECK_THROWS_WITH(certify({at(box)}, {at(nothing)}, error),
+                    Catch::Matchers::Contains("group B: nothing of it is occupied"));
   ProbabilityResult unused;
   std::ostringstream text;
   CHECK_THROWS_AS(certifiedProbability({nullptr}, {nullptr}, error, {}, text, unused),
