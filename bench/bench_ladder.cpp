@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // fcl_prob bench ladder: which rungs answer, and what queries take without each of them.
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <octomap/octomap.h>
 
 #include <cmath>
 #include <filesystem>
@@ -23,6 +25,7 @@
 #include "bench/part_scenes.h"
 #include "cli/number_text.h"
 #include "fcl_prob/collision_probability.h"
+#include "fcl_prob/group.h"
 #include "fcl_prob/mesh_io.h"
 #ifdef FCL_PROB_HAS_ROBOT
 #include "bench/random_states.h"
@@ -39,6 +42,8 @@ constexpr std::size_t kMixedScenes = 30;
 constexpr std::size_t kShapePairs = 40;
 constexpr std::size_t kPartScenes = 21;  // beside an arm, and beside a tray
 constexpr double kTrayLength = 0.4;
+constexpr int kPartsOfGroup = 3;
+constexpr double kVoxel = 0.02;
 
 /// Of each robot, of those that have P between these two.
 constexpr int kStatesOfLadder = 10;
@@ -62,6 +67,13 @@ const std::vector<std::string>& whatCanBeLeftOut() {
   return all;
 }
 
+/// Columns of the table.
+const std::vector<std::string>& groups() {
+  static const std::vector<std::string> all{"statues", "dense",  "mixed",  "parts", "trays",
+                                            "octrees", "groups", "states", "shapes"};
+  return all;
+}
+
 const std::vector<BenchTask>& ladderTasks() {
   static const std::vector<BenchTask> all{intervalTask(0.1), intervalTask(0.01), estimateTask(0.01),
                                           decisionTask(0.05)};
@@ -80,13 +92,17 @@ Ask askAnew(const PreparedScene& drawn) {
                                                drawn.displacement(), "obbrss"));
 }
 
-void addMeshScenes(const BenchOptions& options, std::vector<LadderScene>& scenes) {
-  for (const BenchScene& scene : benchScenes()) {
-    scenes.push_back({"statues", [scene, folder = options.models_folder] {
+void addStatues(const std::string& group, const std::vector<BenchScene>& statues,
+                const BenchOptions& options, std::vector<LadderScene>& scenes) {
+  for (const BenchScene& scene : statues) {
+    scenes.push_back({group, [scene, folder = options.models_folder] {
                         return askOf(std::make_shared<PreparedScene>(
                             prepareBenchScene(scene, folder, "obbrss")));
                       }});
   }
+}
+
+void addMixedScenes(const BenchOptions& options, std::vector<LadderScene>& scenes) {
   MixedScenes mixed(options.models_folder, options.seed);
   const std::size_t count = options.quick ? kMixedScenes / 5 : kMixedScenes;
   for (std::size_t i = 0; i < count; ++i) {
@@ -119,6 +135,51 @@ void addPartScenes(const BenchOptions& options, const std::string& group, Triang
                           return ask(request);
                         });
                       }});
+  }
+}
+
+/// What a sensor makes of a mesh: occupied cells where it has vertices.
+Geometry octreeOf(const TriangleMesh& mesh) {
+  const auto tree = std::make_shared<octomap::OcTree>(kVoxel);
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    tree->updateNode(octomap::point3d(static_cast<float>(v[0]), static_cast<float>(v[1]),
+                                      static_cast<float>(v[2])),
+                     true);
+  }
+  return std::make_shared<fcl::OcTreed>(tree);
+}
+
+// Each of the parts beside an arm as cells of an octree, and three of them as one body beside it.
+void addOctreesAndGroups(const BenchOptions& options, std::vector<LadderScene>& scenes) {
+  const TriangleMesh arm = armMesh(options.models_folder);
+  PartScenes parts(options.models_folder, options.seed, arm);
+  GroupQuery::Geometries of_group;
+  std::vector<fcl::Transform3d> poses;
+  for (std::size_t i = 0; i < kPartsOfGroup * PartScenes::names().size(); ++i) {
+    const auto drawn = parts.next(i % PartScenes::names().size()).scene;
+    const Geometry part = buildGeometry(drawn->objectA(), "obbrss");
+    const std::vector<fcl::Transform3d> pose_a{drawn->objectA().pose};
+    const std::vector<fcl::Transform3d> pose_b{drawn->objectB().pose};
+    const GaussianDisplacement error = drawn->displacement();
+    const auto add = [&](const std::string& group, const GroupQuery::Geometries& a,
+                         const std::vector<fcl::Transform3d>& poses_a, const Geometry& b) {
+      scenes.push_back({group, [=] {
+                          const auto query =
+                              std::make_shared<GroupQuery>(a, GroupQuery::Geometries{b});
+                          return Ask([=](const ProbabilityRequest& request) {
+                            ProbabilityResult result;
+                            query->collisionProbability(poses_a, pose_b, error, request, result);
+                            return result;
+                          });
+                        }});
+    };
+    of_group.push_back(part);
+    poses.push_back(pose_a[0]);
+    if (of_group.size() < kPartsOfGroup) continue;
+    add("octrees", {part}, pose_a, octreeOf(arm));
+    add("groups", of_group, poses, buildGeometry(drawn->objectB(), "obbrss"));
+    of_group.clear();
+    poses.clear();
   }
 }
 
@@ -273,9 +334,10 @@ class LadderTable {
   BenchReport take() {
     BenchReport report;
     report.title = "What each rung, and each mechanism, is worth";
-    report.table = TextTable({"left out", "climbed", "answered", "share of time", "all: median",
-                              "mean", "90 %", "statues: mean", "mixed: mean", "parts: mean",
-                              "trays: mean", "states: mean", "shapes: mean"});
+    std::vector<std::string> header{"left out",    "climbed", "answered", "share of time",
+                                    "all: median", "mean",    "90 %"};
+    for (const std::string& group : groups()) header.push_back(group + ": mean");
+    report.table = TextTable(header);
     for (const auto& [name, climbed] : rungs_) {
       const auto listed = std::find(whatCanBeLeftOut().begin(), whatCanBeLeftOut().end(), name);
       if (listed == whatCanBeLeftOut().end()) addRow(name, climbed, report);
@@ -284,10 +346,12 @@ class LadderTable {
     report.notes =
         "Intervals of 10 % and 1 %, estimates of 1 % and decisions at 5 %, 1 s at most, one "
         "thread:\n"
-        "the six statues, 30 mixed pairs (`bench mixed`), 21 robot parts beside an arm (`bench\n"
-        "parts`) and 21 beside a tray of flat sides, 10 states of each robot beside a person whose "
-        "P is 1e-4 to 0.9, 40 pairs of\n"
-        "convex shapes. `climbed`,\n"
+        "the six statues, two of 69,451 and 100,000 triangles (dense), 30 mixed pairs (`bench\n"
+        "mixed`), 21 robot parts beside an arm (`bench parts`) and 21 beside a tray of flat "
+        "sides,\n"
+        "seven of them beside the arm as cells of 2 cm (octrees) and in threes (groups), 10 states "
+        "of\n"
+        "each robot beside a person whose P is 1e-4 to 0.9, 40 pairs of convex shapes. `climbed`,\n"
         "`answered`: of " +
         std::to_string(queries_) +
         " queries. The other columns: the time without it over that with it,\n"
@@ -311,12 +375,15 @@ class LadderTable {
       return [share](const std::vector<double>& ratios) { return quantile(ratios, share); };
     };
     const bool is_rung = climbed.times > 0;
-    report.table.add({name, is_rung ? std::to_string(climbed.times) : "",
-                      is_rung ? std::to_string(climbed.answered) : "",
-                      is_rung ? numberText(climbed.seconds / seconds_, 2) : "",
-                      over("all", at(0.5)), over("all", mean), over("all", at(0.9)),
-                      over("statues", mean), over("mixed", mean), over("parts", mean),
-                      over("trays", mean), over("states", mean), over("shapes", mean)});
+    std::vector<std::string> row{name,
+                                 is_rung ? std::to_string(climbed.times) : "",
+                                 is_rung ? std::to_string(climbed.answered) : "",
+                                 is_rung ? numberText(climbed.seconds / seconds_, 2) : "",
+                                 over("all", at(0.5)),
+                                 over("all", mean),
+                                 over("all", at(0.9))};
+    for (const std::string& group : groups()) row.push_back(over(group, mean));
+    report.table.add(row);
   }
 
   const BenchOptions& options_;
@@ -331,9 +398,12 @@ class LadderTable {
 
 BenchReport benchLadder(const BenchOptions& options, const BenchProgress& progress) {
   std::vector<LadderScene> scenes;
-  addMeshScenes(options, scenes);
+  addStatues("statues", benchScenes(), options, scenes);
+  if (!options.quick) addStatues("dense", growthScenes(), options, scenes);
+  addMixedScenes(options, scenes);
   addPartScenes(options, "parts", armMesh(options.models_folder), scenes);
   addPartScenes(options, "trays", trayMesh(options.models_folder), scenes);
+  if (!options.quick) addOctreesAndGroups(options, scenes);
 #ifdef FCL_PROB_HAS_ROBOT
   addRobotStates(options, scenes);
 #endif
