@@ -39,8 +39,9 @@ struct RungRecord {
   std::string name;
   double seconds = 0.0;
   Bounds known;              ///< of P, certified, after it; of several answers around all of theirs
-  std::size_t times = 1;     ///< climbed
+  std::size_t times = 1;     ///< climbed; 0: left out
   std::size_t answered = 0;  ///< of them, after which nothing more was to be done
+  std::string note = {};     ///< what it did, or why it was left out: its line of `plan`
 };
 
 /// What the query did. Counters that a method does not use stay 0.

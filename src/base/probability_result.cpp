@@ -14,7 +14,9 @@ namespace {
 const std::string& nameOf(const RungRecord& rung) { return rung.name; }
 const std::string& nameOf(const std::pair<std::string, double>& time) { return time.first; }
 
+// What is told of it is of the first answer that climbed it.
 void addTo(RungRecord& same, const RungRecord& one) {
+  if (same.times == 0 && one.times > 0) same.note = one.note;
   same.seconds += one.seconds;
   same.known.lower = std::min(same.known.lower, one.known.lower);
   same.known.upper = std::max(same.known.upper, one.known.upper);

@@ -59,39 +59,49 @@ std::string convexNote(const PartitionObject& body, const FatMembers& obstacles,
 
 }  // namespace
 
-bool mayBeCarved(const QueryScene& scene, const ProbabilityRequest& request) {
-  if (request.method == ProbabilityMethod::estimate || request.gradient) return false;
-  if (!request.threshold && request.relative_tolerance < kLeastTolerance) return false;
-  return !request.hasBand() && scene.wholeBody();
+const char* whyNotCarved(const QueryScene& scene, const ProbabilityRequest& request) {
+  if (request.method == ProbabilityMethod::estimate) return "";
+  if (request.gradient) return "masses of cells along planes have no gradient";
+  if (!request.threshold && request.relative_tolerance < kLeastTolerance) {
+    return "masses of cells along planes are known to 1e-4";
+  }
+  if (request.hasBand()) return "planes are of shapes without bands";
+  return scene.wholeBody() ? nullptr : kNoWholeBody;
 }
 
-bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& budget,
-           ProbabilityResult& result) {
-  if (!scene.wholeBody()) return false;
+Climbed carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& budget,
+              ProbabilityResult& result) {
   const WholeBody& whole = *scene.wholeBody();
   const auto& [body, mesh, fan_is_a] = whole;
-  if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) return false;
+  if (FatMembers::leastMemory(body, mesh) > request.max_memory / 2) {
+    return {false, "no memory for C-obstacles of whole objects"};
+  }
   FatMembers obstacles(scene.pair(), body, mesh, fan_is_a, scene.whitening().matrix(),
                        mostLossOf(request));
-  if (!obstacles.usable()) return false;
+  if (!obstacles.usable()) return {false, "the convex object is too thin for its planes"};
   for (int member = 0; member < obstacles.count(); ++member) {
-    if (mayHoldPart(whole, obstacles.partOf(member), obstacles.of(member))) return false;
+    if (mayHoldPart(whole, obstacles.partOf(member), obstacles.of(member))) {
+      return {false, "one surface may be within the convex object and not touch it"};
+    }
   }
   CarvingEngine engine(obstacles, scene.solids(), request, budget, result.statistics);
   result.method = ProbabilityMethod::interval;
   result.status = engine.run();
-  if (obstacles.failed()) return false;
+  if (obstacles.failed()) return {false, "a triangle is too thin for its planes"};
   const Bounds interval = engine.interval();
   result.lower = interval.lower;
   result.upper = interval.upper;
-  if (result.status == ProbabilityStatus::resolution_limit) return false;
-  result.plan.push_back(convexNote(body, obstacles, fan_is_a));
-  result.plan.push_back("partition of the displacement space along the C-obstacles' own planes: " +
-                        std::to_string(result.statistics.cells) + " cells, " +
-                        std::to_string(result.statistics.leaf_pairs) + " C-obstacles");
-  if (const auto note = polygonNote(obstacles, mesh, !fan_is_a)) result.plan.push_back(*note);
-  if (scene.solids()) result.plan.push_back("containment decided once for every free cell");
-  return true;
+  std::vector<std::string> notes{
+      "partition of the displacement space along the C-obstacles' own planes, " +
+          std::to_string(result.statistics.cells) + " cells, " +
+          std::to_string(result.statistics.leaf_pairs) + " C-obstacles",
+      convexNote(body, obstacles, fan_is_a)};
+  if (result.status == ProbabilityStatus::resolution_limit) {
+    return {false, notes[0] + "; what is left open is rounding"};
+  }
+  if (auto note = polygonNote(obstacles, mesh, !fan_is_a)) notes.push_back(std::move(*note));
+  if (scene.solids()) notes.emplace_back("containment decided once for every free cell");
+  return {true, noteOf(notes)};
 }
 
 }  // namespace fcl_prob::detail

@@ -4,17 +4,18 @@
 #pragma once
 
 #include "base/budget.h"
+#include "base/ladder.h"
 #include "scene/scene.h"
 
 namespace fcl_prob::detail {
 
-/// Whether carve() is for such a query.
-bool mayBeCarved(const QueryScene& scene, const ProbabilityRequest& request);
+/// Why carve() is not for such a query; null if it is.
+const char* whyNotCarved(const QueryScene& scene, const ProbabilityRequest& request);
 
-/// As partitionProbability(), but for the decision, where mayBeCarved(). False where that does not
-/// reach what the request asks for, so that the boxes of the other partition are to be tried: the
-/// interval, if there is one, and the statistics are then those so far.
-bool carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& budget,
-           ProbabilityResult& result);
+/// As partitionProbability(), but for the decision and `plan`, where it is for such a query. Not
+/// answered where that does not reach what the request asks for, so that the boxes of the other
+/// partition are to be tried: the interval, if there is one, and the statistics are those so far.
+Climbed carve(const QueryScene& scene, const ProbabilityRequest& request, Budget& budget,
+              ProbabilityResult& result);
 
 }  // namespace fcl_prob::detail

@@ -25,7 +25,8 @@ Json jsonOf(const ProbabilityStatistics& statistics) {
                      {"lower", rung.known.lower},
                      {"upper", rung.known.upper},
                      {"times", rung.times},
-                     {"answered", rung.answered}});
+                     {"answered", rung.answered},
+                     {"note", rung.note}});
   }
   return {{"cells", statistics.cells},
           {"cells_open", statistics.cells_open},

@@ -60,6 +60,7 @@ py::dict dictOf(const ProbabilityStatistics& statistics) {
     record["upper"] = rung.known.upper;
     record["times"] = rung.times;
     record["answered"] = rung.answered;
+    record["note"] = rung.note;
     rungs.append(record);
   }
   result["rungs"] = rungs;
@@ -107,7 +108,8 @@ ProbabilityStatistics statisticsFrom(const py::dict& dict) {
                                 rung["seconds"].cast<double>(),
                                 {rung["lower"].cast<double>(), rung["upper"].cast<double>()},
                                 rung["times"].cast<std::size_t>(),
-                                rung["answered"].cast<std::size_t>()});
+                                rung["answered"].cast<std::size_t>(),
+                                rung["note"].cast<std::string>()});
   }
   return statistics;
 }

@@ -24,6 +24,8 @@ constexpr double kNegligible = 1e-6;
 /// Of the time limit, for a first sum of bounds that is seldom the answer.
 constexpr double kShareOfRootBounds = 0.1;
 
+constexpr const char* kCollided = "nothing is random, and cells cannot tell: as fcl::collide says";
+
 /// Two groups, one question.
 class GroupsAnswer {
  public:
@@ -40,6 +42,8 @@ class GroupsAnswer {
 
   ProbabilityResult answer() {
     climb(kLadder, *this, known_, rungs_);
+    result_.plan = planOf(rungs_);
+    result_.plan.insert(result_.plan.begin(), groups_.note);
     result_.statistics.rungs = std::move(rungs_);
     return std::move(result_);
   }
@@ -48,18 +52,18 @@ class GroupsAnswer {
   bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
 
   // The sum over all pairs, of which each is bounded by its root volumes.
-  bool mayBeFar() const;
-  bool sumRootBounds();
+  const char* whyNotFar() const;
+  Climbed sumRootBounds();
 
   // Sums and products of masses of pairs of convex members, which may decide a threshold.
-  bool mayBeDecidedByPairs() const;
-  bool decideByPairs();
+  const char* whyNotByPairs() const;
+  Climbed decideByPairs();
 
-  bool divide();
+  Climbed divide();
 
   // Without a displacement, where cells cannot tell: what fcl::collide says, as for pairs.
   bool isStillUnknown() const;
-  bool collideAll();
+  Climbed collideAll();
 
   static const std::vector<Rung<GroupsAnswer>> kLadder;
 
@@ -76,21 +80,24 @@ class GroupsAnswer {
 };
 
 const std::vector<Rung<GroupsAnswer>> GroupsAnswer::kLadder{
-    {"root volumes", [](const GroupsAnswer& q) { return q.mayBeFar(); },
+    {"root volumes", [](const GroupsAnswer& q) { return q.whyNotFar(); },
      &GroupsAnswer::sumRootBounds},
-    {"pairs", [](const GroupsAnswer& q) { return q.mayBeDecidedByPairs(); },
+    {"pairs", [](const GroupsAnswer& q) { return q.whyNotByPairs(); },
      &GroupsAnswer::decideByPairs},
     {"partition", nullptr, &GroupsAnswer::divide, true},
-    {"one fcl::collide", [](const GroupsAnswer& q) { return q.isStillUnknown(); },
+    {"one fcl::collide", [](const GroupsAnswer& q) { return q.isStillUnknown() ? nullptr : ""; },
      &GroupsAnswer::collideAll, true},
 };
 
-bool GroupsAnswer::mayBeFar() const {
-  return !request_.gradient && !request_.hasBand() && !isEstimate() && groups_.a.haveRootBodies() &&
-         groups_.b.haveRootBodies();
+const char* GroupsAnswer::whyNotFar() const {
+  if (isEstimate()) return "";
+  if (request_.gradient) return "a bound from above has no gradient";
+  if (request_.hasBand()) return "they are of shapes without bands";
+  return groups_.a.haveRootBodies() && groups_.b.haveRootBodies() ? nullptr
+                                                                  : "a member has no root volume";
 }
 
-bool GroupsAnswer::sumRootBounds() {
+Climbed GroupsAnswer::sumRootBounds() {
   Budget limits(request_, kShareOfRootBounds);
   // A larger sum ends no query.
   const double useful = request_.threshold.value_or(request_.absolute_tolerance);
@@ -103,31 +110,37 @@ bool GroupsAnswer::sumRootBounds() {
                                      displacement_, limits.interruption())
                                .least;
       sum += bound;
-      if (sum > useful || limits.stopped()) return false;
+      if (sum > useful) return {false, "the sum of their bounds decides nothing"};
+      if (limits.stopped()) return {false, "their share of the time was over"};
       pairs.push_back({0.0, bound});
     }
   }
   known_.narrow({0.0, anyOf(pairs).upper});
   const auto status = known_.satisfied();
-  if (!status) return false;
+  if (!status) return {false, "the sum of their bounds decides nothing"};
   result_.method = ProbabilityMethod::interval;
   known_.tell(result_);
   result_.status = *status;
-  result_.plan.push_back("far apart: stopped at the sum of the bounds of all pairs");
-  return true;
+  return {true, "far apart: stopped at the sum of the bounds of all pairs"};
 }
 
 // Convex members in one place, as the parts of a mesh are. Bounds of whole members are of contact,
 // not of contact within an ellipsoid.
-bool GroupsAnswer::mayBeDecidedByPairs() const {
-  return kHasDecomposition && !ball_ && !request_.hasBand() && request_.threshold &&
-         !request_.gradient && !isEstimate() && groups_.a.areConvex() && groups_.b.areConvex() &&
-         groups_.a.onePlace(groups_.poses_a) && groups_.b.onePlace(groups_.poses_b);
+const char* GroupsAnswer::whyNotByPairs() const {
+  if (!kHasDecomposition || !request_.threshold || isEstimate()) return "";
+  if (ball_ || request_.hasBand() || request_.gradient) {
+    return "masses of pairs know no bands, truncation or gradient";
+  }
+  const bool are_convex = groups_.a.areConvex() && groups_.b.areConvex();
+  if (!are_convex) return "not all members are convex";
+  return groups_.a.onePlace(groups_.poses_a) && groups_.b.onePlace(groups_.poses_b)
+             ? nullptr
+             : "the members are not in one place";
 }
 
-bool GroupsAnswer::decideByPairs() {
+Climbed GroupsAnswer::decideByPairs() {
   if constexpr (!kHasDecomposition) {
-    return false;
+    return {false, ""};
   } else {
     Budget limits(request_);
     PartsBoundsRequest parts;
@@ -136,20 +149,21 @@ bool GroupsAnswer::decideByPairs() {
     const PartsBoundsResult bounds =
         partsBounds(groups_.a.bodies(), *groups_.a.onePlace(groups_.poses_a), groups_.b.bodies(),
                     *groups_.b.onePlace(groups_.poses_b), displacement_, parts);
-    if (!isDecided(decisionOf(bounds.any, request_))) return false;
+    if (!isDecided(decisionOf(bounds.any, request_))) {
+      return {false, "bounds on pairs of convex members decide nothing"};
+    }
+    known_.narrow(bounds.any);
     result_.method = ProbabilityMethod::interval;
     result_.lower = bounds.any.lower;
     result_.upper = bounds.any.upper;
     result_.status = ProbabilityStatus::decided;
     result_.decision = decisionOf(bounds.any, request_);
     result_.statistics.leaf_pairs = bounds.pairs;
-    result_.plan = {groups_.note,
-                    "decided by Hunter's and Bonferroni's bounds on pairs of convex members"};
-    return true;
+    return {true, "decided by Hunter's and Bonferroni's bounds on pairs of convex members"};
   }
 }
 
-bool GroupsAnswer::divide() {
+Climbed GroupsAnswer::divide() {
   placed_a_.boundBy(placed_b_.object(), displacement_);
   placed_b_.boundBy(placed_a_.object(), displacement_);
   result_ = partitionProbability(placed_a_.object(), placed_b_.object(), displacement_,
@@ -159,25 +173,23 @@ bool GroupsAnswer::divide() {
   known_.narrow(result_);
   result_.lower = known_.interval().lower;
   result_.upper = known_.interval().upper;
-  result_.plan.insert(result_.plan.begin(),
-                      groups_.note + ": one partition for the union of their pairs");
-  return !isStillUnknown();
+  return {!isStillUnknown(), "one for the union of their pairs"};
 }
 
 bool GroupsAnswer::isStillUnknown() const {
   return displacement_.rank() == 0 && !request_.hasBand() && *result_.lower < *result_.upper;
 }
 
-bool GroupsAnswer::collideAll() {
+Climbed GroupsAnswer::collideAll() {
   for (std::size_t i = 0; i < groups_.poses_a.size(); ++i) {
     for (std::size_t j = 0; j < groups_.poses_b.size(); ++j) {
       result_ = singleCollide(groups_.a.members()[i]->geometry(), groups_.poses_a[i],
                               groups_.b.members()[j]->geometry(), groups_.poses_b[j],
                               displacement_.mean(), request_);
-      if (*result_.upper > 0.0) return true;
+      if (*result_.upper > 0.0) return {true, kCollided};
     }
   }
-  return true;
+  return {true, kCollided};
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ namespace {
 constexpr std::size_t kCellsBeforeExact = 5'000;
 constexpr std::size_t kCellsBeforeHull = 20'000;
 
+/// Of rungs that nobody expects where they do not serve.
+constexpr const char* unless(bool serves) { return serves ? nullptr : ""; }
+
 /// One pair, one question.
 class PairAnswer {
  public:
@@ -46,25 +49,26 @@ class PairAnswer {
 
   ProbabilityResult answer() {
     climb(kLadder, *this, known_, rungs_);
+    result_.plan = planOf(rungs_);
     result_.statistics.rungs = std::move(rungs_);
     return std::move(result_);
   }
 
  private:
   // The rungs, in their order.
-  bool collideOnce();
-  bool answerInClosedForm();
-  bool boundFromAbove();
-  bool sample();
-  bool boundByRoots();
-  bool answerByConvexMeshes();
-  bool answerByExactMass();
-  bool divide();
-  bool closeByExactMass();
-  bool divideFurther();
+  Climbed collideOnce();
+  Climbed answerInClosedForm();
+  Climbed boundFromAbove();
+  Climbed sample();
+  Climbed boundByRoots();
+  Climbed answerByConvexMeshes();
+  Climbed answerByExactMass();
+  Climbed divide();
+  Climbed closeByExactMass();
+  Climbed divideFurther();
 
   bool hasCellsLeft() const;
-  bool take(ProbabilityResult result);
+  Climbed take(ProbabilityResult result);
 
   // Of convex shapes, and of meshes that are convex: nothing in a build without them.
   std::optional<ProbabilityResult> massOf(const ProbabilityRequest& request) const;
@@ -88,41 +92,43 @@ class PairAnswer {
 
 const std::vector<Rung<PairAnswer>> PairAnswer::kLadder{
     // Where nothing is random, or nothing but the displacement along one normal matters.
-    {"one fcl::collide", [](const PairAnswer& q) { return q.plan_.route == Route::single_collide; },
+    {"one fcl::collide",
+     [](const PairAnswer& q) { return unless(q.plan_.route == Route::single_collide); },
      &PairAnswer::collideOnce, true},
-    {"closed form", [](const PairAnswer& q) { return q.plan_.route == Route::unbounded_pair; },
+    {"closed form",
+     [](const PairAnswer& q) { return unless(q.plan_.route == Route::unbounded_pair); },
      &PairAnswer::answerInClosedForm, true},
     // Methods that are asked for by name.
     {"bound",
      [](const PairAnswer& q) {
-       return q.plan_.route == Route::convex_bound || q.plan_.route == Route::general_pcd;
+       return unless(q.plan_.route == Route::convex_bound || q.plan_.route == Route::general_pcd);
      },
      &PairAnswer::boundFromAbove, true},
     {"sampling",
      [](const PairAnswer& q) {
-       return q.plan_.route == Route::monte_carlo || q.plan_.route == Route::rare_event;
+       return unless(q.plan_.route == Route::monte_carlo || q.plan_.route == Route::rare_event);
      },
      &PairAnswer::sample, true},
-    {"root volumes", [](const PairAnswer& q) { return q.plan_.try_root_bound; },
+    {"root volumes", [](const PairAnswer& q) { return q.plan_.why_no_root_bound; },
      &PairAnswer::boundByRoots},
-    {"convex meshes", [](const PairAnswer& q) { return q.plan_.convex_meshes_first; },
+    {"convex meshes", [](const PairAnswer& q) { return q.plan_.why_no_convex_meshes; },
      &PairAnswer::answerByConvexMeshes},
-    {"exact mass", [](const PairAnswer& q) { return q.plan_.route == Route::exact_mass; },
+    {"exact mass", [](const PairAnswer& q) { return unless(q.plan_.route == Route::exact_mass); },
      &PairAnswer::answerByExactMass},
     {"partition", nullptr, &PairAnswer::divide, true},
     {"exact mass",
      [](const PairAnswer& q) {
-       return q.plan_.exact_if_unresolved || q.plan_.convex_meshes_if_unresolved;
+       return unless(q.plan_.exact_if_unresolved || q.plan_.convex_meshes_if_unresolved);
      },
      &PairAnswer::closeByExactMass},
-    {"partition", [](const PairAnswer& q) { return q.hasCellsLeft(); }, &PairAnswer::divideFurther,
-     true},
+    {"partition", [](const PairAnswer& q) { return unless(q.hasCellsLeft()); },
+     &PairAnswer::divideFurther, true},
 };
 
-bool PairAnswer::take(ProbabilityResult result) {
+Climbed PairAnswer::take(ProbabilityResult result) {
   result_ = std::move(result);
   known_.narrow(result_);
-  return true;
+  return {true, noteOf(result_.plan)};
 }
 
 std::optional<ProbabilityResult> PairAnswer::massOf(const ProbabilityRequest& request) const {
@@ -141,21 +147,21 @@ std::optional<ProbabilityResult> PairAnswer::meshesMass(const ProbabilityRequest
   }
 }
 
-bool PairAnswer::collideOnce() {
+Climbed PairAnswer::collideOnce() {
   return take(singleCollide(pair_.a.geometry(), pair_.pose_a, pair_.b.geometry(), pair_.pose_b,
                             displacement_.mean(), request_));
 }
 
-bool PairAnswer::answerInClosedForm() {
+Climbed PairAnswer::answerInClosedForm() {
   return take(unboundedPairProbability(pair_, displacement_, request_));
 }
 
-bool PairAnswer::boundFromAbove() {
+Climbed PairAnswer::boundFromAbove() {
   return take(plan_.route == Route::convex_bound ? convexBound(pair_, displacement_, request_)
                                                  : generalPcdBound(pair_, displacement_, request_));
 }
 
-bool PairAnswer::sample() {
+Climbed PairAnswer::sample() {
   if constexpr (kHasSampling) {
     const auto& [a, pose_a, b, pose_b] = pair_;
     return take(plan_.route == Route::monte_carlo
@@ -164,15 +170,16 @@ bool PairAnswer::sample() {
                     : rareEventProbability(a.geometry(), pose_a, b.geometry(), pose_b,
                                            displacement_, request_));
   } else {
-    return false;
+    return {false, ""};
   }
 }
 
 /// Of two convex meshes neither tree nor cells are needed, unless rounding leaves more of their
 /// mass open than the tolerance.
-bool PairAnswer::answerByConvexMeshes() {
+Climbed PairAnswer::answerByConvexMeshes() {
   auto result = meshesMass(request_);
-  if (!result || !isAnswered(result->status)) return false;
+  if (!result) return {false, "a mesh is not convex"};
+  if (!isAnswered(result->status)) return {false, "rounding leaves too much of their mass open"};
   result->method = ProbabilityMethod::exact;
   if (request_.method == ProbabilityMethod::estimate) {
     const Bounds bounds{*result->lower, *result->upper};
@@ -185,19 +192,22 @@ bool PairAnswer::answerByConvexMeshes() {
   return take(std::move(*result));
 }
 
-bool PairAnswer::boundByRoots() {
+Climbed PairAnswer::boundByRoots() {
   auto result = intervalOfRootBound(pair_, displacement_, request_);
-  return result && take(std::move(*result));
+  if (!result) return {false, "their bound decides nothing"};
+  return take(std::move(*result));
 }
 
 /// Cells are asked where the exact mass leaves more open than the tolerance, or has no gradient; of
 /// deviations far below the size it may tell nothing, and cells all.
-bool PairAnswer::answerByExactMass() {
-  take(*massOf(request_));
+Climbed PairAnswer::answerByExactMass() {
+  Climbed climbed = take(*massOf(request_));
   const bool unresolved = result_.status == ProbabilityStatus::resolution_limit ||
                           (isAnswered(result_.status) && request_.gradient && !result_.gradient);
   const bool is_unknown = *result_.upper - *result_.lower >= 1.0;
-  return !unresolved || !(plan_.partition_if_unresolved || is_unknown);
+  climbed.answered = !unresolved || !(plan_.partition_if_unresolved || is_unknown);
+  if (!climbed.answered) climbed.note = "rounding leaves too much open, or there is no gradient";
+  return climbed;
 }
 
 std::size_t PairAnswer::firstCells() const {
@@ -217,23 +227,21 @@ ProbabilityResult PairAnswer::partition(std::size_t most_cells) {
   ProbabilityResult result = partitionProbability(a, b, displacement_, request);
   auto& rungs = result.statistics.rungs;
   rungs_.insert(rungs_.end(), rungs.begin(), rungs.end());
+  if (!rungs.empty()) result.plan.clear();
   return result;
 }
 
 /// Cells that are all settled may be so by planes that are widened by more than the tolerance.
-bool PairAnswer::divide() {
-  ProbabilityResult result = partition(firstCells());
-  if (plan_.route == Route::exact_mass) {
-    result.plan.insert(result.plan.begin(),
-                       "rounding leaves too much of the exact mass open: partition");
-    return take(std::move(result));
-  }
-  take(std::move(result));
+Climbed PairAnswer::divide() {
+  Climbed climbed = take(partition(firstCells()));
+  if (plan_.route == Route::exact_mass) return climbed;
   if (result_.status == ProbabilityStatus::exact) {
-    return satisfied({*result_.lower, *result_.upper}, request_).has_value();
+    climbed.answered = satisfied({*result_.lower, *result_.upper}, request_).has_value();
+  } else {
+    climbed.answered = result_.status != ProbabilityStatus::cell_limit &&
+                       result_.status != ProbabilityStatus::resolution_limit;
   }
-  return result_.status != ProbabilityStatus::cell_limit &&
-         result_.status != ProbabilityStatus::resolution_limit;
+  return climbed;
 }
 
 /// Both are bounds of the same probability. An estimate becomes the middle of what is left.
@@ -257,23 +265,23 @@ void PairAnswer::narrowBy(const ProbabilityResult& exact) {
 /// Far out in the tail a curved surface takes more cells than the limit, and where deviations are
 /// far below the size cells are widened by more than they should; of two convex shapes no cell is
 /// needed.
-bool PairAnswer::closeByExactMass() {
+Climbed PairAnswer::closeByExactMass() {
   const ProbabilityRequest rest = budget_.withTimeLeft();
   std::optional<ProbabilityResult> exact;
   if (plan_.exact_if_unresolved) exact = massOf(rest);
   if (plan_.convex_meshes_if_unresolved) exact = meshesMass(rest);
-  if (!exact || !isAnswered(exact->status)) return false;
-  if (request_.gradient && !exact->gradient) return false;
+  if (!exact) return {false, "a mesh is not convex"};
+  if (!isAnswered(exact->status)) return {false, "it leaves too much open, too"};
+  if (request_.gradient && !exact->gradient) return {false, "it has no gradient"};
   narrowBy(*exact);
-  result_.plan.push_back("the cells left too much open: the exact mass of the C-obstacle instead");
-  return true;
+  return {true, "the cells left too much open: the exact mass of the C-obstacle instead"};
 }
 
 bool PairAnswer::hasCellsLeft() const {
   return result_.status == ProbabilityStatus::cell_limit && firstCells() < request_.max_cells;
 }
 
-bool PairAnswer::divideFurther() { return take(partition(request_.max_cells)); }
+Climbed PairAnswer::divideFurther() { return take(partition(request_.max_cells)); }
 
 }  // namespace
 

@@ -42,9 +42,10 @@ class PartitionQuery {
         budget_(request),
         known_(request),
         scene_(a, b, displacement, request, ball != nullptr),
-        may_use_polytopes_(!ball && !needsAllClaims() && mayBeCarved(scene_, request)) {
+        why_no_polytopes_(whyNoPolytopes()) {
     result_.method = isEstimate() ? ProbabilityMethod::estimate : ProbabilityMethod::interval;
-    result_.statistics.rungs.push_back({"whitening", budget_.seconds(), known_.interval(), 1, 0});
+    result_.statistics.rungs.push_back(
+        {"whitening", budget_.seconds(), known_.interval(), 1, 0, noteOnFrame()});
     announceFrame();
   }
 
@@ -60,21 +61,24 @@ class PartitionQuery {
     if (claim_observer) claim_observer->frame(scene_.whitening(), given_);
   }
 
-  bool dividePolytopes();
+  std::string noteOnFrame() const;
+
+  const char* whyNoPolytopes() const;
+  Climbed dividePolytopes();
 
   // A mean over lines, where nothing but P is asked for and an object can be taken whole.
-  bool isForLines() const;
-  bool estimateByLines();
+  const char* whyNoLines() const;
+  Climbed estimateByLines();
 
   // Bounds on columns of lines, where an object can be taken whole.
-  bool boundColumns();
+  Climbed boundColumns();
 
-  bool divideBoxes();
-  bool sampleBoxes();
+  Climbed divideBoxes();
+  Climbed sampleBoxes();
 
   PartitionEngine& engine();
   std::unique_ptr<PointTester> makeTester();
-  void describeBoxes();
+  std::string noteOnBoxes() const;
 
   static const std::vector<Rung<PartitionQuery>> kLadder;
 
@@ -84,20 +88,20 @@ class PartitionQuery {
   Budget budget_;
   Known known_;
   QueryScene scene_;
-  const bool may_use_polytopes_;
+  const char* const why_no_polytopes_;
   std::optional<PartitionEngine> engine_;
   ProbabilityResult result_;
 };
 
 const std::vector<Rung<PartitionQuery>> PartitionQuery::kLadder{
-    {"lines", [](const PartitionQuery& q) { return q.isForLines(); },
+    {"lines", [](const PartitionQuery& q) { return q.whyNoLines(); },
      &PartitionQuery::estimateByLines},
-    {"columns", [](const PartitionQuery& q) { return q.may_use_polytopes_ && q.isDecision(); },
+    {"columns", [](const PartitionQuery& q) { return q.isDecision() ? q.why_no_polytopes_ : ""; },
      &PartitionQuery::boundColumns},
-    {"polytope cells", [](const PartitionQuery& q) { return q.may_use_polytopes_; },
+    {"polytope cells", [](const PartitionQuery& q) { return q.why_no_polytopes_; },
      &PartitionQuery::dividePolytopes},
     {"boxes", nullptr, &PartitionQuery::divideBoxes, true},
-    {"samples of boxes", [](const PartitionQuery& q) { return q.isEstimate(); },
+    {"samples of boxes", [](const PartitionQuery& q) { return q.isEstimate() ? nullptr : ""; },
      &PartitionQuery::sampleBoxes, true},
 };
 
@@ -106,56 +110,82 @@ ProbabilityResult PartitionQuery::answer() {
   known_.tell(result_);
   ProbabilityStatistics& statistics = result_.statistics;
   for (const RungRecord& rung : statistics.rungs) {
-    statistics.seconds.emplace_back(rung.name, rung.seconds);
+    if (rung.times > 0) statistics.seconds.emplace_back(rung.name, rung.seconds);
   }
+  result_.plan = planOf(statistics.rungs);
   return std::move(result_);
 }
 
-bool PartitionQuery::dividePolytopes() {
+std::string PartitionQuery::noteOnFrame() const {
+  const int rank = scene_.rank(), of_covariance = given_.rank();
+  std::vector<std::string> notes;
+  if (rank < of_covariance) {
+    notes.push_back("deviations below what positions are rounded by, " +
+                    std::to_string(of_covariance - rank) +
+                    " axes left out of the cells, their reach added to the rounding");
+  }
+  if (of_covariance < 3) {
+    notes.push_back("covariance of rank " + std::to_string(of_covariance) + ", " +
+                    std::to_string(3 - of_covariance) + " axes left out of the cells");
+  }
+  if (request_.gradient && rank < 3) notes.emplace_back(kNoGradient);
+  return noteOf(notes);
+}
+
+const char* PartitionQuery::whyNoPolytopes() const {
+  if (ball_) return "cells along planes do not end at an ellipsoid";
+  if (needsAllClaims()) return "claims of boxes are what is asked for";
+  return whyNotCarved(scene_, request_);
+}
+
+Climbed PartitionQuery::dividePolytopes() {
   const ProbabilityMethod method = result_.method;
-  const bool reached = carve(scene_, request_, budget_, result_);
+  Climbed climbed = carve(scene_, request_, budget_, result_);
   known_.narrow(result_);
-  if (reached) return true;
+  if (climbed.answered) return climbed;
   // What was claimed so far is over.
   result_.method = method;
   announceFrame();
-  return false;
+  return climbed;
 }
 
-bool PartitionQuery::isForLines() const {
-  return isEstimate() && !ball_ && !request_.gradient && !isDecision();
+const char* PartitionQuery::whyNoLines() const {
+  if (!isEstimate()) return "";
+  if (ball_) return "lines do not end at an ellipsoid";
+  if (request_.gradient || isDecision()) return "lines have neither gradients nor decisions";
+  return scene_.wholeBody() ? nullptr : kNoWholeBody;
 }
 
-bool PartitionQuery::estimateByLines() {
+Climbed PartitionQuery::estimateByLines() {
   const auto lines = WholeBodyLines::of(scene_);
-  if (!lines || !lines->isConvex()) return false;
-  if (lines->rounding() > kMostRoundingOfLines * request_.relative_tolerance) return false;
+  if (!lines || !lines->isConvex()) return {false, "masses on lines are between bounds only"};
+  if (lines->rounding() > kMostRoundingOfLines * request_.relative_tolerance) {
+    return {false, "ends of lines are rounded by more than the tolerance allows"};
+  }
   const auto estimate = lineEstimate(*lines, request_, budget_);
-  if (!estimate) return false;
+  if (!estimate) return {false, "too little of P was met by lines"};
   result_.status = estimate->status;
   result_.estimate = estimate->value;
   result_.standard_error = estimate->standard_error;
   known_.narrow({0.0, estimate->upper});
   result_.statistics.cells = estimate->columns;
   result_.statistics.samples = estimate->lines;
-  result_.plan.push_back("mean over " + std::to_string(estimate->lines) + " parallel lines in " +
-                         std::to_string(estimate->columns) +
-                         " columns, against convex meshes taken whole; cells left out");
-  return true;
+  return {true, "mean over " + std::to_string(estimate->lines) + " parallel lines in " +
+                    std::to_string(estimate->columns) +
+                    " columns, against convex meshes taken whole; cells left out"};
 }
 
-bool PartitionQuery::boundColumns() {
+Climbed PartitionQuery::boundColumns() {
   const auto lines = WholeBodyLines::of(scene_);
-  if (!lines) return false;
+  if (!lines) return {false, "one surface may be within the convex object and not touch it"};
   const double threshold = *request_.threshold;
   const ColumnBounds columns = columnBounds(*lines, threshold, request_.max_cells);
   known_.narrow(columns.bounds);
-  if (!isDecided(known_.decision())) return false;
+  const std::string bounds = "bounds on " + std::to_string(columns.columns) + " columns";
+  if (!isDecided(known_.decision())) return {false, bounds + " decide nothing"};
   result_.status = ProbabilityStatus::decided;
   result_.statistics.cells = columns.columns;
-  result_.plan.push_back("decided by bounds on " + std::to_string(columns.columns) +
-                         " columns, against convex meshes taken whole; cells left out");
-  return true;
+  return {true, "decided by " + bounds + ", against convex meshes taken whole; cells left out"};
 }
 
 PartitionEngine& PartitionQuery::engine() {
@@ -176,18 +206,16 @@ std::unique_ptr<PointTester> PartitionQuery::makeTester() {
   return std::make_unique<PointTester>(scene_.pair(), engine().obstacles(), scene_.solids());
 }
 
-bool PartitionQuery::divideBoxes() {
+Climbed PartitionQuery::divideBoxes() {
   result_.status = engine().run(isEstimate());
   known_.narrow(engine().interval());
-  if (isEstimate()) return false;
-  if (request_.gradient && scene_.rank() == 3) {
+  if (!isEstimate() && request_.gradient && scene_.rank() == 3) {
     fillGradient(scene_.whitening(), engine().moment(), result_);
   }
-  describeBoxes();
-  return true;
+  return {!isEstimate(), noteOnBoxes()};
 }
 
-bool PartitionQuery::sampleBoxes() {
+Climbed PartitionQuery::sampleBoxes() {
   if (request_.threads > 1) engine().obstacles().share();
   CellSampler sampler(
       makeTester(), [this] { return makeTester(); }, request_.seed,
@@ -198,30 +226,21 @@ bool PartitionQuery::sampleBoxes() {
   const bool with_gradient = request_.gradient && scene_.rank() == 3;
   if (with_gradient) fillGradient(scene_.whitening(), engine().moment(), result_);
   fillEstimate(scene_.whitening(), engine(), sampled, with_gradient, result_);
-  describeBoxes();
-  return true;
+  return {true, std::to_string(result_.statistics.samples) + " displacements in open cells"};
 }
 
-void PartitionQuery::describeBoxes() {
-  const int rank = scene_.rank(), of_covariance = given_.rank();
-  const auto tell = [this](std::string text) { result_.plan.push_back(std::move(text)); };
-  tell("partition of the displacement space into " + std::to_string(result_.statistics.cells) +
-       " cells, " + std::to_string(result_.statistics.leaf_pairs) + " pairs of pieces refined");
-  if (rank < of_covariance) {
-    tell("deviations below what positions are rounded by: " + std::to_string(of_covariance - rank) +
-         " axes left out of the cells, their reach added to the rounding");
-  }
-  if (of_covariance < 3) {
-    tell("covariance of rank " + std::to_string(of_covariance) + ": " +
-         std::to_string(3 - of_covariance) + " axes left out of the cells");
-  }
-  if (request_.gradient && rank < 3) tell(kNoGradient);
+std::string PartitionQuery::noteOnBoxes() const {
+  std::vector<std::string> notes{
+      "partition of the displacement space into " + std::to_string(result_.statistics.cells) +
+      " cells, " + std::to_string(result_.statistics.leaf_pairs) + " pairs of pieces refined"};
   if (request_.hasBand()) {
-    tell("holds for all shapes within bands of " +
-         numberText(request_.band_a.outward + request_.band_b.outward) + " m outwards and " +
-         numberText(request_.band_a.inward + request_.band_b.inward) + " m inwards, added up");
+    notes.push_back(
+        "holds for all shapes within bands of " +
+        numberText(request_.band_a.outward + request_.band_b.outward) + " m outwards and " +
+        numberText(request_.band_a.inward + request_.band_b.inward) + " m inwards, added up");
   }
-  if (scene_.solids()) tell("containment decided once for every free cell");
+  if (scene_.solids()) notes.emplace_back("containment decided once for every free cell");
+  return noteOf(notes);
 }
 
 }  // namespace

@@ -72,47 +72,51 @@ constexpr const char* kSurfacesOnly =
 
 QueryPlan planWithoutMotion(const QueryPair& pair, const ProbabilityRequest& request) {
   const std::string reason = "the covariance is 0: nothing is random";
-  if (pair.anyUnbounded()) return {Route::unbounded_pair, false, {reason}};
+  if (pair.anyUnbounded()) return {Route::unbounded_pair, "", {reason}};
   if (pair.inFcl()) {
-    QueryPlan plan{Route::single_collide, false, {reason + ", one fcl::collide"}};
+    QueryPlan plan{Route::single_collide, "", {reason + ", one fcl::collide"}};
     if (request.gradient) plan.notes.push_back("no gradient: P jumps where A touches B");
     return plan;
   }
-  return {
-      Route::partition, false, {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
+  return {Route::partition, "", {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
 }
 
 // Roots and shapes as they are say nothing of those within a band.
 QueryPlan planBanded(const QueryPair& pair, const ProbabilityRequest& request) {
   if (!pair.anyUnbounded()) {
-    QueryPlan plan{Route::partition, false, {}};
+    QueryPlan plan{Route::partition, "", {}};
     if (request.contact == ContactMeaning::fcl && pair.anyMesh()) {
       plan.notes.push_back(kSurfacesOnly);
     }
     return plan;
   }
-  return {Route::unbounded_pair, false, {"a half-space or plane: closed form, bands included"}};
+  return {Route::unbounded_pair, "", {"a half-space or plane: closed form, bands included"}};
+}
+
+const char* whyNoRootBound(const QueryPair& pair, const ProbabilityRequest& request) {
+  if (request.method == ProbabilityMethod::estimate) return "";  // asked for by name
+  if (request.gradient) return "a bound from above has no gradient";
+  return pair.haveRootBodies() ? nullptr : "one of them is not bounded by a volume";
 }
 
 QueryPlan planUnbounded() {
   return {Route::unbounded_pair,
-          false,
+          "",
           {"a half-space or plane: only the displacement along its normal matters, closed form"}};
 }
 
 QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
   if (pair.anyUnbounded()) return planUnbounded();
-  QueryPlan plan{Route::partition, false, {}};
-  // A bound from above has no gradient, and an estimate was asked for by name.
-  plan.try_root_bound =
-      pair.haveRootBodies() && !request.gradient && request.method != ProbabilityMethod::estimate;
+  QueryPlan plan{Route::partition, "", {}};
+  plan.why_no_root_bound = whyNoRootBound(pair, request);
   plan.exact_if_unresolved = pair.haveExactMass(displacement);
   plan.convex_meshes_if_unresolved =
       kHasExact && pair.anyMesh() && pair.areFlatOrMeshes() && !request.gradient;
-  plan.convex_meshes_first = plan.convex_meshes_if_unresolved &&
-                             request.method != ProbabilityMethod::interval &&
-                             pair.triangleCount() <= kFewTriangles;
+  if (plan.convex_meshes_if_unresolved && request.method != ProbabilityMethod::interval) {
+    plan.why_no_convex_meshes =
+        pair.triangleCount() <= kFewTriangles ? nullptr : "cells are quicker of so many triangles";
+  }
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
   }
@@ -141,7 +145,7 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
   if (!kHasExact) refuseWithout(toString(request.method), "EXACT");
   if (pair.anyUnbounded()) return planUnbounded();
   if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
-  QueryPlan plan{Route::exact_mass, false, {}};
+  QueryPlan plan{Route::exact_mass, "", {}};
   plan.notes.push_back(noteOnExactMass(pair.kind(), displacement.rank()));
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
@@ -159,8 +163,9 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
     const bool is_closed_form = kind == BoundaryKind::flat || kind == BoundaryKind::ball;
     plan.partition_if_unresolved = request.gradient || !is_closed_form;
     // Quadrature over a boundary takes milliseconds, a bound microseconds.
-    plan.try_root_bound =
+    const bool is_quadrature =
         !is_closed_form && kind != BoundaryKind::rounded && displacement.rank() > 1;
+    if (is_quadrature) plan.why_no_root_bound = nullptr;
     return plan;
   }
   QueryPlan plan = planPartition(pair, displacement, request);
@@ -174,7 +179,7 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
 QueryPlan planConvexBound(const QueryPair& pair, const ProbabilityRequest& request) {
   if (!pair.haveRootBodies())
     refuse(request.method, pair, "one of them is not bounded by a volume");
-  QueryPlan plan{Route::convex_bound, false, {}};
+  QueryPlan plan{Route::convex_bound, "", {}};
   if (pair.anyMesh()) {
     plan.notes.push_back("the bound is that of the root volumes of the meshes");
   }
@@ -186,12 +191,12 @@ QueryPlan planGeneralPcd(const QueryPair& pair, const ProbabilityRequest& reques
   if (request.contact == ContactMeaning::solid && pair.anyMesh()) {
     refuse(request.method, pair, "it bounds contact of surfaces, not of solids");
   }
-  return {Route::general_pcd, false, {}};
+  return {Route::general_pcd, "", {}};
 }
 
 QueryPlan planSampling(Route route, const ProbabilityRequest& request) {
   if (!kHasSampling) refuseWithout(toString(request.method), "SAMPLING");
-  return {route, false, {}};
+  return {route, "", {}};
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ enum class Route {
 struct QueryPlan {
   Route route;
 
-  /// Whether to look first if the bound of the root volumes is within the tolerance by itself.
-  bool try_root_bound = false;
+  /// Why not to look first if the bound of the root volumes is within the tolerance by itself;
+  /// null: do, "": nobody would.
+  const char* why_no_root_bound = "";
 
   std::vector<std::string> notes;
 
@@ -44,8 +45,8 @@ struct QueryPlan {
   /// The same of meshes, if they turn out to be convex.
   bool convex_meshes_if_unresolved = false;
 
-  /// Of so few triangles that this is asked before any cells are.
-  bool convex_meshes_first = false;
+  /// Why that is not asked before any cells are; null: it is, "": nobody would.
+  const char* why_no_convex_meshes = "";
 };
 
 /// \throws UnsupportedGeometry if the method asked for cannot handle the pair.

@@ -26,6 +26,10 @@ struct WholeBody {
 std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionObject& b,
                                      const GaussianDisplacement& displacement);
 
+/// What a plan says where there is none.
+constexpr const char* kNoWholeBody =
+    "no object is convex or nearly so, or the displacement is too unequal to take it whole";
+
 /// Whether part of the mesh may be within a member and not touch it, where its surface counts.
 /// \param fan  the member, or a body around it
 bool mayHoldPart(const WholeBody& whole, std::size_t member, const WhitenedFan& fan);

@@ -16,29 +16,33 @@ class Toy {
  public:
   explicit Toy(const ProbabilityRequest& request) : known(request) {}
 
-  bool look() { return narrowTo(0.3); }
-  bool lookCloser() { return narrowTo(0.03); }
-  bool lookClosest() { return narrowTo(0.003); }
+  Climbed look() { return narrowTo(0.3); }
+  Climbed lookCloser() { return narrowTo(0.03); }
+  Climbed lookClosest() { return narrowTo(0.003); }
 
   bool small = true;
   Known known;
   std::vector<RungRecord> records;
 
  private:
-  bool narrowTo(double away) {
+  Climbed narrowTo(double away) {
     known.narrow({0.3 - away, 0.3 + away});
-    return known.satisfied().has_value();
+    return {known.satisfied().has_value(), "to " + std::to_string(away).substr(0, 5)};
   }
 };
 
-const std::vector<Rung<Toy>> kToys{{"glance", [](const Toy& toy) { return toy.small; }, &Toy::look},
-                                   {"look", nullptr, &Toy::lookCloser},
-                                   {"stare", nullptr, &Toy::lookClosest, true}};
+const std::vector<Rung<Toy>> kToys{
+    {"glance", [](const Toy& toy) { return toy.small ? nullptr : "it is large"; }, &Toy::look},
+    {"touch", [](const Toy&) { return ""; }, &Toy::look},
+    {"look", nullptr, &Toy::lookCloser},
+    {"stare", nullptr, &Toy::lookClosest, true}};
 
 std::vector<std::string> climbed(Toy& toy) {
   climb(kToys, toy, toy.known, toy.records);
   std::vector<std::string> names;
-  for (const RungRecord& record : toy.records) names.push_back(record.name);
+  for (const RungRecord& record : toy.records) {
+    if (record.times > 0) names.push_back(record.name);
+  }
   return names;
 }
 
@@ -85,6 +89,28 @@ TEST_CASE("rungs that do not serve or are left out are not climbed, those that a
   const Names names = climbed(without);
   leftOut().clear();
   CHECK(names == Names{"glance", "stare"});
+}
+
+TEST_CASE("a plan is a line for each rung that was climbed, or that was left out for a reason") {
+  ProbabilityRequest request;
+  request.relative_tolerance = 0.0;
+  request.absolute_tolerance = 0.1;
+  Toy toy(request);
+  climbed(toy);
+  CHECK(planOf(toy.records) == std::vector<std::string>{"glance: to 0.300; P in [0, 0.6]",
+                                                        "look: to 0.030; P in [0.27, 0.33]"});
+  Toy large(request);
+  large.small = false;
+  climbed(large);
+  CHECK(planOf(large.records) == std::vector<std::string>{"glance: left out, it is large",
+                                                          "look: to 0.030; P in [0.27, 0.33]"});
+  leftOut() = {"look"};
+  Toy without(request);
+  climbed(without);
+  leftOut().clear();
+  REQUIRE(planOf(without.records).size() == 3);
+  CHECK(planOf(without.records)[1] == "look: left out, as was asked");
+  CHECK(noteOf({"one", "two"}) == "one; two");
 }
 
 TEST_CASE("what is known gets no wider") {
