@@ -28,7 +28,7 @@ std::optional<WholeBody> wholeBodyOf(const PartitionObject& a, const PartitionOb
 
 /// What a plan says where there is none.
 constexpr const char* kNoWholeBody =
-    "no object is convex or nearly so, or the displacement is too unequal to take it whole";
+    "no object is convex or nearly so, or deviations are too unequal";
 
 /// Whether part of the mesh may be within a member and not touch it, where its surface counts.
 /// \param fan  the member, or a body around it

@@ -65,12 +65,19 @@ class Watchdog {
 
 /// Of one scene, some ten times what the slowest one takes.
 constexpr long kHangs = 8;
+constexpr long kHangsWhereSlow = 120;
+
+bool isSlow(const std::string& family) {
+  const auto& slow = slowFamilies();
+  return std::any_of(slow.begin(), slow.end(),
+                     [&family](const Family& each) { return each.name == family; });
+}
 
 /// A crash is a violation like others. What was in use then is lost, which a short run can afford.
 std::vector<Violation> checkSurviving(const Scene& scene, Tally& tally,
                                       const CheckOptions& options = {}) {
   std::vector<Violation> found;
-  const Watchdog watchdog(kHangs);
+  const Watchdog watchdog(isSlow(scene.family) ? kHangsWhereSlow : kHangs);
   const int signal = sigsetjmp(after_crash, 1);
   if (signal == 0) {
     is_checking = 1;

@@ -97,7 +97,7 @@ TEST_CASE("a plan is a line for each rung that was climbed, or that was left out
   request.absolute_tolerance = 0.1;
   Toy toy(request);
   climbed(toy);
-  CHECK(planOf(toy.records) == std::vector<std::string>{"glance: to 0.300; P in [0, 0.6]",
+  CHECK(planOf(toy.records) == std::vector<std::string>{"glance: to 0.300; P <= 0.6",
                                                         "look: to 0.030; P in [0.27, 0.33]"});
   Toy large(request);
   large.small = false;
