@@ -106,6 +106,16 @@ def level_into(of, lines, draw, which):
     return False
 
 
+def set_of_nothing_free(of, lines, draw):
+    """As { 0·y < 0 } has no points it would be free of anything, and would leave nothing of its cell open."""
+    open_cells = [i for i in of.cells if lines[i].get("free") is not True]
+    if not open_cells:
+        return False
+    line = lines[draw.choice(open_cells)]
+    line["free"] = [*line.get("free", []), [0.0] * (len(line["cell"]) // 2 + 1)]
+    return True
+
+
 def free_level_into_contact(of, lines, draw):
     return level_into(of, lines, draw, "free")
 
@@ -162,8 +172,8 @@ def witness_vertex_maybe(of, lines, draw):
 
 
 KINDS = [lower_raised, upper_lowered, leaf_dropped, leaf_twice, verdicts_exchanged, free_level_into_contact,
-         contact_level_into_free, pair_maybe, vertex_by_1e_12_maybe, vertex_by_1_cm_maybe, radius_maybe,
-         deviation_maybe, witness_vertex_maybe]
+         contact_level_into_free, set_of_nothing_free, pair_maybe, vertex_by_1e_12_maybe, vertex_by_1_cm_maybe,
+         radius_maybe, deviation_maybe, witness_vertex_maybe]
 
 
 def main():
