@@ -336,7 +336,7 @@ TEST_CASE("bounds by columns hold, and decide what is clear", "[lines]") {
       CHECK(result.decision == (*request.threshold > truth.probability()
                                     ? fcl_prob::Decision::below
                                     : fcl_prob::Decision::above));
-      by_columns += fcl_prob_test::planMentions(result, "columns");
+      by_columns += fcl_prob_test::planMentions(result, "decided by bounds on");
     }
   }
   CHECK(by_columns > 12);

@@ -188,7 +188,9 @@ TEST_CASE("What no certificate can be written of") {
   const auto absent = std::make_shared<fcl::Boxd>(0.2, 0.2, 0.2);
   absent->cost_density = 0.0;  // not occupied: fcl::collide leaves it out
   CHECK_THROWS_AS(certify({at(absent)}, {at(box)}, error), UnsupportedGeometry);
-  const auto nothing = std::make_shared<fcl::OcTreed>(0.1);
+  const auto tree = std::make_shared<octomap::OcTree>(0.1);
+  tree->updateNode(octomap::point3d(0, 0, 0), false);
+  const auto nothing = std::make_shared<fcl::OcTreed>(tree);
   CHECK_THROWS_WITH(certify({at(box)}, {at(nothing)}, error),
                     Catch::Matchers::Contains("group B: nothing of it is occupied"));
   ProbabilityResult unused;

@@ -186,7 +186,7 @@ TEST_CASE("decisions and estimates of dented bodies agree with their intervals",
       CAPTURE(factor, *result.lower, *result.upper);
       CHECK(*result.lower <= *truth.upper);
       CHECK(*result.upper >= *truth.lower);
-      by_columns += fcl_prob_test::planMentions(result, "columns");
+      by_columns += fcl_prob_test::planMentions(result, "decided by bounds on");
     }
     auto request = fcl_prob_test::intervalRequest(0.01);
     request.method = fcl_prob::ProbabilityMethod::estimate;
