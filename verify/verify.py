@@ -195,12 +195,14 @@ class Checker:
         if len(hi) != rank or any(a >= b for a, b in zip(lo, hi)):
             raise ValueError("cell")
         self.boxes.append((lo, hi))
-        regions = line.get("contact", [])
+        regions, free = line.get("contact", []), line.get("free", [])
+        planes = [plane for region in regions for plane in region["planes"]] + (free if isinstance(free, list) else [])
+        if not all(any(plane[:-1]) for plane in planes):
+            raise ValueError("a plane without a normal")
         for one, other in itertools.combinations(regions, 2):
             if not any([-x for x in p] in other["planes"] for p in one["planes"]):
                 raise Refused("regions of contact may overlap")
         self.lower += sum(self.contact(lo, hi, region) for region in regions) * (1 - SLACK)
-        free = line.get("free", [])
         if free is True and self.free(lo, hi, []):
             self.upper -= box_mass(lo, hi) * (1 - SLACK)
         for plane in free if isinstance(free, list) else []:
