@@ -149,14 +149,16 @@ Geometry octreeOf(const TriangleMesh& mesh) {
   return std::make_shared<fcl::OcTreed>(tree);
 }
 
-// Each of the parts beside an arm as cells of an octree, and three of them as one body beside it.
+// A part beside the cells of an arm in an octree, and three of them as one body beside the arm.
 void addOctreesAndGroups(const BenchOptions& options, std::vector<LadderScene>& scenes) {
   const TriangleMesh arm = armMesh(options.models_folder);
+  const Geometry cells = octreeOf(arm);
+  const std::size_t names = PartScenes::names().size();
   PartScenes parts(options.models_folder, options.seed, arm);
   GroupQuery::Geometries of_group;
   std::vector<fcl::Transform3d> poses;
-  for (std::size_t i = 0; i < kPartsOfGroup * PartScenes::names().size(); ++i) {
-    const auto drawn = parts.next(i % PartScenes::names().size()).scene;
+  for (std::size_t i = 0; i < kPartsOfGroup * names; ++i) {
+    const auto drawn = parts.next(i % names).scene;
     const Geometry part = buildGeometry(drawn->objectA(), "obbrss");
     const std::vector<fcl::Transform3d> pose_a{drawn->objectA().pose};
     const std::vector<fcl::Transform3d> pose_b{drawn->objectB().pose};
@@ -176,7 +178,7 @@ void addOctreesAndGroups(const BenchOptions& options, std::vector<LadderScene>& 
     of_group.push_back(part);
     poses.push_back(pose_a[0]);
     if (of_group.size() < kPartsOfGroup) continue;
-    add("octrees", {part}, pose_a, octreeOf(arm));
+    add("octrees", {part}, pose_a, cells);
     add("groups", of_group, poses, buildGeometry(drawn->objectB(), "obbrss"));
     of_group.clear();
     poses.clear();

@@ -76,7 +76,8 @@ Header read_header(const Json& line) {
   header.mean = field<Vec>(line, "mean");
   header.axes = field<std::vector<Vec>>(line, "axes");
   header.rank = static_cast<int>(header.axes.size());
-  check(header.rank >= 2 - header.version && header.rank <= 3, "\"axes\": must be one to three");
+  check(header.rank <= 3 && (header.rank > 0 || header.version > 1),
+        "\"axes\": must be three at most, and at least one in version 1");
   header.deviations = field<std::vector<double>>(line, "deviations");
   check(header.deviations.size() == header.axes.size(), "\"deviations\": must be as many as axes");
   check(line.contains("whitening"), "\"whitening\" is missing");

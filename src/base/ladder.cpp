@@ -24,10 +24,14 @@ std::vector<std::string> planOf(const std::vector<RungRecord>& rungs) {
   return plan;
 }
 
-std::string noteOf(const std::vector<std::string>& plan) {
-  std::string note;
-  for (const std::string& line : plan) note += (note.empty() ? "" : "; ") + line;
-  return note;
+std::string noteOf(const std::vector<std::string>& notes) {
+  std::string all;
+  for (const std::string& note : notes) all += (all.empty() ? "" : "; ") + note;
+  return all;
+}
+
+std::string noteOf(const ProbabilityResult& answer) {
+  return answer.statistics.rungs.empty() ? noteOf(answer.plan) : "";
 }
 
 }  // namespace fcl_prob::detail

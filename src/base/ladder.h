@@ -20,6 +20,9 @@ struct Climbed {
   std::string note;  ///< what it did, or why it could not; "": nothing that others do not say
 };
 
+/// Rung::whyNot of a rung that nobody would expect where it does not serve.
+constexpr const char* unless(bool serves) { return serves ? nullptr : ""; }
+
 /// One way to narrow what is known of P, or to estimate it. A rung knows no other rung.
 template <typename Query>
 struct Rung {
@@ -59,7 +62,11 @@ bool climb(const std::vector<Rung<Query>>& ladder, Query& query, const Known& kn
 /// ProbabilityResult::plan: a line for each rung that has a note, with the bounds after it.
 std::vector<std::string> planOf(const std::vector<RungRecord>& rungs);
 
-/// What an answer says of itself, as the note of the rung that it is of.
-std::string noteOf(const std::vector<std::string>& plan);
+/// One line of several.
+std::string noteOf(const std::vector<std::string>& notes);
+
+/// What an answer says of itself, as the note of the rung that it is of: nothing where its own
+/// rungs have said it.
+std::string noteOf(const ProbabilityResult& answer);
 
 }  // namespace fcl_prob::detail

@@ -85,7 +85,7 @@ const std::vector<Rung<GroupsAnswer>> GroupsAnswer::kLadder{
     {"pairs", [](const GroupsAnswer& q) { return q.whyNotByPairs(); },
      &GroupsAnswer::decideByPairs},
     {"partition", nullptr, &GroupsAnswer::divide, true},
-    {"one fcl::collide", [](const GroupsAnswer& q) { return q.isStillUnknown() ? nullptr : ""; },
+    {"one fcl::collide", [](const GroupsAnswer& q) { return unless(q.isStillUnknown()); },
      &GroupsAnswer::collideAll, true},
 };
 
@@ -173,7 +173,8 @@ Climbed GroupsAnswer::divide() {
   known_.narrow(result_);
   result_.lower = known_.interval().lower;
   result_.upper = known_.interval().upper;
-  return {!isStillUnknown(), "one for the union of their pairs"};
+  const std::string note = noteOf(result_);
+  return {!isStillUnknown(), note.empty() ? "one for the union of their pairs" : note};
 }
 
 bool GroupsAnswer::isStillUnknown() const {

@@ -27,9 +27,6 @@ namespace {
 constexpr std::size_t kCellsBeforeExact = 5'000;
 constexpr std::size_t kCellsBeforeHull = 20'000;
 
-/// Of rungs that nobody expects where they do not serve.
-constexpr const char* unless(bool serves) { return serves ? nullptr : ""; }
-
 /// One pair, one question.
 class PairAnswer {
  public:
@@ -128,7 +125,7 @@ const std::vector<Rung<PairAnswer>> PairAnswer::kLadder{
 Climbed PairAnswer::take(ProbabilityResult result) {
   result_ = std::move(result);
   known_.narrow(result_);
-  return {true, noteOf(result_.plan)};
+  return {true, noteOf(result_)};
 }
 
 std::optional<ProbabilityResult> PairAnswer::massOf(const ProbabilityRequest& request) const {
@@ -227,7 +224,6 @@ ProbabilityResult PairAnswer::partition(std::size_t most_cells) {
   ProbabilityResult result = partitionProbability(a, b, displacement_, request);
   auto& rungs = result.statistics.rungs;
   rungs_.insert(rungs_.end(), rungs.begin(), rungs.end());
-  if (!rungs.empty()) result.plan.clear();
   return result;
 }
 

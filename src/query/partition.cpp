@@ -101,7 +101,7 @@ const std::vector<Rung<PartitionQuery>> PartitionQuery::kLadder{
     {"polytope cells", [](const PartitionQuery& q) { return q.why_no_polytopes_; },
      &PartitionQuery::dividePolytopes},
     {"boxes", nullptr, &PartitionQuery::divideBoxes, true},
-    {"samples of boxes", [](const PartitionQuery& q) { return q.isEstimate() ? nullptr : ""; },
+    {"samples of boxes", [](const PartitionQuery& q) { return unless(q.isEstimate()); },
      &PartitionQuery::sampleBoxes, true},
 };
 

@@ -72,25 +72,25 @@ constexpr const char* kSurfacesOnly =
 
 QueryPlan planWithoutMotion(const QueryPair& pair, const ProbabilityRequest& request) {
   const std::string reason = "the covariance is 0: nothing is random";
-  if (pair.anyUnbounded()) return {Route::unbounded_pair, "", {reason}};
+  if (pair.anyUnbounded()) return {Route::unbounded_pair, {reason}};
   if (pair.inFcl()) {
-    QueryPlan plan{Route::single_collide, "", {reason + ", one fcl::collide"}};
+    QueryPlan plan{Route::single_collide, {reason + ", one fcl::collide"}};
     if (request.gradient) plan.notes.push_back("no gradient: P jumps where A touches B");
     return plan;
   }
-  return {Route::partition, "", {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
+  return {Route::partition, {reason + "; fcl::collide left out, as it refuses " + pair.name()}};
 }
 
 // Roots and shapes as they are say nothing of those within a band.
 QueryPlan planBanded(const QueryPair& pair, const ProbabilityRequest& request) {
   if (!pair.anyUnbounded()) {
-    QueryPlan plan{Route::partition, "", {}};
+    QueryPlan plan{Route::partition};
     if (request.contact == ContactMeaning::fcl && pair.anyMesh()) {
       plan.notes.push_back(kSurfacesOnly);
     }
     return plan;
   }
-  return {Route::unbounded_pair, "", {"a half-space or plane: closed form, bands included"}};
+  return {Route::unbounded_pair, {"a half-space or plane: closed form, bands included"}};
 }
 
 const char* whyNoRootBound(const QueryPair& pair, const ProbabilityRequest& request) {
@@ -101,14 +101,13 @@ const char* whyNoRootBound(const QueryPair& pair, const ProbabilityRequest& requ
 
 QueryPlan planUnbounded() {
   return {Route::unbounded_pair,
-          "",
           {"a half-space or plane: only the displacement along its normal matters, closed form"}};
 }
 
 QueryPlan planPartition(const QueryPair& pair, const GaussianDisplacement& displacement,
                         const ProbabilityRequest& request) {
   if (pair.anyUnbounded()) return planUnbounded();
-  QueryPlan plan{Route::partition, "", {}};
+  QueryPlan plan{Route::partition};
   plan.why_no_root_bound = whyNoRootBound(pair, request);
   plan.exact_if_unresolved = pair.haveExactMass(displacement);
   plan.convex_meshes_if_unresolved =
@@ -145,7 +144,7 @@ QueryPlan planExact(const QueryPair& pair, const GaussianDisplacement& displacem
   if (!kHasExact) refuseWithout(toString(request.method), "EXACT");
   if (pair.anyUnbounded()) return planUnbounded();
   if (!pair.areConvex()) refuse(request.method, pair, "it needs two convex shapes");
-  QueryPlan plan{Route::exact_mass, "", {}};
+  QueryPlan plan{Route::exact_mass};
   plan.notes.push_back(noteOnExactMass(pair.kind(), displacement.rank()));
   if (displacement.isotropic()) {
     plan.notes.push_back("isotropic covariance: whitening is a scaling");
@@ -179,7 +178,7 @@ QueryPlan planAutomatic(const QueryPair& pair, const GaussianDisplacement& displ
 QueryPlan planConvexBound(const QueryPair& pair, const ProbabilityRequest& request) {
   if (!pair.haveRootBodies())
     refuse(request.method, pair, "one of them is not bounded by a volume");
-  QueryPlan plan{Route::convex_bound, "", {}};
+  QueryPlan plan{Route::convex_bound};
   if (pair.anyMesh()) {
     plan.notes.push_back("the bound is that of the root volumes of the meshes");
   }
@@ -191,12 +190,12 @@ QueryPlan planGeneralPcd(const QueryPair& pair, const ProbabilityRequest& reques
   if (request.contact == ContactMeaning::solid && pair.anyMesh()) {
     refuse(request.method, pair, "it bounds contact of surfaces, not of solids");
   }
-  return {Route::general_pcd, "", {}};
+  return {Route::general_pcd};
 }
 
 QueryPlan planSampling(Route route, const ProbabilityRequest& request) {
   if (!kHasSampling) refuseWithout(toString(request.method), "SAMPLING");
-  return {route, "", {}};
+  return {route};
 }
 
 }  // namespace

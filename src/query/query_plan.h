@@ -29,11 +29,11 @@ enum class Route {
 struct QueryPlan {
   Route route;
 
+  std::vector<std::string> notes = {};
+
   /// Why not to look first if the bound of the root volumes is within the tolerance by itself;
   /// null: do, "": nobody would.
   const char* why_no_root_bound = "";
-
-  std::vector<std::string> notes;
 
   /// Whether the partition is asked where the exact mass leaves more open than the tolerance, or
   /// has no gradient.

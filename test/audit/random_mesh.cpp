@@ -94,6 +94,7 @@ TriangleMesh largeShell(RandomBodies& random) {
 }
 
 TriangleMesh anyShell(RandomBodies& random, const MeshStructure& structure) {
+  // Nothing is drawn for families without: their scenes stay what they are.
   if (structure.large > 0.0 && chance(random, structure.large)) return largeShell(random);
   if (chance(random, structure.convex)) return convexShell(random, structure);
   switch (random.integer(0, 6)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the fcl_prob authors
 // The plan of an answer: which rungs were climbed and which were left out, and why.
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 
 #include <algorithm>
@@ -98,6 +99,21 @@ TEST_CASE("plans of groups begin with what they are") {
   CHECK(hasLine(result, "pairs: left out, not all members are convex"));
   CHECK(hasLine(result, "partition: one for the union of their pairs"));
   CHECK(rung(result, "partition").times == 1);
+}
+
+TEST_CASE("plans of what has nothing to meet say so") {
+  const auto tree = std::make_shared<octomap::OcTree>(0.1);
+  tree->updateNode(octomap::point3d(0, 0, 0), false);
+  const GroupQuery query({bumpy, cube}, {std::make_shared<fcl::OcTreed>(tree)});
+  const fcl::Transform3d here = fcl::Transform3d::Identity();
+  ProbabilityResult result;
+  query.collisionProbability({here, here}, {here},
+                             GaussianDisplacement::fromStandardDeviations({0.1, 0.1, 0.1}), {},
+                             result);
+  CHECK(*result.upper == 0.0);
+  CHECK(std::any_of(result.plan.begin(), result.plan.end(), [](const std::string& line) {
+    return line.find("without occupied cells") != std::string::npos;
+  }));
 }
 
 }  // namespace plan_test
