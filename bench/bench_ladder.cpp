@@ -307,6 +307,7 @@ class LadderTable {
       ++queries_;
       seconds_ += asked.seconds;
       for (const RungRecord& rung : asked.result.statistics.rungs) {
+        if (rung.times == 0) continue;  // left out: no row of its own
         Climbed& climbed = rungs_[rung.name];
         climbed.times += rung.times;
         climbed.answered += rung.answered;
