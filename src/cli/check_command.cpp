@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
+#include "cli/number_text.h"
 #include "cli/output.h"
 #include "cli/prepared_scene.h"
 #include "cli/progress_bar.h"
@@ -15,6 +16,10 @@
 
 namespace fcl_prob::cli {
 namespace {
+
+// Of a scene that has no limit of its own: no command is silent for minutes. What is known by then
+// is told.
+constexpr double kSecondsOfPair = 20.0;
 
 struct CheckArguments {
   SceneArguments scene;
@@ -33,7 +38,21 @@ TimedResult answerOf(const PreparedScene& prepared, const ProbabilityRequest& re
   return timed;
 }
 
+// Which limit ended it, and what allows more.
+void noteLimit(const ProbabilityRequest& request, ProbabilityResult& result) {
+  std::string limit;
+  if (result.status == ProbabilityStatus::time_limit) {
+    limit = numberText(*request.time_limit, 6) + " s: --time-limit";
+  } else if (result.status == ProbabilityStatus::cell_limit) {
+    limit = std::to_string(request.max_cells) + " cells: --max-cells";
+  } else if (result.status == ProbabilityStatus::memory_limit) {
+    limit = std::to_string(request.max_memory) + " bytes: --max-memory";
+  }
+  if (!limit.empty()) result.plan.push_back("stopped at " + limit + " allows more");
+}
+
 CheckReport check(Scene scene, const CheckArguments& arguments) {
+  if (!scene.request.time_limit) scene.request.time_limit = kSecondsOfPair;
   const std::string& bounding_volume = arguments.scene.bounding_volume;
   const PartsUse parts = partsUse(arguments.scene);
   const PreparedScene prepared(scene, bounding_volume, parts);
@@ -45,6 +64,7 @@ CheckReport check(Scene scene, const CheckArguments& arguments) {
     scene.request.on_progress = std::ref(bar);
     const TimedResult timed = answerOf(prepared, scene.request, arguments.certificate);
     report.result = timed.result;
+    noteLimit(scene.request, report.result);
     report.time_ms = timed.time_ms;
   }
   report.build_ms = prepared.buildTime();

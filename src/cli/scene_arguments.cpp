@@ -133,6 +133,7 @@ void applyRequest(const SceneArguments& arguments, ProbabilityRequest& request) 
   apply(arguments.confidence, request.confidence);
   apply(arguments.samples, request.samples);
   apply(arguments.max_cells, request.max_cells);
+  apply(arguments.max_memory, request.max_memory);
   apply(arguments.seed, request.seed);
   apply(arguments.threads, request.threads);
   if (arguments.gradient) request.gradient = true;
@@ -238,12 +239,15 @@ void addRequestOptions(CLI::App& command, SceneArguments& arguments) {
                   "What general-pcd's trees end at: triangles, or convex parts of the meshes")
       ->check(CLI::IsMember({"triangles", "parts"}));
   command.option_defaults()->group("Limits");
-  command.add_option("--time-limit", arguments.time_limit, "Seconds");
+  command.add_option("--time-limit", arguments.time_limit,
+                     "Seconds; if nothing says so 20, of compare 10 a run");
   command.add_option("--samples", arguments.samples, "Number of samples at most")
       ->check(CLI::NonNegativeNumber);
   command
       .add_option("--max-cells", arguments.max_cells,
                   "Cells of a partition, or random configurations, at most")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--max-memory", arguments.max_memory, "Bytes of a partition at most")
       ->check(CLI::PositiveNumber);
   command
       .add_option("--threads", arguments.threads, "Of one query, too; results do not depend on it")

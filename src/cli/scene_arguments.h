@@ -46,6 +46,7 @@ struct SceneArguments {
   std::optional<double> confidence;
   std::optional<std::size_t> samples;
   std::optional<std::size_t> max_cells;
+  std::optional<std::size_t> max_memory;
   std::optional<std::uint64_t> seed;
   std::optional<unsigned> threads;
   std::optional<std::string> contact;

@@ -171,6 +171,7 @@ ProbabilityRequest readRequest(StrictObject object, ProbabilityRequest request) 
   readNumber("confidence", request.confidence);
   if (object.has("samples")) request.samples = object.count("samples");
   if (object.has("max_cells")) request.max_cells = object.count("max_cells");
+  if (object.has("max_memory")) request.max_memory = object.count("max_memory");
   if (object.has("seed")) request.seed = object.count("seed");
   object.finish();
   return request;

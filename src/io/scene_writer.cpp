@@ -116,6 +116,7 @@ Json requestJson(const ProbabilityRequest& request) {
             {"confidence", request.confidence},
             {"samples", request.samples},
             {"max_cells", request.max_cells},
+            {"max_memory", request.max_memory},
             {"seed", request.seed}};
   if (request.threshold) json["threshold"] = *request.threshold;
   if (request.time_limit) json["time_limit"] = *request.time_limit;
