@@ -8,6 +8,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "fcl_prob/robot_query.h"
@@ -28,17 +29,33 @@ inline double leastDistance(const Robot& robot, const std::vector<fcl::Transform
   return least;
 }
 
-/// Whether any body touches the geometry at the pose; the first that does ends it.
-inline bool touchesAny(const Robot& robot, const std::vector<fcl::Transform3d>& poses,
-                       const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
+/// Whether any of the bodies touches the geometry at the pose; the first that does ends it.
+/// \param body_at  of an index: an fcl::CollisionGeometryd
+template <typename BodyAt>
+bool touchesAny(const BodyAt& body_at, const std::vector<fcl::Transform3d>& poses,
+                const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     fcl::CollisionResultd result;
-    if (fcl::collide(robot.bodies()[i].geometry.get(), poses[i], &geometry, pose,
-                     fcl::CollisionRequestd(), result) > 0) {
+    if (fcl::collide(&body_at(i), poses[i], &geometry, pose, fcl::CollisionRequestd(), result) >
+        0) {
       return true;
     }
   }
   return false;
+}
+
+inline bool touchesAny(const std::vector<std::shared_ptr<const fcl::CollisionGeometryd>>& bodies,
+                       const std::vector<fcl::Transform3d>& poses,
+                       const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
+  return touchesAny(
+      [&](std::size_t i) -> const auto& { return *bodies[i]; }, poses, geometry, pose);
+}
+
+inline bool touchesAny(const Robot& robot, const std::vector<fcl::Transform3d>& poses,
+                       const fcl::CollisionGeometryd& geometry, const fcl::Transform3d& pose) {
+  return touchesAny(
+      [&](std::size_t i) -> const auto& { return *robot.bodies()[i].geometry; }, poses, geometry,
+      pose);
 }
 
 }  // namespace fcl_prob::cli

@@ -8,6 +8,7 @@
 
 #include "cli/random_displacement.h"
 #include "fcl_prob/mesh_io.h"
+#include "geometry/mesh_visitor.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -39,6 +40,51 @@ Eigen::MatrixXd drawnStates(const Robot& robot, Uniforms& random, int count) {
 Geometry personMesh(const std::string& models_folder) {
   const std::filesystem::path models(models_folder);
   return buildTree(loadMeshIsolated((models / "human/human_man_4980.obj").string()), "obbrss");
+}
+
+Geometry canMesh(const std::string& models_folder) {
+  const std::filesystem::path models(models_folder);
+  return buildTree(loadMeshIsolated((models / "objects/coke_can_500.obj").string()), "obbrss");
+}
+
+std::vector<Obstacle> cansAround(const Geometry& mesh, Uniforms& random, int count) {
+  std::vector<Obstacle> cans;
+  for (int i = 0; i < count; ++i) {
+    const double direction = random.between(-kHalfTurn, kHalfTurn);
+    const double distance = random.between(0.3, 0.9), height = random.between(0.0, 1.0);
+    fcl::Transform3d pose = fcl::Transform3d::Identity();
+    pose.translation() =
+        Eigen::Vector3d(distance * std::cos(direction), distance * std::sin(direction), height);
+    pose.linear() = random.rotation();
+    cans.push_back({"can " + std::to_string(i), mesh, pose, randomError(random, 0.01, 0.05)});
+  }
+  return cans;
+}
+
+fcl::Transform3d displaced(const Obstacle& obstacle, const Whitening& whitening,
+                           std::uint64_t index) {
+  fcl::Transform3d pose = obstacle.pose;
+  pose.translation() += randomDisplacement(whitening, 1, index);
+  return pose;
+}
+
+std::vector<Geometry> paddedBodies(const Robot& robot, double padding) {
+  std::vector<Geometry> padded;
+  for (const RobotBody& body : robot.bodies()) {
+    if (detail::kindOf(*body.geometry) != detail::GeometryKind::mesh) {
+      padded.push_back(body.geometry);
+      continue;
+    }
+    const detail::MeshView view = detail::meshView(*body.geometry);
+    TriangleMesh mesh;
+    mesh.vertices.assign(view.vertices, view.vertices + view.vertex_count);
+    mesh.triangles.assign(view.triangles, view.triangles + view.triangle_count);
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& v : mesh.vertices) middle += v / view.vertex_count;
+    for (Eigen::Vector3d& v : mesh.vertices) v += padding * (v - middle).normalized();
+    padded.push_back(buildTree(mesh, "obbrss"));
+  }
+  return padded;
 }
 
 Obstacle personBeside(const Geometry& mesh, Uniforms& random) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/uniforms.h"
 #include "cli/geometry.h"
@@ -19,6 +20,20 @@ Eigen::MatrixXd drawnStates(const Robot& robot, Uniforms& random, int count);
 
 /// 4,980 triangles.
 Geometry personMesh(const std::string& models_folder);
+
+/// A can of 500 triangles.
+Geometry canMesh(const std::string& models_folder);
+
+/// So many, 0.3 to 0.9 m from the robot's axis and up to 1 m high, turned and displaced at random.
+std::vector<Obstacle> cansAround(const Geometry& mesh, Uniforms& random, int count);
+
+/// Where a Gaussian obstacle is in sample number `index` of a seed that is always the same.
+fcl::Transform3d displaced(const Obstacle& obstacle, const Whitening& whitening,
+                           std::uint64_t index);
+
+/// The bodies as padding makes them: every vertex this much farther from the middle of its mesh,
+/// metres. Shapes stay as they are: the robots here have none.
+std::vector<Geometry> paddedBodies(const Robot& robot, double padding);
 
 /// Standing on the floor, 0.4 to 1 m from the robot's axis, standard deviations of 10 to 50 mm.
 Obstacle personBeside(const Geometry& mesh, Uniforms& random);
