@@ -206,7 +206,7 @@ double residentMebibytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-BenchReport emptyReport() {
+BenchReport reportOfWorlds() {
   BenchReport report;
   report.title = "Random states of whole robots beside a person: P < 5 % or not";
   report.table = TextTable({"world", "below / above / open", "certified / s", "probable / s",
@@ -240,7 +240,7 @@ struct World {
 }  // namespace
 
 BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& progress) {
-  BenchReport report = emptyReport();
+  BenchReport report = reportOfWorlds();
   const Geometry person = personMesh(options.models_folder), can = canMesh(options.models_folder);
   const std::vector<World> worlds{
       {"KUKA iiwa", 0}, {"Fetch", 0}, {"KUKA iiwa", kCans}, {"Fetch", kCans}};

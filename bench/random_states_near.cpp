@@ -81,7 +81,7 @@ std::vector<std::pair<std::string, Ask>> tasksOfNear() {
           named(intervalTask(0.01))};
 }
 
-void addState(const RobotQuery& query, const Eigen::VectorXd& values,
+void addNearState(const RobotQuery& query, const Eigen::VectorXd& values,
               const std::vector<std::pair<std::string, Ask>>& tasks,
               std::vector<TaskCosts>& costs) {
   const double yardstick = msOfTenThousand(query, values);
@@ -119,7 +119,7 @@ void addNearStates(const BenchOptions& options, const Geometry& person,
         if (here == kNearOfPlace || found == wanted) break;
         const double p = roughly(query, states.col(i));
         if (!(p >= kLeastOfNear && p <= kMostOfNear)) continue;
-        addState(query, states.col(i), tasks, costs);
+        addNearState(query, states.col(i), tasks, costs);
         ++here, ++found;
       }
     }
