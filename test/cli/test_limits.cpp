@@ -14,13 +14,12 @@ namespace {
 std::string endOf(std::vector<std::string> limit, const std::string& status) {
   const TemporaryFolder folder;
   const std::string knot = dataFile("torus_knot.ply");
-  std::vector<std::string> command{"check",    knot,
-                                   knot,       "--pose-b",
-                                   "0.1,0,0",  "--sigma",
-                                   "0.01",     "--relative-tolerance",
-                                   "1e-9",     "--absolute-tolerance",
-                                   "0",        "--method",
-                                   "interval", "--json"};
+  std::vector<std::string> command{"check", knot, knot, "--json"};
+  for (const char* option :
+       {"--pose-b", "0.1,0,0", "--sigma", "0.01,0.02,0.03", "--method", "interval",
+        "--relative-tolerance", "1e-9", "--absolute-tolerance", "0"}) {
+    command.emplace_back(option);
+  }
   command.insert(command.end(), limit.begin(), limit.end());
   const CommandResult result = runCommand(command, folder);
   CAPTURE(result.out, result.err);
