@@ -29,9 +29,13 @@ ProbabilityRequest intervalOf(ProbabilityRequest request) {
 
 class CertifiedPlanner {
  public:
-  CertifiedPlanner(const RobotQuery& query, const SelfCollision& self,
+  CertifiedPlanner(const RobotQuery& query, const SelfCollision& self, const Eigen::VectorXd& start,
                    const CertifiedPlanningRequest& request)
-      : query_(query), self_(self), request_(request), decision_(query, request_.errors) {
+      : query_(query),
+        self_(self),
+        request_(request),
+        decision_(query, request_.errors, start,
+                  detail::movingJoints(query.robot(), request_.planning.joints)) {
     request_.state = detail::ofOneCall(request_.state);
     request_.planning = detail::ofOneCall(request_.planning);
     if (!request.state.threshold) throw InvalidRequest("a certified plan needs a threshold");
@@ -181,7 +185,7 @@ class CertifiedPlanner {
 CertifiedPlan planCertified(const RobotQuery& query, const SelfCollision& self,
                             const Eigen::VectorXd& start, const Eigen::VectorXd& goal,
                             const CertifiedPlanningRequest& request) {
-  return CertifiedPlanner(query, self, request).plan(start, goal);
+  return CertifiedPlanner(query, self, start, request).plan(start, goal);
 }
 
 }  // namespace fcl_prob

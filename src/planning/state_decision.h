@@ -17,18 +17,18 @@ namespace fcl_prob::detail {
 /// One query, which must outlive it, and errors of its robot.
 class StateDecision {
  public:
+  /// \param stays  what StateScreen has to know for many states; none for a single one
   /// \throws as RobotQuery::state() for the errors
-  StateDecision(const RobotQuery& query, const RobotErrors& errors)
-      : query_(query), errors_(errors), screen_(query.among()) {
+  template <typename... Stays>
+  StateDecision(const RobotQuery& query, const RobotErrors& errors, const Stays&... stays)
+      : query_(query), errors_(errors), screen_(query.among(), stays...) {
     if (!errors.none()) covariance_ = validCovariance(query.among(), errors);
   }
 
   /// \param request  with a threshold
   bool isBelow(const Eigen::VectorXd& values, const ProbabilityRequest& request) const {
     if (!errors_.none()) return upper(values, *request.threshold) < *request.threshold;
-    if (const auto told = screen_.isBelow(values, *request.threshold, request.contact)) {
-      return *told;
-    }
+    if (const auto told = screen_.isBelow(values, request)) return *told;
     return query_.state(values, request).decision == Decision::below;
   }
 

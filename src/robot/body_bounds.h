@@ -3,8 +3,10 @@
 // What half-spaces between the hulls of bodies and an obstacle say of P, in microseconds a body.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "base/rounded_sum.h"
 #include "fcl_prob/gaussian_displacement.h"
 #include "robot/linear_errors.h"
 #include "robot/prepared_obstacle.h"
@@ -32,6 +34,16 @@ class BodyBounds {
 
   /// Certainly not below P that any of them touches it.
   double sum() const;
+
+  /// The same of those of which `counts`, a function of the body's index, says so.
+  template <typename Counts>
+  double sum(const Counts& counts) const {
+    double sum = 0.0;
+    for (const Bound& bound : bounds_) {
+      if (counts(bound.body.body)) sum = sumAbove(sum, bound.upper);
+    }
+    return std::min(1.0, sum);
+  }
 
   /// No more than sum(): by half-spaces that several bodies have in common, in some tenths of a
   /// millisecond. Stops when it is below `enough`, or when that is out of reach.

@@ -82,6 +82,14 @@ void requireChance(double chance_of_error) {
                        numberText(chance_of_error));
 }
 
+std::vector<Eigen::Index> movingRows(const Eigen::MatrixXd& states) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < states.rows(); ++i) {
+    if ((states.row(i).array() != states(i, 0)).any()) rows.push_back(i);
+  }
+  return rows;
+}
+
 std::vector<ProbableDecision> manyStates(const Eigen::MatrixXd& states,
                                          const ProbabilityRequest& request,
                                          const StateDecision& decide) {

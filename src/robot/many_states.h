@@ -19,6 +19,9 @@ void requireChance(double chance_of_error);
 using StateDecision =
     std::function<ProbableDecision(const Eigen::VectorXd& values, const ProbabilityRequest&)>;
 
+/// The joints that have not the same value in all states, a column each.
+std::vector<Eigen::Index> movingRows(const Eigen::MatrixXd& states);
+
 /// By column. The time limit is that of all; states that are not reached are undecided.
 /// \param decide  called by several threads
 std::vector<ProbableDecision> manyStates(const Eigen::MatrixXd& states,

@@ -3,6 +3,7 @@
 #include "fcl_prob/robot_query.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/budget.h"
 #include "base/random_words.h"
@@ -41,8 +42,17 @@ constexpr std::size_t kMostTogether = 400;
 constexpr double kToleranceOfWaypoints = 0.1;
 constexpr double kShareOfWaypoints = 0.125;
 
+// So many states of one call, or more, share what is found out of bodies that stay in all of them.
+constexpr Eigen::Index kManyStates = 4;
+
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
+
+std::vector<Eigen::Index> allJoints(const Robot& robot) {
+  std::vector<Eigen::Index> all(robot.joints().size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
 void addUp(const std::vector<FarBodies>& far, RobotResult& result) {
   for (const FarBodies& of_one : far) {
@@ -104,7 +114,8 @@ void addWaypoints(std::size_t obstacles, RobotResult& result) {
 }  // namespace
 
 struct RobotQuery::Implementation {
-  explicit Implementation(detail::RobotAmongObstacles of) : among(std::move(of)) {}
+  explicit Implementation(detail::RobotAmongObstacles of)
+      : among(std::move(of)), screen(among, among.robot().values({}), allJoints(among.robot())) {}
 
   void validate(const ProbabilityRequest& request) const {
     validateRequest(request);
@@ -334,6 +345,7 @@ struct RobotQuery::Implementation {
   }
 
   detail::RobotAmongObstacles among;
+  detail::StateScreen screen;  ///< of states in which all joints may move
 };
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
@@ -457,9 +469,14 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
   if (!errors.none()) {
     return detail::decideWithErrors(*this, states, errors, request, chance_of_error);
   }
-  const detail::StateScreen screen(implementation_->among);
+  std::optional<const detail::StateScreen> of_call;
+  const std::vector<Eigen::Index> moving = detail::movingRows(states);
+  if (states.cols() >= kManyStates && moving.size() < robot().joints().size()) {
+    of_call.emplace(implementation_->among, states.col(0), moving);
+  }
+  const detail::StateScreen& screen = of_call ? *of_call : implementation_->screen;
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
-    if (const auto told = screen.isBelow(values, *request.threshold, request.contact)) {
+    if (const auto told = screen.isBelow(values, of_one)) {
       return *told ? ProbableDecision::certainly_below : ProbableDecision::certainly_above;
     }
     if (!chance_of_error) {

@@ -7,20 +7,32 @@
 #include <vector>
 
 #include "robot/body_bounds.h"
+#include "robot/fixed_bodies.h"
 #include "robot/robot_among_obstacles.h"
 
 namespace fcl_prob::detail {
 
-/// Half-spaces between bodies and obstacles, whose masses are added up; and balls within them.
+/// Half-spaces between bodies and obstacles, whose masses are added up; and balls within them. Then
+/// what is known of the bodies that stay where they are.
 class StateScreen {
  public:
-  /// \param among  must outlive this
+  /// For a state. \param among  must outlive this
   explicit StateScreen(const RobotAmongObstacles& among);
+
+  /// For many states.
+  /// \param values  of the joints that stay
+  /// \param moving  joints that do not
+  StateScreen(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
+              const std::vector<Eigen::Index>& moving);
 
   /// Whether P(any body touches any obstacle) is below `threshold` or above it: certain. Nothing:
   /// not known. \param values  valid ones
   std::optional<bool> isBelow(const Eigen::VectorXd& values, double threshold,
                               ContactMeaning contact) const;
+
+  /// The same, and by what is known of the bodies that stay. \param request  with a threshold
+  std::optional<bool> isBelow(const Eigen::VectorXd& values,
+                              const ProbabilityRequest& request) const;
 
  private:
   /// Bodies that are not far from an obstacle, by obstacle, and what those left out add up to.
@@ -30,9 +42,13 @@ class StateScreen {
   };
 
   /// \param negligible  what one that is left out may add
-  Near nearOf(const Eigen::VectorXd& values, double negligible) const;
+  Near nearOf(const std::vector<fcl::Transform3d>& poses, double negligible) const;
+
+  /// With bodies that stay.
+  Bounds withFixed(const Near& near, const ProbabilityRequest& request) const;
 
   const RobotAmongObstacles& among_;
+  std::optional<FixedBodies> fixed_;
   std::vector<GaussianDisplacement> of_bodies_;  ///< of the bodies relative to each obstacle
 
   /// All have bounded hulls, and all displacements are Gaussian.
