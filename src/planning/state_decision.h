@@ -21,22 +21,22 @@ class StateDecision {
   /// \throws as RobotQuery::state() for the errors
   template <typename... Stays>
   StateDecision(const RobotQuery& query, const RobotErrors& errors, const Stays&... stays)
-      : query_(query), errors_(errors), screen_(query.among(), stays...) {
+      : query_(query), errors_(errors), screen_(query.among(), stays...), single_(query.among()) {
     if (!errors.none()) covariance_ = validCovariance(query.among(), errors);
   }
 
   /// \param request  with a threshold
   bool isBelow(const Eigen::VectorXd& values, const ProbabilityRequest& request) const {
     if (!errors_.none()) return upper(values, *request.threshold) < *request.threshold;
-    if (const auto told = screen_.isBelow(values, request)) return *told;
-    return query_.state(values, request).decision == Decision::below;
+    return screen_.decision(values, request) == Decision::below;
   }
 
   /// Of P that anything is touched; nothing where that is certainly below `least`.
   std::optional<Bounds> above(const Eigen::VectorXd& values, double least,
                               ProbabilityRequest request) const {
     if (!errors_.none()) return Bounds{0.0, upper(values, least)};
-    if (screen_.isBelow(values, least, request.contact) == true) return std::nullopt;
+    request.threshold = least;
+    if (single_.isBelow(values, request) == true) return std::nullopt;
     request.threshold.reset();
     return query_.state(values, request).any;
   }
@@ -50,6 +50,7 @@ class StateDecision {
   const RobotErrors& errors_;
   Eigen::MatrixXd covariance_;  ///< of the joints, with errors
   StateScreen screen_;
+  StateScreen single_;  ///< for other thresholds
 };
 
 /// What is left of a plan's time, if that has a limit: > 0, as a limit must be. One that has passed

@@ -69,12 +69,12 @@ class ManyStates {
   std::vector<ProbableDecision> decisions_;
 };
 
+}  // namespace
+
 ProbableDecision decisionFrom(Decision decision, ProbableDecision below, ProbableDecision above) {
   if (decision == Decision::below) return below;
   return decision == Decision::above ? above : ProbableDecision::undecided;
 }
-
-}  // namespace
 
 void requireChance(double chance_of_error) {
   if (chance_of_error > 0.0 && chance_of_error < 1.0) return;

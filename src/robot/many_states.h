@@ -16,6 +16,9 @@ namespace fcl_prob::detail {
 /// \throws InvalidRequest unless it is above 0 and below 1
 void requireChance(double chance_of_error);
 
+/// One of the two, or undecided.
+ProbableDecision decisionFrom(Decision decision, ProbableDecision below, ProbableDecision above);
+
 using StateDecision =
     std::function<ProbableDecision(const Eigen::VectorXd& values, const ProbabilityRequest&)>;
 

@@ -65,7 +65,8 @@ class EventAnswers {
     const double share = *request_.threshold / static_cast<double>(bounds().size());
     const PartsLoop::Wanted against_share = [&](std::size_t i) {
       part.threshold = share;
-      return bounds()[i].upper < share ? std::nullopt : std::make_optional(part);
+      const bool may_tell = bounds()[i].lower <= share && bounds()[i].upper >= share;
+      return may_tell ? std::make_optional(part) : std::nullopt;
     };
     loop_.askEach(against_share, first_);
     if (!independent_) return;

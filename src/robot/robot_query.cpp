@@ -476,11 +476,13 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
   }
   const detail::StateScreen& screen = of_call ? *of_call : implementation_->screen;
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
+    const auto certain = [](Decision decision) {
+      return detail::decisionFrom(decision, ProbableDecision::certainly_below,
+                                  ProbableDecision::certainly_above);
+    };
+    if (!chance_of_error) return certain(screen.decision(values, of_one));
     if (const auto told = screen.isBelow(values, of_one)) {
-      return *told ? ProbableDecision::certainly_below : ProbableDecision::certainly_above;
-    }
-    if (!chance_of_error) {
-      return certainly(implementation_->ofUnion({values}, -1, of_one)).decision;
+      return certain(*told ? Decision::below : Decision::above);
     }
     of_one.threshold.reset();
     return implementation_->ofUnionProbably({values}, *request.threshold, *chance_of_error, of_one)

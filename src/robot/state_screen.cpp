@@ -7,6 +7,8 @@
 
 #include "base/rounded_sum.h"
 #include "fcl_prob/combined_bounds.h"
+#include "robot/moving_obstacle.h"
+#include "robot/obstacle_answer.h"
 
 namespace fcl_prob::detail {
 namespace {
@@ -50,43 +52,51 @@ StateScreen::StateScreen(const RobotAmongObstacles& among) : among_(among) {
   }
 }
 
-std::optional<bool> StateScreen::isBelow(const Eigen::VectorXd& values, double threshold,
-                                         ContactMeaning contact) const {
-  if (!is_usable_) return std::nullopt;
-  const auto [all, far] = nearOf(among_.robot().poses(values), kNegligible * threshold);
-  return sideOf(boundsOfAny(all, far, threshold, contact), threshold);
-}
-
-std::optional<bool> StateScreen::isBelow(const Eigen::VectorXd& values,
-                                         const ProbabilityRequest& request) const {
-  if (!is_usable_) return std::nullopt;
+StateScreen::Screened StateScreen::screened(const Eigen::VectorXd& values,
+                                            const ProbabilityRequest& request) const {
+  if (!is_usable_)
+    return {std::nullopt, std::vector<Bounds>(among_.obstacles().size(), {0.0, 1.0})};
   const double threshold = *request.threshold;
   const std::vector<fcl::Transform3d> poses = among_.robot().poses(values);
   const Near near = nearOf(poses, kNegligible * threshold);
-  const auto told =
-      sideOf(boundsOfAny(near.of_obstacles, near.far, threshold, request.contact), threshold);
-  if (told || !fixed_ || !fixed_->areAmong(poses)) return told;
-  return sideOf(withFixed(near, request), threshold);
+  double far = 0.0;
+  for (const double of_one : near.far) far = sumAbove(far, of_one);
+  const auto told = sideOf(boundsOfAny(near.bodies, far, threshold, request.contact), threshold);
+  if (told) return {told, {}};
+  std::vector<Bounds> known = knownOf(near, fixed_ && fixed_->areAmong(poses), request);
+  return {sideOf(anyOfIndependent(known), threshold), std::move(known)};
 }
 
-Bounds StateScreen::withFixed(const Near& near, const ProbabilityRequest& request) const {
-  const auto sums = [&](bool fixed) {
-    std::vector<double> by_obstacle;
-    for (const BodyBounds& one : near.of_obstacles) {
-      by_obstacle.push_back(one.sum([&](std::size_t i) { return fixed_->contains(i) == fixed; }));
-    }
-    return by_obstacle;
-  };
-  const std::vector<double> fixed = sums(true), moving = sums(false);
-  const double of_fixed = std::accumulate(fixed.begin(), fixed.end(), 0.0);
-  if (of_fixed < kWorthKnowing * *request.threshold) return {0.0, 1.0};
-  auto known = fixed_->bounds(request);
-  if (!known) return {0.0, 1.0};
-  for (std::size_t j = 0; j < known->size(); ++j) {
-    (*known)[j].upper = std::min(1.0, sumAbove((*known)[j].upper, moving[j]));
+std::vector<Bounds> StateScreen::knownOf(const Near& near, bool stay,
+                                         const ProbabilityRequest& request) const {
+  std::vector<double> moving, fixed;
+  for (const BodyBounds& one : near.bodies) {
+    moving.push_back(one.sum([&](std::size_t i) { return !stay || !fixed_->contains(i); }));
+    fixed.push_back(one.sum([&](std::size_t i) { return stay && fixed_->contains(i); }));
   }
-  const Bounds any = anyOfIndependent(*known);
-  return {any.lower, std::min(1.0, sumAbove(any.upper, near.far))};
+  const double of_fixed = std::accumulate(fixed.begin(), fixed.end(), 0.0);
+  std::optional<std::vector<Bounds>> exactly;
+  if (of_fixed >= kWorthKnowing * *request.threshold) exactly = fixed_->bounds(request);
+  std::vector<Bounds> known;
+  for (std::size_t j = 0; j < moving.size(); ++j) {
+    const Bounds of_stay = exactly ? (*exactly)[j] : Bounds{0.0, fixed[j]};
+    const double others = sumAbove(moving[j], near.far[j]);
+    known.push_back({of_stay.lower, std::min(1.0, sumAbove(of_stay.upper, others))});
+  }
+  return known;
+}
+
+Decision StateScreen::decision(const Eigen::VectorXd& values,
+                               const ProbabilityRequest& request) const {
+  Screened screened = this->screened(values, request);
+  if (screened.is_below) return *screened.is_below ? Decision::below : Decision::above;
+  const auto placed = among_.relativeTo({values}, -1);
+  const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one) {
+    FarBodies far;
+    return placedProbability(among_.sceneOf(i), stateAt(among_.obstacles()[i], 0), placed[i],
+                             of_one, far);
+  };
+  return anyOfAsked(std::move(screened.known), request, ask).decision;
 }
 
 StateScreen::Near StateScreen::nearOf(const std::vector<fcl::Transform3d>& poses,
@@ -97,17 +107,18 @@ StateScreen::Near StateScreen::nearOf(const std::vector<fcl::Transform3d>& poses
     const PreparedObstacle& prepared = among_.preparedObstacle(j);
     const Ball around = prepared.around().placed(obstacle.pose);
     std::vector<PlacedBody> bodies;
+    double far = 0.0;
     for (const std::size_t i : among_.bodiesOf(j)) {
       const double upper =
           farContactUpper(among_.balls()[i].placed(poses[i]), around, obstacle.displacement);
       if (upper > negligible) {
         bodies.push_back({i, poses[i]});
       } else {
-        near.far = sumAbove(near.far, upper);
+        far = sumAbove(far, upper);
       }
     }
-    near.of_obstacles.emplace_back(among_.prepared(), bodies, prepared, obstacle.pose,
-                                   of_bodies_[j]);
+    near.far.push_back(far);
+    near.bodies.emplace_back(among_.prepared(), bodies, prepared, obstacle.pose, of_bodies_[j]);
   }
   return near;
 }

@@ -25,27 +25,36 @@ class StateScreen {
   StateScreen(const RobotAmongObstacles& among, const Eigen::VectorXd& values,
               const std::vector<Eigen::Index>& moving);
 
-  /// Whether P(any body touches any obstacle) is below `threshold` or above it: certain. Nothing:
-  /// not known. \param values  valid ones
-  std::optional<bool> isBelow(const Eigen::VectorXd& values, double threshold,
-                              ContactMeaning contact) const;
-
-  /// The same, and by what is known of the bodies that stay. \param request  with a threshold
+  /// Whether P(any body touches any obstacle) is below the request's threshold or above it, by what
+  /// is told in microseconds and by what is known of bodies that stay: certain. Nothing: not known.
+  /// \param values  valid ones
   std::optional<bool> isBelow(const Eigen::VectorXd& values,
-                              const ProbabilityRequest& request) const;
+                              const ProbabilityRequest& request) const {
+    return screened(values, request).is_below;
+  }
+
+  /// The same, and where that tells nothing the obstacles are asked. \throws as RobotQuery::state()
+  Decision decision(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
 
  private:
-  /// Bodies that are not far from an obstacle, by obstacle, and what those left out add up to.
+  /// Bodies that are not far from an obstacle, and what those left out add up to: by obstacle.
   struct Near {
-    std::vector<BodyBounds> of_obstacles;
-    double far = 0.0;
+    std::vector<BodyBounds> bodies;
+    std::vector<double> far;
   };
+
+  struct Screened {
+    std::optional<bool> is_below;
+    std::vector<Bounds> known;  ///< of P that any body touches an obstacle, by obstacle
+  };
+
+  Screened screened(const Eigen::VectorXd& values, const ProbabilityRequest& request) const;
 
   /// \param negligible  what one that is left out may add
   Near nearOf(const std::vector<fcl::Transform3d>& poses, double negligible) const;
 
-  /// With bodies that stay.
-  Bounds withFixed(const Near& near, const ProbabilityRequest& request) const;
+  /// By obstacle. \param stay  whether bodies are where they stay
+  std::vector<Bounds> knownOf(const Near& near, bool stay, const ProbabilityRequest& request) const;
 
   const RobotAmongObstacles& among_;
   std::optional<FixedBodies> fixed_;
