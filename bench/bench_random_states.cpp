@@ -222,9 +222,8 @@ BenchReport reportOfWorlds() {
       "one does, where the obstacles are expected; `Monte Carlo`: the same for 10,000 samples, of\n"
       "every hundredth state. The times at the right are of certified decisions; `MiB`: what the\n"
       "process has grown by when all were answered.\n"
-      "Padding by 2 and 3 of the largest deviations, by `fcl::distance` or by meshes with "
-      "vertices\n"
-      "that much farther from their middle: of the states above those that it refuses though P is\n"
+      "Padding by 2 and 3 of the largest deviations, by `fcl::distance` or by meshes\n"
+      "that are moved outwards so far: of the states above those that it refuses though P is\n"
       "below / that it allows though P is above.\n";
   report.more_tables.push_back(
       {"Padding", TextTable({"world", "by", "states / s", "2 sigma", "3 sigma"})});

@@ -58,4 +58,9 @@ inline bool touchesAny(const Robot& robot, const std::vector<fcl::Transform3d>& 
       pose);
 }
 
+/// A mesh whose vertices are moved outwards by so much (metres), as motion planners pad: along the
+/// mean of the normals around each.
+std::shared_ptr<const fcl::CollisionGeometryd> padded(const fcl::CollisionGeometryd& geometry,
+                                                      double padding);
+
 }  // namespace fcl_prob::cli

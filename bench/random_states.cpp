@@ -6,9 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bench/least_distance.h"
 #include "cli/random_displacement.h"
 #include "fcl_prob/mesh_io.h"
-#include "geometry/mesh_visitor.h"
+#include "geometry/geometry_kind.h"
 
 namespace fcl_prob::cli {
 namespace {
@@ -69,22 +70,12 @@ fcl::Transform3d displaced(const Obstacle& obstacle, const Whitening& whitening,
 }
 
 std::vector<Geometry> paddedBodies(const Robot& robot, double padding) {
-  std::vector<Geometry> padded;
+  std::vector<Geometry> bodies;
   for (const RobotBody& body : robot.bodies()) {
-    if (detail::kindOf(*body.geometry) != detail::GeometryKind::mesh) {
-      padded.push_back(body.geometry);
-      continue;
-    }
-    const detail::MeshView view = detail::meshView(*body.geometry);
-    TriangleMesh mesh;
-    mesh.vertices.assign(view.vertices, view.vertices + view.vertex_count);
-    mesh.triangles.assign(view.triangles, view.triangles + view.triangle_count);
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& v : mesh.vertices) middle += v / view.vertex_count;
-    for (Eigen::Vector3d& v : mesh.vertices) v += padding * (v - middle).normalized();
-    padded.push_back(buildTree(mesh, "obbrss"));
+    const bool is_mesh = detail::kindOf(*body.geometry) == detail::GeometryKind::mesh;
+    bodies.push_back(is_mesh ? padded(*body.geometry, padding) : body.geometry);
   }
-  return padded;
+  return bodies;
 }
 
 Obstacle personBeside(const Geometry& mesh, Uniforms& random) {

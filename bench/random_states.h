@@ -31,8 +31,7 @@ std::vector<Obstacle> cansAround(const Geometry& mesh, Uniforms& random, int cou
 fcl::Transform3d displaced(const Obstacle& obstacle, const Whitening& whitening,
                            std::uint64_t index);
 
-/// The bodies as padding makes them: every vertex this much farther from the middle of its mesh,
-/// metres. Shapes stay as they are: the robots here have none.
+/// The bodies with padded() meshes. Shapes stay as they are: the robots here have none.
 std::vector<Geometry> paddedBodies(const Robot& robot, double padding);
 
 /// Standing on the floor, 0.4 to 1 m from the robot's axis, standard deviations of 10 to 50 mm.

@@ -82,8 +82,8 @@ std::vector<std::pair<std::string, Ask>> tasksOfNear() {
 }
 
 void addNearState(const RobotQuery& query, const Eigen::VectorXd& values,
-              const std::vector<std::pair<std::string, Ask>>& tasks,
-              std::vector<TaskCosts>& costs) {
+                  const std::vector<std::pair<std::string, Ask>>& tasks,
+                  std::vector<TaskCosts>& costs) {
   const double yardstick = msOfTenThousand(query, values);
   for (std::size_t t = 0; t < tasks.size(); ++t) {
     const detail::Stopwatch watch;

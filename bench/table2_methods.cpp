@@ -58,24 +58,6 @@ class MonteCarloRow {
   std::vector<std::vector<Eigen::Vector3d>> normals_;  ///< by obstacle
 };
 
-/// A mesh whose vertices are moved outwards by so much (metres), as motion planners pad: along the
-/// mean of the normals around each.
-std::shared_ptr<const fcl::CollisionGeometryd> padded(const fcl::CollisionGeometryd& geometry,
-                                                      double padding) {
-  TriangleMesh mesh = triangleMesh(detail::meshView(geometry));
-  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (const fcl::Triangle& triangle : mesh.triangles) {
-    const Eigen::Vector3d& corner = mesh.vertices[triangle[0]];
-    const Eigen::Vector3d normal =
-        (mesh.vertices[triangle[1]] - corner).cross(mesh.vertices[triangle[2]] - corner);
-    for (int c = 0; c < 3; ++c) normals[triangle[c]] += normal;
-  }
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    mesh.vertices[i] += padding * normals[i].normalized();
-  }
-  return buildTree(mesh, "obbrss");
-}
-
 /// Collision with obstacles that are thicker by so many of their largest standard deviations.
 class PaddingRow {
  public:
@@ -131,8 +113,7 @@ class CertifiedRow {
   }
 
   double operator()(const Table2State& state, double enough) const {
-    const auto told = state.screen.isBelow(state.values, enough, ContactMeaning::fcl);
-    if (told) return *told ? 0.0 : 1.0;
+    if (const auto told = state.isBelow(enough)) return *told ? 0.0 : 1.0;
     return state.query.state(state.values, request_).decision == Decision::below ? 0.0 : 1.0;
   }
 
@@ -150,8 +131,7 @@ class ProbableRow {
   }
 
   double operator()(const Table2State& state, double enough) const {
-    const auto told = state.screen.isBelow(state.values, enough, ContactMeaning::fcl);
-    if (told) return *told ? 0.0 : 1.0;
+    if (const auto told = state.isBelow(enough)) return *told ? 0.0 : 1.0;
     const ProbableDecision decision =
         state.query.decideProbably({state.values}, threshold_, kChanceOfError, request_).decision;
     const bool below = decision == ProbableDecision::certainly_below ||

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,13 @@ struct Table2State {
   const Eigen::VectorXd& values;
   const RobotQuery& query;
   const detail::StateScreen& screen;  ///< of the query
+
+  /// By the screen.
+  std::optional<bool> isBelow(double threshold) const {
+    ProbabilityRequest request;
+    request.threshold = threshold;
+    return screen.isBelow(values, request);
+  }
 };
 
 struct Table2Scene {
