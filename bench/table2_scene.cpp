@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bench/least_distance.h"
 #include "cli/geometry.h"
 #include "cli/number_text.h"
 #include "fcl_prob/mesh_io.h"

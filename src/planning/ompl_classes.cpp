@@ -50,10 +50,10 @@ RobotRisk::RobotRisk(std::shared_ptr<const RobotQuery> query,
   query->robot().requireWithinLimits(rest);
   detail::requireStaying(query->obstacles(), "plans are");
   const detail::RobotAmongObstacles& among = query->among();
-  std::vector<Eigen::Index> indices = coordinatesOf(query->robot(), joints);
-  implementation_.reset(new Implementation{std::move(query), std::move(self), std::move(indices),
-                                           rest, request, motion_cells,
-                                           detail::StateScreen(among)});
+  const std::vector<Eigen::Index> indices = coordinatesOf(query->robot(), joints);
+  implementation_.reset(new Implementation{std::move(query), std::move(self), indices, rest,
+                                           request, motion_cells,
+                                           detail::StateScreen(among, rest, indices)});
 }
 
 RobotRisk::~RobotRisk() = default;
@@ -68,8 +68,7 @@ Eigen::VectorXd RobotRisk::valuesOf(const ompl::base::State* state) const {
 bool RobotRisk::isValid(const Eigen::VectorXd& values) const {
   const Implementation& of = *implementation_;
   if (!of.query->robot().isWithinLimits(values) || of.touchesItself(values)) return false;
-  if (const auto told = of.screen.isBelow(values, threshold(), of.request.contact)) return *told;
-  return of.query->state(values, of.request).decision == Decision::below;
+  return of.screen.decision(values, of.request) == Decision::below;
 }
 
 bool RobotRisk::isValidMotion(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
