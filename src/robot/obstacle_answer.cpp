@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/decision.h"
@@ -30,17 +31,20 @@ class EventAnswers {
 
   RobotResult run() {
     const bool several = bounds().size() > 1;
-    if (several && request_.threshold) askForDecision();
     ProbabilityRequest fine = request_;
     fine.absolute_tolerance /= static_cast<double>(bounds().size());
     if (several) fine.threshold.reset();
+    if (several && request_.threshold && !isEstimate()) {
+      askForDecision();
+      narrowToDecide(fine);
+      return finished();
+    }
     const PartsLoop::Wanted finely = [this, &fine](std::size_t i) {
       return isFine(loop_.answers()[i], fine) ? std::nullopt : std::make_optional(fine);
     };
     loop_.askEach(finely, first_);
     loop_.endWhen([this] { return isDecided() || isWithinTolerance(); });
     loop_.askAgain(finely);
-    if (several && !isEstimate()) narrowToDecide(fine);
     return finished();
   }
 
@@ -58,38 +62,38 @@ class EventAnswers {
     return width <= request.toleranceAt(*part->upper);
   }
 
-  /// Each event against its share of the threshold; then, of independent ones, each against what
-  /// the upper bounds of the others leave of it: where one event has most of it, that decides.
+  /// Each event against its share of the threshold. Then, of independent ones, each against what
+  /// the others leave of it at most, and what they leave at least: where one event has most of P,
+  /// the first tells that it is below and the second that it is above.
   void askForDecision() {
-    ProbabilityRequest part = request_;
     const double share = *request_.threshold / static_cast<double>(bounds().size());
-    const PartsLoop::Wanted against_share = [&](std::size_t i) {
-      part.threshold = share;
-      const bool may_tell = bounds()[i].lower <= share && bounds()[i].upper >= share;
-      return may_tell ? std::make_optional(part) : std::nullopt;
-    };
-    loop_.askEach(against_share, first_);
+    askAgainst([share](std::size_t) { return share; });
     if (!independent_) return;
-    const PartsLoop::Wanted against_rest = [&](std::size_t i) {
-      part.threshold = leftTo(i);
+    askAgainst([this](std::size_t i) { return leftTo(i, &Bounds::upper); });
+    askAgainst([this](std::size_t i) { return leftTo(i, &Bounds::lower); });
+  }
+
+  /// Those that a threshold of theirs may tell something of.
+  void askAgainst(const std::function<double(std::size_t)>& threshold) {
+    ProbabilityRequest part = request_;
+    const PartsLoop::Wanted against = [&](std::size_t i) {
+      part.threshold = threshold(i);
       const bool may_tell =
           *part.threshold > bounds()[i].lower && *part.threshold < bounds()[i].upper;
       return may_tell ? std::make_optional(part) : std::nullopt;
     };
-    loop_.askEach(against_rest, first_);
+    loop_.askEach(against, first_);
   }
 
-  double leftTo(std::size_t i) const {
+  /// \param end  of what is known of the others
+  double leftTo(std::size_t i, double Bounds::*end) const {
     double free = 1.0;
-    for (std::size_t j = 0; j < bounds().size(); ++j) {
-      free *= j == i ? 1.0 : 1.0 - bounds()[j].upper;
-    }
+    for (std::size_t j = 0; j < bounds().size(); ++j) free *= j == i ? 1.0 : 1.0 - bounds()[j].*end;
     return free > 0.0 ? 1.0 - (1.0 - *request_.threshold) / free : 0.0;
   }
 
   /// With a threshold only a decision or a limit is the end.
   void narrowToDecide(const ProbabilityRequest& fine) {
-    if (!request_.threshold) return;
     while (mayBeDecided() && loop_.narrowWidest(fine)) {
     }
   }
