@@ -136,7 +136,9 @@ TEST_CASE("the screen of states tells none that is on the other side of the thre
       values[static_cast<Eigen::Index>(j)] = std::uniform_real_distribution<double>(
           std::max(joints[j].lower, -1.5), std::min(joints[j].upper, 1.5))(random);
     }
-    const auto told = screen.isBelow(values, 0.05, ContactMeaning::fcl);
+    ProbabilityRequest against;
+    against.threshold = 0.05;
+    const auto told = screen.isBelow(values, against);
     const bool below = told == true;
     passed += below;
     refused += !below;
@@ -152,7 +154,8 @@ TEST_CASE("the screen of states tells none that is on the other side of the thre
     if (decision == Decision::above) CHECK(any.upper > 0.05);
     if (told == false) CHECK(decision == Decision::above);
     above += told == false;
-    CHECK_FALSE((below && screen.isBelow(values, 0.0, ContactMeaning::fcl) == true));
+    against.threshold = 0.0;
+    CHECK_FALSE((below && screen.isBelow(values, against) == true));
   }
   CHECK(passed > 100);
   CHECK(refused > 10);

@@ -119,3 +119,15 @@ TEST_CASE("errors of any dependence: what the bounds leave open is no reason to 
     CHECK(events.asked < 200);
   }
 }
+
+TEST_CASE("obstacles are asked for no more than a decision") {
+  // The others may have so much of the threshold that 0.0495 is above what is left, and not above.
+  Events events{{0.052, 3e-3, 1e-3, 1e-3}};
+  ProbabilityRequest request;
+  request.threshold = 0.05;
+  const RobotResult result =
+      anyOfAsked({{0.0, 1.0}, {0.0, 4e-3}, {0.0, 2e-3}, {0.0, 2e-3}}, request, events.ask());
+  CHECK(result.decision == Decision::above);
+  CHECK(events.asked <= 4);  // not each to a tolerance besides
+  CHECK(result.any.upper - result.any.lower > 1e-3);
+}
