@@ -77,7 +77,7 @@ std::vector<Bounds> StateScreen::knownOf(const Near& near, bool stay,
   }
   const double of_fixed = std::accumulate(fixed.begin(), fixed.end(), 0.0);
   std::optional<std::vector<Bounds>> exactly;
-  if (of_fixed >= kWorthKnowing * *request.threshold) exactly = fixed_->bounds(request);
+  if (stay && of_fixed > kWorthKnowing * *request.threshold) exactly = fixed_->bounds(request);
   std::vector<Bounds> known;
   for (std::size_t j = 0; j < moving.size(); ++j) {
     const Bounds of_stay = exactly ? (*exactly)[j] : Bounds{0.0, fixed[j]};

@@ -28,7 +28,7 @@ ProbabilityRequest against(double threshold) {
 ProbabilityRequest closely() {
   ProbabilityRequest request;
   request.method = ProbabilityMethod::interval;
-  request.relative_tolerance = 0.002;
+  request.relative_tolerance = 0.01;
   request.absolute_tolerance = 1e-5;
   return request;
 }
@@ -77,9 +77,9 @@ TEST_CASE("states are decided rightly by what is known of bodies that stay", "[r
   const Robot robot = shippedArm();
   std::mt19937_64 random(31);
   int told = 0, below = 0, above = 0;
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 12; ++i) {
     const std::vector<Obstacle> balls = ballsBeside(random, 1 + i % 3);
-    const Eigen::MatrixXd states = statesOf(robot, random, 8);
+    const Eigen::MatrixXd states = statesOf(robot, random, 5);
     const RobotQuery query(robot, balls);
     const auto decided = query.decideStates(states, against(kThreshold));
     ProbabilityRequest on_two = against(kThreshold);
@@ -102,15 +102,15 @@ TEST_CASE("states are decided rightly by what is known of bodies that stay", "[r
       told += by_all && !alone.isBelow(states.col(k), against(kThreshold));
     }
   }
-  CHECK(told > 20);
-  CHECK(below > 20);
-  CHECK(above > 20);
+  CHECK(told > 8);
+  CHECK(below > 8);
+  CHECK(above > 8);
 }
 
 TEST_CASE("what bodies that stay touch is what they touch by themselves", "[robot]") {
   const Robot robot = shippedArm(), base = shippedArm({"base"});
   std::mt19937_64 random(32);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 5; ++i) {
     const std::vector<Obstacle> balls = ballsBeside(random, 2);
     const RobotQuery query(robot, balls), of_base(base, balls);
     std::vector<Eigen::Index> all(robot.joints().size());
