@@ -26,6 +26,7 @@ constexpr int kCans = 9;                    // beside the person, where there ar
 /// Places of the obstacles for each robot, states for each place.
 constexpr int kPlaces = 10;
 constexpr int kStatesOfPlace = 500;
+constexpr int kStatesAmongCans = 100;
 constexpr int kStatesQuick = 50;
 
 /// What a state is sampled with, one of so many: that takes up to a second.
@@ -233,6 +234,7 @@ BenchReport reportOfWorlds() {
 struct World {
   std::string robot;
   int cans;
+  int states() const { return cans > 0 ? kStatesAmongCans : kStatesOfPlace; }
   std::string name() const { return robot + (cans > 0 ? ", ten obstacles" : ""); }
 };
 
@@ -262,7 +264,7 @@ BenchReport benchRandomStates(const BenchOptions& options, const BenchProgress& 
       if (!progress(0.5 * done, world.name())) return report;
       const Place place(first.withObstacles(obstaclesOfPlace()));
       const Eigen::MatrixXd states =
-          drawnStates(robot, random, options.quick ? kStatesQuick : kStatesOfPlace);
+          drawnStates(robot, random, options.quick ? kStatesQuick : world.states());
       for (Eigen::Index i = 0; i < states.cols(); ++i) addRandomState(place, states.col(i), costs);
     }
     costs.mebibytes = residentMebibytes() - before;
