@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,13 @@ inline std::vector<Eigen::Index> jointIndices(const Robot& robot,
     indices.push_back(index);
   }
   return indices;
+}
+
+/// Of all joints.
+inline std::vector<Eigen::Index> allJoints(const Robot& robot) {
+  std::vector<Eigen::Index> all(robot.joints().size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 }  // namespace fcl_prob::detail

@@ -16,6 +16,9 @@
 namespace fcl_prob::detail {
 namespace {
 
+/// Fewer states are not worth finding out what bodies that stay in all of them may touch.
+constexpr Eigen::Index kManyStates = 4;
+
 class ManyStates {
  public:
   ManyStates(const Eigen::MatrixXd& states, const ProbabilityRequest& request,
@@ -69,11 +72,16 @@ class ManyStates {
   std::vector<ProbableDecision> decisions_;
 };
 
-}  // namespace
-
 ProbableDecision decisionFrom(Decision decision, ProbableDecision below, ProbableDecision above) {
   if (decision == Decision::below) return below;
   return decision == Decision::above ? above : ProbableDecision::undecided;
+}
+
+}  // namespace
+
+ProbableDecision certain(Decision decision) {
+  return decisionFrom(decision, ProbableDecision::certainly_below,
+                      ProbableDecision::certainly_above);
 }
 
 void requireChance(double chance_of_error) {
@@ -85,7 +93,9 @@ void requireChance(double chance_of_error) {
 std::vector<Eigen::Index> movingRows(const Eigen::MatrixXd& states) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < states.rows(); ++i) {
-    if ((states.row(i).array() != states(i, 0)).any()) rows.push_back(i);
+    const bool stays =
+        states.cols() >= kManyStates && (states.row(i).array() == states(i, 0)).all();
+    if (!stays) rows.push_back(i);
   }
   return rows;
 }
@@ -109,8 +119,7 @@ std::vector<ProbableDecision> decideWithErrors(const RobotQuery& query,
     }
     if (!chance_of_error) {
       of_one.method = ProbabilityMethod::interval;
-      return decisionFrom(query.state(values, errors, of_one).decision,
-                          ProbableDecision::certainly_below, ProbableDecision::certainly_above);
+      return certain(query.state(values, errors, of_one).decision);
     }
     of_one.method = ProbabilityMethod::automatic;
     of_one.confidence = 1.0 - *chance_of_error;

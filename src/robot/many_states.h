@@ -16,13 +16,14 @@ namespace fcl_prob::detail {
 /// \throws InvalidRequest unless it is above 0 and below 1
 void requireChance(double chance_of_error);
 
-/// One of the two, or undecided.
-ProbableDecision decisionFrom(Decision decision, ProbableDecision below, ProbableDecision above);
+/// A certified decision.
+ProbableDecision certain(Decision decision);
 
 using StateDecision =
     std::function<ProbableDecision(const Eigen::VectorXd& values, const ProbabilityRequest&)>;
 
-/// The joints that have not the same value in all states, a column each.
+/// The joints that have not the same value in all states, a column each; all joints of a few
+/// states.
 std::vector<Eigen::Index> movingRows(const Eigen::MatrixXd& states);
 
 /// By column. The time limit is that of all; states that are not reached are undecided.

@@ -3,7 +3,6 @@
 #include "fcl_prob/robot_query.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/budget.h"
 #include "base/random_words.h"
@@ -15,6 +14,7 @@
 #include "query/motion_gradient.h"
 #include "robot/certified_motion.h"
 #include "robot/gradient_parts.h"
+#include "robot/joint_indices.h"
 #include "robot/many_states.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
@@ -42,17 +42,8 @@ constexpr std::size_t kMostTogether = 400;
 constexpr double kToleranceOfWaypoints = 0.1;
 constexpr double kShareOfWaypoints = 0.125;
 
-// So many states of one call, or more, share what is found out of bodies that stay in all of them.
-constexpr Eigen::Index kManyStates = 4;
-
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
-
-std::vector<Eigen::Index> allJoints(const Robot& robot) {
-  std::vector<Eigen::Index> all(robot.joints().size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
 
 void addUp(const std::vector<FarBodies>& far, RobotResult& result) {
   for (const FarBodies& of_one : far) {
@@ -115,7 +106,8 @@ void addWaypoints(std::size_t obstacles, RobotResult& result) {
 
 struct RobotQuery::Implementation {
   explicit Implementation(detail::RobotAmongObstacles of)
-      : among(std::move(of)), screen(among, among.robot().values({}), allJoints(among.robot())) {}
+      : among(std::move(of)),
+        screen(among, among.robot().values({}), detail::allJoints(among.robot())) {}
 
   void validate(const ProbabilityRequest& request) const {
     validateRequest(request);
@@ -471,18 +463,14 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
   }
   std::optional<const detail::StateScreen> of_call;
   const std::vector<Eigen::Index> moving = detail::movingRows(states);
-  if (states.cols() >= kManyStates && moving.size() < robot().joints().size()) {
+  if (moving.size() < robot().joints().size()) {
     of_call.emplace(implementation_->among, states.col(0), moving);
   }
   const detail::StateScreen& screen = of_call ? *of_call : implementation_->screen;
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
-    const auto certain = [](Decision decision) {
-      return detail::decisionFrom(decision, ProbableDecision::certainly_below,
-                                  ProbableDecision::certainly_above);
-    };
-    if (!chance_of_error) return certain(screen.decision(values, of_one));
+    if (!chance_of_error) return detail::certain(screen.decision(values, of_one));
     if (const auto told = screen.isBelow(values, of_one)) {
-      return certain(*told ? Decision::below : Decision::above);
+      return detail::certain(*told ? Decision::below : Decision::above);
     }
     of_one.threshold.reset();
     return implementation_->ofUnionProbably({values}, *request.threshold, *chance_of_error, of_one)

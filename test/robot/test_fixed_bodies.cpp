@@ -10,6 +10,7 @@
 #include "arm_cases.h"
 #include "catch.h"
 #include "fcl_prob/robot_query.h"
+#include "robot/joint_indices.h"
 #include "robot/state_screen.h"
 
 using namespace fcl_prob;
@@ -113,9 +114,7 @@ TEST_CASE("what bodies that stay touch is what they touch by themselves", "[robo
   for (int i = 0; i < 5; ++i) {
     const std::vector<Obstacle> balls = ballsBeside(random, 2);
     const RobotQuery query(robot, balls), of_base(base, balls);
-    std::vector<Eigen::Index> all(robot.joints().size());
-    for (std::size_t j = 0; j < all.size(); ++j) all[j] = static_cast<Eigen::Index>(j);
-    const detail::FixedBodies fixed(query.among(), robot.values({}), all);
+    const detail::FixedBodies fixed(query.among(), robot.values({}), detail::allJoints(robot));
     CHECK(fixed.areAmong(robot.poses(randomValues(robot, random))));
     const auto known = fixed.bounds(against(kThreshold));
     REQUIRE(known);
