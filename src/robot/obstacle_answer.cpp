@@ -34,10 +34,12 @@ class EventAnswers {
     ProbabilityRequest fine = request_;
     fine.absolute_tolerance /= static_cast<double>(bounds().size());
     if (several) fine.threshold.reset();
-    if (several && request_.threshold && !isEstimate()) {
+    if (several && request_.threshold) {
       askForDecision();
-      narrowToDecide(fine);
-      return finished();
+      if (!isEstimate()) {
+        narrowToDecide(fine);
+        return finished();
+      }
     }
     const PartsLoop::Wanted finely = [this, &fine](std::size_t i) {
       return isFine(loop_.answers()[i], fine) ? std::nullopt : std::make_optional(fine);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/budget.h"
 #include "base/rounded_sum.h"
 #include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
@@ -89,16 +90,17 @@ std::vector<Bounds> StateScreen::knownOf(const Near& near, bool stay,
 
 Decision StateScreen::decision(const Eigen::VectorXd& values,
                                const ProbabilityRequest& request) const {
-  Screened screened = this->screened(values, request);
-  if (screened.is_below) return *screened.is_below ? Decision::below : Decision::above;
   const ProbabilityRequest of_call = ofOneCall(request);
+  const Budget budget(of_call);
+  Screened screened = this->screened(values, of_call);
+  if (screened.is_below) return *screened.is_below ? Decision::below : Decision::above;
   const auto placed = among_.relativeTo({values}, -1);
   const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one) {
     FarBodies far;
     return placedProbability(among_.sceneOf(i), stateAt(among_.obstacles()[i], 0), placed[i],
                              of_one, far);
   };
-  return anyOfAsked(std::move(screened.known), of_call, ask).decision;
+  return anyOfAsked(std::move(screened.known), budget.withTimeLeft(), ask).decision;
 }
 
 StateScreen::Near StateScreen::nearOf(const std::vector<fcl::Transform3d>& poses,
