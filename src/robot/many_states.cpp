@@ -16,9 +16,6 @@
 namespace fcl_prob::detail {
 namespace {
 
-/// Fewer states are not worth finding out what bodies that stay in all of them may touch.
-constexpr Eigen::Index kManyStates = 4;
-
 class ManyStates {
  public:
   ManyStates(const Eigen::MatrixXd& states, const ProbabilityRequest& request,
@@ -93,9 +90,7 @@ void requireChance(double chance_of_error) {
 std::vector<Eigen::Index> movingRows(const Eigen::MatrixXd& states) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < states.rows(); ++i) {
-    const bool stays =
-        states.cols() >= kManyStates && (states.row(i).array() == states(i, 0)).all();
-    if (!stays) rows.push_back(i);
+    if ((states.row(i).array() != states(i, 0)).any()) rows.push_back(i);
   }
   return rows;
 }

@@ -22,8 +22,7 @@ ProbableDecision certain(Decision decision);
 using StateDecision =
     std::function<ProbableDecision(const Eigen::VectorXd& values, const ProbabilityRequest&)>;
 
-/// The joints that have not the same value in all states, a column each; all joints of a few
-/// states.
+/// The joints that have not the same value in all states, a column each.
 std::vector<Eigen::Index> movingRows(const Eigen::MatrixXd& states);
 
 /// By column. The time limit is that of all; states that are not reached are undecided.

@@ -14,7 +14,6 @@
 #include "query/motion_gradient.h"
 #include "robot/certified_motion.h"
 #include "robot/gradient_parts.h"
-#include "robot/joint_indices.h"
 #include "robot/many_states.h"
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
@@ -41,6 +40,9 @@ constexpr std::size_t kMostTogether = 400;
 // of the limits.
 constexpr double kToleranceOfWaypoints = 0.1;
 constexpr double kShareOfWaypoints = 0.125;
+
+// Fewer states are not worth finding out what bodies that stay in all of them may touch.
+constexpr Eigen::Index kManyStates = 4;
 
 // A body that is no likelier to touch an obstacle has no part in a gradient.
 constexpr double kNoGradient = 1e-12;
@@ -105,9 +107,7 @@ void addWaypoints(std::size_t obstacles, RobotResult& result) {
 }  // namespace
 
 struct RobotQuery::Implementation {
-  explicit Implementation(detail::RobotAmongObstacles of)
-      : among(std::move(of)),
-        screen(among, among.robot().values({}), detail::allJoints(among.robot())) {}
+  explicit Implementation(detail::RobotAmongObstacles of) : among(std::move(of)) {}
 
   void validate(const ProbabilityRequest& request) const {
     validateRequest(request);
@@ -337,7 +337,6 @@ struct RobotQuery::Implementation {
   }
 
   detail::RobotAmongObstacles among;
-  detail::StateScreen screen;  ///< of states in which all joints may move
 };
 
 RobotQuery::RobotQuery(const Robot& robot, std::vector<Obstacle> obstacles,
@@ -461,12 +460,11 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
   if (!errors.none()) {
     return detail::decideWithErrors(*this, states, errors, request, chance_of_error);
   }
-  std::optional<const detail::StateScreen> of_call;
-  const std::vector<Eigen::Index> moving = detail::movingRows(states);
-  if (moving.size() < robot().joints().size()) {
-    of_call.emplace(implementation_->among, states.col(0), moving);
-  }
-  const detail::StateScreen& screen = of_call ? *of_call : implementation_->screen;
+  const detail::RobotAmongObstacles& among = implementation_->among;
+  const detail::StateScreen screen =
+      states.cols() < kManyStates
+          ? detail::StateScreen(among)
+          : detail::StateScreen(among, states.col(0), detail::movingRows(states));
   const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
     if (!chance_of_error) return detail::certain(screen.decision(values, of_one));
     if (const auto told = screen.isBelow(values, of_one)) {
