@@ -45,6 +45,12 @@ std::optional<std::vector<Bounds>> FixedBodies::bounds(const ProbabilityRequest&
   closely.threshold.reset();
   closely.relative_tolerance = kCloseness;
   closely.absolute_tolerance = kCloseness * *request.threshold;
+  if (request.on_progress) {
+    closely.on_progress = [&request](ProbabilityProgress progress) {
+      progress.interval.upper = 1.0;  // what moves may touch, too
+      return request.on_progress(progress);
+    };
+  }
   std::vector<Bounds> none(among_.obstacles().size(), Bounds{0.0, 1.0});
   const RobotResult found =
       anyOfAsked(std::move(none), closely, [&](std::size_t i, const ProbabilityRequest& of_one) {

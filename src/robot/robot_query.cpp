@@ -465,13 +465,15 @@ std::vector<ProbableDecision> RobotQuery::decideStates(
       states.cols() < kManyStates
           ? detail::StateScreen(among)
           : detail::StateScreen(among, states.col(0), detail::movingRows(states));
-  const auto decide = [&](const Eigen::VectorXd& values, ProbabilityRequest of_one) {
+  const auto decide = [&](const Eigen::VectorXd& values, const ProbabilityRequest& of_one) {
+    const detail::Budget budget(of_one);
     if (!chance_of_error) return detail::certain(screen.decision(values, of_one));
     if (const auto told = screen.isBelow(values, of_one)) {
       return detail::certain(*told ? Decision::below : Decision::above);
     }
-    of_one.threshold.reset();
-    return implementation_->ofUnionProbably({values}, *request.threshold, *chance_of_error, of_one)
+    ProbabilityRequest rest = budget.withTimeLeft();
+    rest.threshold.reset();
+    return implementation_->ofUnionProbably({values}, *request.threshold, *chance_of_error, rest)
         .decision;
   };
   return detail::manyStates(states, detail::ofOneCall(request), decide);

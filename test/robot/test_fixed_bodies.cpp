@@ -141,3 +141,22 @@ TEST_CASE("bodies that moved are not taken for such that stay", "[robot]") {
   CHECK_FALSE(fixed.bounds(at_once).has_value());
   CHECK(fixed.bounds(against(kThreshold)).has_value());
 }
+
+TEST_CASE("what is told while bodies that stay are asked bounds the whole state", "[robot]") {
+  const Robot robot = shippedArm();
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.translation() << 0.24, 0.0, 0.05;
+  const auto error = GaussianDisplacement::fromStandardDeviations({0.03, 0.02, 0.03});
+  const RobotQuery query(robot, {{"ball", std::make_shared<fcl::Sphered>(0.08), pose, error},
+                                 {"other", std::make_shared<fcl::Sphered>(0.07), pose, error}});
+  const detail::FixedBodies fixed(query.among(), robot.values({}), detail::allJoints(robot));
+  ProbabilityRequest request = against(kThreshold);
+  int told = 0;
+  request.on_progress = [&](const ProbabilityProgress& progress) {
+    ++told;
+    CHECK(progress.interval.upper == 1.0);
+    return true;
+  };
+  CHECK(fixed.bounds(request).has_value());
+  CHECK(told > 0);
+}
