@@ -109,25 +109,6 @@ void addPaddedMeshes(const Place& place, const std::vector<fcl::Transform3d>& po
   costs.milliseconds.push_back(watch.milliseconds() / std::size(kPaddings));
 }
 
-/// Monte Carlo, its share of samples left alone.
-double msOfSamples(const RobotQuery& query, const std::vector<fcl::Transform3d>& poses) {
-  std::vector<Whitening> whitenings;
-  for (const Obstacle& obstacle : query.obstacles()) {
-    whitenings.emplace_back(std::get<GaussianDisplacement>(obstacle.displacement));
-  }
-  const detail::Stopwatch watch;
-  for (std::uint64_t i = 0; i < kSamplesOfRandomState; ++i) {
-    for (std::size_t k = 0; k < whitenings.size(); ++k) {
-      const Obstacle& obstacle = query.obstacles()[k];
-      if (touchesAny(query.robot(), poses, *obstacle.geometry,
-                     displaced(obstacle, whitenings[k], i))) {
-        break;
-      }
-    }
-  }
-  return watch.milliseconds();
-}
-
 void addRandomState(const Place& place, const Eigen::VectorXd& values, StateCosts& costs) {
   const RobotQuery& query = place.query;
   ProbabilityRequest request;
@@ -152,7 +133,7 @@ void addRandomState(const Place& place, const Eigen::VectorXd& values, StateCost
   touchesObstacles(query, query.robot(), poses);
   costs.collide.push_back(of_collide.milliseconds());
   if (costs.collide.size() % kStatesOfSampled == 1) {
-    costs.sampled.push_back(msOfSamples(query, poses));
+    costs.sampled.push_back(msOfSamples(query, poses, kSamplesOfRandomState));
   }
   addDistances(place, poses, decision, costs.by_distance);
   addPaddedMeshes(place, poses, decision, costs.by_mesh);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/stopwatch.h"
 #include "bench/least_distance.h"
 #include "cli/random_displacement.h"
 #include "fcl_prob/mesh_io.h"
@@ -62,11 +63,22 @@ std::vector<Obstacle> cansAround(const Geometry& mesh, Uniforms& random, int cou
   return cans;
 }
 
-fcl::Transform3d displaced(const Obstacle& obstacle, const Whitening& whitening,
-                           std::uint64_t index) {
-  fcl::Transform3d pose = obstacle.pose;
-  pose.translation() += randomDisplacement(whitening, 1, index);
-  return pose;
+double msOfSamples(const RobotQuery& query, const std::vector<fcl::Transform3d>& poses,
+                   std::uint64_t samples) {
+  std::vector<Whitening> whitenings;
+  for (const Obstacle& obstacle : query.obstacles()) {
+    whitenings.emplace_back(std::get<GaussianDisplacement>(obstacle.displacement));
+  }
+  const detail::Stopwatch watch;
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    for (std::size_t k = 0; k < whitenings.size(); ++k) {
+      const Obstacle& obstacle = query.obstacles()[k];
+      fcl::Transform3d pose = obstacle.pose;
+      pose.translation() += randomDisplacement(whitenings[k], 1, i);
+      if (touchesAny(query.robot(), poses, *obstacle.geometry, pose)) break;
+    }
+  }
+  return watch.milliseconds();
 }
 
 std::vector<Geometry> paddedBodies(const Robot& robot, double padding) {

@@ -27,9 +27,10 @@ Geometry canMesh(const std::string& models_folder);
 /// So many, 0.3 to 0.9 m from the robot's axis and up to 1 m high, turned and displaced at random.
 std::vector<Obstacle> cansAround(const Geometry& mesh, Uniforms& random, int count);
 
-/// Where a Gaussian obstacle is in sample number `index` of a seed that is always the same.
-fcl::Transform3d displaced(const Obstacle& obstacle, const Whitening& whitening,
-                           std::uint64_t index);
+/// Milliseconds of Monte Carlo: the bodies at so many displacements of Gaussian obstacles, one
+/// after the other until one is touched.
+double msOfSamples(const RobotQuery& query, const std::vector<fcl::Transform3d>& poses,
+                   std::uint64_t samples);
 
 /// The bodies with padded() meshes. Shapes stay as they are: the robots here have none.
 std::vector<Geometry> paddedBodies(const Robot& robot, double padding);

@@ -9,7 +9,6 @@
 #include "base/decision.h"
 #include "base/stopwatch.h"
 #include "bench/bench_task.h"
-#include "bench/least_distance.h"
 #include "cli/number_text.h"
 
 namespace fcl_prob::cli {
@@ -44,17 +43,6 @@ double roughly(const RobotQuery& query, const Eigen::VectorXd& values) {
   return query.state(values, request).estimate.value_or(0.0);
 }
 
-double msOfTenThousand(const RobotQuery& query, const Eigen::VectorXd& values) {
-  const auto poses = query.robot().poses(values);
-  const Obstacle& obstacle = query.obstacles()[0];
-  const Whitening whitening(std::get<GaussianDisplacement>(obstacle.displacement));
-  const detail::Stopwatch watch;
-  for (std::uint64_t i = 0; i < kTimedSamples; ++i) {
-    touchesAny(query.robot(), poses, *obstacle.geometry, displaced(obstacle, whitening, i));
-  }
-  return watch.milliseconds() * 10'000.0 / kTimedSamples;
-}
-
 /// A name, and whether a state was answered.
 using Ask = std::function<bool(const RobotQuery&, const Eigen::VectorXd&)>;
 
@@ -84,7 +72,8 @@ std::vector<std::pair<std::string, Ask>> tasksOfNear() {
 void addNearState(const RobotQuery& query, const Eigen::VectorXd& values,
                   const std::vector<std::pair<std::string, Ask>>& tasks,
                   std::vector<TaskCosts>& costs) {
-  const double yardstick = msOfTenThousand(query, values);
+  const double yardstick =
+      msOfSamples(query, query.robot().poses(values), kTimedSamples) * 10'000.0 / kTimedSamples;
   for (std::size_t t = 0; t < tasks.size(); ++t) {
     const detail::Stopwatch watch;
     costs[t].open += !tasks[t].second(query, values);
