@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 
 namespace fcl_prob::detail {
@@ -58,8 +57,7 @@ std::optional<std::vector<Bounds>> FixedBodies::bounds(const ProbabilityRequest&
         const auto moves = [this](const PlacedBody& body) { return !is_fixed_[body.body]; };
         bodies.erase(std::remove_if(bodies.begin(), bodies.end(), moves), bodies.end());
         FarBodies far;
-        return placedProbability(among_.sceneOf(i), stateAt(among_.obstacles()[i], 0), bodies,
-                                 of_one, far);
+        return among_.ask(i, bodies, of_one, far);
       });
   if (found.status == ProbabilityStatus::time_limit ||
       found.status == ProbabilityStatus::cancelled) {

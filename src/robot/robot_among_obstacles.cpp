@@ -109,6 +109,14 @@ std::vector<std::size_t> RobotAmongObstacles::meeting(const Obstacle& obstacle,
   return bodies;
 }
 
+ProbabilityResult RobotAmongObstacles::ask(std::size_t obstacle,
+                                           const std::vector<PlacedBody>& bodies,
+                                           const ProbabilityRequest& request,
+                                           FarBodies& left_out) const {
+  return placedProbability(sceneOf(obstacle), stateAt(obstacles_[obstacle], 0), bodies, request,
+                           left_out);
+}
+
 std::vector<PlacedBody> RobotAmongObstacles::placed(
     std::size_t obstacle, const std::vector<fcl::Transform3d>& poses) const {
   std::vector<PlacedBody> bodies;

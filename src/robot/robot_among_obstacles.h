@@ -41,6 +41,10 @@ class RobotAmongObstacles {
     return {*bodies_, *prepared_[obstacle]};
   }
 
+  /// P that any of the bodies touches an obstacle where that is at first: see placedProbability().
+  ProbabilityResult ask(std::size_t obstacle, const std::vector<PlacedBody>& bodies,
+                        const ProbabilityRequest& request, FarBodies& left_out) const;
+
   /// The bodies that count for an obstacle, of all in a state.
   std::vector<PlacedBody> placed(std::size_t obstacle,
                                  const std::vector<fcl::Transform3d>& poses) const;

@@ -161,7 +161,7 @@ struct RobotQuery::Implementation {
                              int body, const std::vector<PlacedBody>& relative,
                              const ProbabilityRequest& request, FarBodies& far) const {
     if (relative.size() <= kMostTogether || request.method == ProbabilityMethod::estimate) {
-      return askObstacle(index, detail::stateAt(obstacles()[index], 0), relative, request, far);
+      return among.ask(index, relative, request, far);
     }
     detail::SweptAnswer answer = askSwept(
         index, sweptPath(index, waypoints, body, BetweenWaypoints::ignored), {0.0, 1.0}, request);

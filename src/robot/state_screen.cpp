@@ -9,7 +9,6 @@
 #include "base/rounded_sum.h"
 #include "base/until_no.h"
 #include "fcl_prob/combined_bounds.h"
-#include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 
 namespace fcl_prob::detail {
@@ -97,8 +96,7 @@ Decision StateScreen::decision(const Eigen::VectorXd& values,
   const auto placed = among_.relativeTo({values}, -1);
   const auto ask = [&](std::size_t i, const ProbabilityRequest& of_one) {
     FarBodies far;
-    return placedProbability(among_.sceneOf(i), stateAt(among_.obstacles()[i], 0), placed[i],
-                             of_one, far);
+    return among_.ask(i, placed[i], of_one, far);
   };
   return anyOfAsked(std::move(screened.known), budget.withTimeLeft(), ask).decision;
 }
