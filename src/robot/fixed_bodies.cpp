@@ -23,7 +23,6 @@ FixedBodies::FixedBodies(const RobotAmongObstacles& among, const Eigen::VectorXd
       const auto joint = static_cast<Eigen::Index>(one.joint);
       if (std::find(moving.begin(), moving.end(), joint) != moving.end()) is_fixed_[i] = false;
     }
-    any_ = any_ || is_fixed_[i];
   }
 }
 
@@ -31,7 +30,7 @@ bool FixedBodies::areAmong(const std::vector<fcl::Transform3d>& poses) const {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (is_fixed_[i] && poses[i].matrix() != poses_[i].matrix()) return false;
   }
-  return any_;
+  return std::find(is_fixed_.begin(), is_fixed_.end(), true) != is_fixed_.end();
 }
 
 std::optional<std::vector<Bounds>> FixedBodies::bounds(const ProbabilityRequest& request) const {

@@ -39,7 +39,6 @@ class FixedBodies {
   const RobotAmongObstacles& among_;
   std::vector<fcl::Transform3d> poses_;  ///< of all bodies
   std::vector<bool> is_fixed_;
-  bool any_ = false;
   mutable std::mutex mutex_;
   mutable std::map<Question, std::vector<Bounds>> known_;
 };
