@@ -69,10 +69,8 @@ constexpr double kDeviationShare = 0.6;
 constexpr std::size_t kFirstLook = 4000;
 constexpr double kStalled = 0.97;
 
-// Sweeps can be made shorter, which helps more than cells once they are about half of the width:
-// without them twice as many cells leave about 0.6 of it.
-constexpr std::size_t kFirstLookAtSweeps = 500;
-constexpr double kStalledBySweeps = 0.75;
+// Sweeps can be made shorter, which helps more than cells once they leave this share of the width.
+constexpr double kShareOfSweeps = 0.5;
 
 // As long as no more cells were examined and pairs tested than these, one cell is divided at a
 // time: a few milliseconds, for which threads are not worth waking.
@@ -94,7 +92,7 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       statistics_(statistics),
       obstacles_(scene.pair),
       band_(scene.pair.band),
-      next_look_(band_ && band_->isOfSweeps() ? kFirstLookAtSweeps : kFirstLook),
+      next_look_(kFirstLook),
       queue_(request, budget, statistics, claim_observer ? 1 : request.threads, makeWorker()) {
   Division root;
   queue_.worker().divider.examineRoot(root);
@@ -213,6 +211,7 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied() {
 // Whether cells have no more to tell than what is asked for, or nearly nothing.
 bool PartitionEngine::isOpenByBand(const Bounds& now) const {
   if (queue_.empty() || stalled_) return true;
+  if (band_->isOfSweeps() && left_by_band_ > kShareOfSweeps * now.width()) return true;
   const double open = now.width() - left_by_band_;
   if (asksForDecision(request_)) return !mayBeDecided(now, open, request_);
   return open <= request_.toleranceAt(now.upper);
@@ -258,8 +257,7 @@ void PartitionEngine::lookForStall() {
   if (statistics_.cells < next_look_) return;
   next_look_ = 2 * statistics_.cells;
   const Bounds now = interval();
-  const double stalled = band_ && band_->isOfSweeps() ? kStalledBySweeps : kStalled;
-  stalled_ = now.width() > stalled * at_last_look_.width();
+  stalled_ = now.width() > kStalled * at_last_look_.width();
   at_last_look_ = now;
 }
 

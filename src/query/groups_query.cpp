@@ -53,8 +53,8 @@ void requireMethod(const ProbabilityRequest& request) {
 }  // namespace
 
 GroupsQuery::GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b,
-                         const std::string& name_a, const std::string& name_b)
-    : a_(std::move(group_a), name_a), b_(std::move(group_b), name_b) {
+                         const std::string& name_a, const std::string& name_b, Poses about_a)
+    : a_(std::move(group_a), name_a, std::move(about_a)), b_(std::move(group_b), name_b) {
   if (a_.members().size() == 1 && b_.members().size() == 1) {
     single_.emplace(a_.members()[0], b_.members()[0]);
   } else if (a_.anyUnbounded() && b_.anyUnbounded()) {

@@ -23,9 +23,11 @@ class GroupsQuery {
   using Poses = std::vector<fcl::Transform3d>;
 
   /// \param name_a, name_b  how messages and certificates call them
+  /// \param about_a         see MemberGroup
   /// \throws as GroupQuery
   GroupsQuery(PreparedGeometries group_a, PreparedGeometries group_b,
-              const std::string& name_a = "group A", const std::string& name_b = "group B");
+              const std::string& name_a = "group A", const std::string& name_b = "group B",
+              Poses about_a = {});
 
   /// \throws what GroupQuery::collisionProbability() does, before any work
   ProbabilityResult answer(const Poses& poses_a, const Poses& poses_b,

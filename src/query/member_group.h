@@ -24,8 +24,11 @@ namespace fcl_prob::detail {
 /// leaves out wherever they are belong to neither the bounded nor the unbounded ones.
 class MemberGroup {
  public:
-  MemberGroup(PreparedGeometries members, const std::string& name)
-      : name_(name), members_(std::move(members)) {
+  /// \param about  none, or where the members are in all queries, more or less: the same ones in a
+  ///               row are one body in several places (see joinPieceTrees())
+  MemberGroup(PreparedGeometries members, const std::string& name,
+              std::vector<fcl::Transform3d> about = {})
+      : name_(name), members_(std::move(members)), about_(std::move(about)) {
     if (members_.empty()) throw InvalidGeometry(name + " has no members");
     for (std::size_t i = 0; i < members_.size(); ++i) {
       if (isLeftOut(members_[i]->geometry())) continue;
@@ -41,10 +44,14 @@ class MemberGroup {
   const PieceTree& tree() const {
     std::call_once(tree_once_, [this] {
       std::vector<const PieceTree*> trees;
-      for (const std::size_t i : bounded_) trees.push_back(&members_[i]->pieces());
+      std::vector<fcl::Transform3d> about;
+      for (const std::size_t i : bounded_) {
+        trees.push_back(&members_[i]->pieces());
+        if (!about_.empty()) about.push_back(about_[i]);
+      }
       // That of a single one is not copied.
       tree_ = trees.size() == 1 ? std::shared_ptr<const PieceTree>(members_[bounded_[0]], trees[0])
-                                : joinPieceTrees(trees);
+                                : joinPieceTrees(trees, about);
     });
     return *tree_;
   }
@@ -114,6 +121,7 @@ class MemberGroup {
 
   std::string name_;
   PreparedGeometries members_;
+  std::vector<fcl::Transform3d> about_;
   std::vector<std::size_t> bounded_;
   std::vector<std::size_t> unbounded_;
   mutable std::once_flag tree_once_;

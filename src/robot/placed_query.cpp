@@ -41,7 +41,8 @@ ProbabilityResult ofGroup(const ObstacleAmongBodies& scene, const ObstacleState&
     geometries.push_back(scene.robot.geometries[body.body]);
     poses.push_back(body.pose);
   }
-  const GroupsQuery query(std::move(geometries), scene.obstacle.geometries());
+  const GroupsQuery query(std::move(geometries), scene.obstacle.geometries(), "group A", "group B",
+                          poses);
   return std::visit(
       [&](const auto& displacement) {
         return query.answer(poses, scene.obstacle.poses(state.pose), reversed(displacement),
@@ -50,9 +51,31 @@ ProbabilityResult ofGroup(const ObstacleAmongBodies& scene, const ObstacleState&
       state.displacement);
 }
 
+/// Leaves out the bodies with the least bounds on their P; the others keep their order.
+template <typename UpperOf>
+double leaveOutLeast(double most, std::vector<PlacedBody>& bodies, const UpperOf& upperOf) {
+  std::vector<std::pair<double, std::size_t>> ordered;
+  for (std::size_t i = 0; i < bodies.size(); ++i) ordered.emplace_back(upperOf(bodies[i]), i);
+  std::sort(ordered.begin(), ordered.end());
+  double sum = 0.0;
+  std::vector<bool> is_out(bodies.size());
+  for (const auto& [upper, i] : ordered) {
+    const double next = sumAbove(sum, upper);
+    if (next > most) break;
+    sum = next;
+    is_out[i] = true;
+  }
+  std::vector<PlacedBody> near;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!is_out[i]) near.push_back(bodies[i]);
+  }
+  bodies.swap(near);
+  return sum;
+}
+
 /// The request whose on_progress hears of all bodies, `far` being what is left out may add.
 ProbabilityRequest tellingOfAll(ProbabilityRequest request, double far) {
-  if (!request.on_progress || !(far > 0.0)) return request;
+  if (!request.on_progress) return request;
   request.on_progress = [far, told = std::move(request.on_progress)](ProbabilityProgress progress) {
     progress.interval.upper = std::min(1.0, sumAbove(progress.interval.upper, far));
     return told(progress);
@@ -87,23 +110,21 @@ std::optional<ProbabilityResult> decidedByBounds(const ObstacleAmongBodies& scen
 double leaveOutFar(const std::vector<Ball>& balls, const Ball& around, const ObstacleState& state,
                    double most, std::vector<PlacedBody>& bodies) {
   const Ball obstacle = around.placed(state.pose);
-  std::vector<std::pair<double, PlacedBody>> ordered;
-  for (const PlacedBody& body : bodies) {
-    const Ball ball = balls[body.body].placed(body.pose);
-    ordered.emplace_back(farContactUpper(ball, obstacle, state.displacement), body);
+  return leaveOutLeast(most, bodies, [&](const PlacedBody& body) {
+    return farContactUpper(balls[body.body].placed(body.pose), obstacle, state.displacement);
+  });
+}
+
+double leaveOutUnlikely(const ObstacleAmongBodies& scene, const ObstacleState& state, double most,
+                        std::vector<PlacedBody>& bodies) {
+  const auto* gaussian = std::get_if<GaussianDisplacement>(&state.displacement);
+  if (!gaussian) {
+    return leaveOutFar(scene.robot.balls, scene.obstacle.around(), state, most, bodies);
   }
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const auto& x, const auto& y) { return x.first > y.first; });
-  double sum = 0.0;
-  while (!ordered.empty()) {
-    const double next = sumAbove(sum, ordered.back().first);
-    if (next > most) break;
-    sum = next;
-    ordered.pop_back();
-  }
-  bodies.clear();
-  for (const auto& [unused, body] : ordered) bodies.push_back(body);
-  return sum;
+  const GaussianDisplacement of_bodies = gaussian->reversed();
+  return leaveOutLeast(most, bodies, [&](const PlacedBody& body) {
+    return BodyBounds(scene.robot, {body}, scene.obstacle, state.pose, of_bodies).sum();
+  });
 }
 
 double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& state,
@@ -116,9 +137,27 @@ double unlikelyUpper(const ObstacleAmongBodies& scene, const ObstacleState& stat
   return std::min(1.0, sumAbove(bounds.sum(), far));
 }
 
-double mostFarOf(const ProbabilityRequest& request) {
+double mostFarOf(const ProbabilityRequest& request, double least) {
   return asksForDecision(request) ? kFarOfDecision * *request.threshold
-                                  : kShareOfFar * request.absolute_tolerance;
+                                  : kShareOfFar * request.toleranceAt(least);
+}
+
+ProbabilityResult besidesFar(
+    double far, const ProbabilityRequest& request,
+    const std::function<ProbabilityResult(const ProbabilityRequest&)>& ask) {
+  if (!(far > 0.0)) return ask(request);
+  // What is left out widens the interval, too.
+  ProbabilityRequest of_near = tellingOfAll(request, far);
+  of_near.absolute_tolerance *= 1.0 - kShareOfFar;
+  of_near.relative_tolerance *= 1.0 - kShareOfFar;
+  ProbabilityResult result = ask(of_near);
+  if (!result.upper) return result;
+  result.upper = std::min(1.0, sumAbove(*result.upper, far));
+  result.decision = decisionOf({result.lower.value_or(0.0), *result.upper}, request);
+  if (result.decision == Decision::undecided && result.status == ProbabilityStatus::decided) {
+    result.status = ProbabilityStatus::resolution_limit;
+  }
+  return result;
 }
 
 ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const ObstacleState& state,
@@ -130,21 +169,9 @@ ProbabilityResult placedProbability(const ObstacleAmongBodies& scene, const Obst
   left_out = {all - bodies.size(), far};
   if (bodies.empty()) return allFar(far, request);
   if (auto decided = decidedByBounds(scene, state, bodies, far, request)) return *decided;
-  // What is left out widens the interval, too.
-  ProbabilityRequest of_near = tellingOfAll(request, far);
-  if (far > 0.0) {
-    of_near.absolute_tolerance *= 1.0 - kShareOfFar;
-    of_near.relative_tolerance *= 1.0 - kShareOfFar;
-  }
-  ProbabilityResult result = ofGroup(scene, state, bodies, of_near);
-  if (far > 0.0 && result.upper) {
-    result.upper = std::min(1.0, sumAbove(*result.upper, far));
-    result.decision = decisionOf({result.lower.value_or(0.0), *result.upper}, request);
-    if (result.decision == Decision::undecided && result.status == ProbabilityStatus::decided) {
-      result.status = ProbabilityStatus::resolution_limit;
-    }
-  }
-  return result;
+  return besidesFar(far, request, [&](const ProbabilityRequest& of_near) {
+    return ofGroup(scene, state, bodies, of_near);
+  });
 }
 
 }  // namespace fcl_prob::detail

@@ -137,12 +137,15 @@ std::vector<std::vector<PlacedBody>> RobotAmongObstacles::relativeTo(
   std::vector<std::vector<PlacedBody>> relative;
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const auto offsets = offsetsSinceFirst(obstacles_[i], waypoints.size());
-    relative.emplace_back();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      for (PlacedBody one : placed(i, all[k])) {
-        if (body >= 0 && one.body != static_cast<std::size_t>(body)) continue;
+    std::vector<PlacedBody>& of_one = relative.emplace_back();
+    for (const std::size_t counted : bodies_of_[i]) {
+      if (body >= 0 && counted != static_cast<std::size_t>(body)) continue;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        PlacedBody one{counted, all[k][counted]};
         one.pose.translation() -= offsets[k];
-        relative.back().push_back(one);
+        const bool stays = !of_one.empty() && of_one.back().body == counted &&
+                           of_one.back().pose.matrix() == one.pose.matrix();
+        if (!stays) of_one.push_back(one);
       }
     }
   }

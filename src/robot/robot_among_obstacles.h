@@ -50,8 +50,8 @@ class RobotAmongObstacles {
                                  const std::vector<fcl::Transform3d>& poses) const;
 
   /// Errors that are the same all along: an obstacle that has shifted is where it was at first, and
-  /// the bodies have shifted the other way. By obstacle.
-  /// \param body  the only one that counts, or -1
+  /// the bodies have shifted the other way. By obstacle; of each, body by body along the motion,
+  /// and once where it stays. \param body  the only one that counts, or -1
   std::vector<std::vector<PlacedBody>> relativeTo(const std::vector<Eigen::VectorXd>& waypoints,
                                                   int body) const;
 

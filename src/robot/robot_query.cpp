@@ -18,28 +18,19 @@
 #include "robot/moving_obstacle.h"
 #include "robot/obstacle_answer.h"
 #include "robot/obstacle_gradient.h"
+#include "robot/obstacle_motion.h"
 #include "robot/placed_query.h"
 #include "robot/probable_answer.h"
 #include "robot/robot_among_obstacles.h"
 #include "robot/robot_notes.h"
 #include "robot/state_screen.h"
 #include "robot/state_with_errors.h"
-#include "robot/swept_motion.h"
 
 namespace fcl_prob {
 namespace {
 
 using detail::FarBodies;
 using detail::PlacedBody;
-
-// More bodies at waypoints than these are not taken together at once, but as what they sweep over
-// many waypoints first, so that there are bounds long before each of them has been looked at.
-constexpr std::size_t kMostTogether = 400;
-
-// What is between waypoints is asked for after the waypoints, to this tolerance and with this share
-// of the limits.
-constexpr double kToleranceOfWaypoints = 0.1;
-constexpr double kShareOfWaypoints = 0.125;
 
 // Fewer states are not worth finding out what bodies that stay in all of them may touch.
 constexpr Eigen::Index kManyStates = 4;
@@ -156,37 +147,6 @@ struct RobotQuery::Implementation {
                                      left_out);
   }
 
-  /// One obstacle, whose error is the same at all waypoints. \param body  < 0: all of them
-  ProbabilityResult askUnion(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
-                             int body, const std::vector<PlacedBody>& relative,
-                             const ProbabilityRequest& request, FarBodies& far) const {
-    if (relative.size() <= kMostTogether || request.method == ProbabilityMethod::estimate) {
-      return among.ask(index, relative, request, far);
-    }
-    detail::SweptAnswer answer = askSwept(
-        index, sweptPath(index, waypoints, body, BetweenWaypoints::ignored), {0.0, 1.0}, request);
-    far = {answer.far, answer.far_upper};
-    return std::move(answer.result);
-  }
-
-  detail::SweptPath sweptPath(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
-                              int body, BetweenWaypoints between) const {
-    std::vector<std::size_t> bodies;
-    for (const std::size_t i : among.bodiesOf(index)) {
-      if (body < 0 || i == static_cast<std::size_t>(body)) bodies.push_back(i);
-    }
-    return {among.robot(),     among.balls(),      waypoints,
-            std::move(bodies), obstacles()[index], between};
-  }
-
-  detail::SweptAnswer askSwept(std::size_t index, const detail::SweptPath& path,
-                               const Bounds& known, const ProbabilityRequest& request) const {
-    const ObstacleState state = detail::stateAt(obstacles()[index], 0);
-    return detail::sweptMotion(path, among.geometries(),
-                               {among.preparedObstacle(index), state.pose, state.displacement},
-                               detail::kShareOfFar * request.absolute_tolerance, known, request);
-  }
-
   RobotResult ofUnion(const std::vector<Eigen::VectorXd>& waypoints, int body,
                       const ProbabilityRequest& request) const {
     const auto relative = among.relativeTo(waypoints, body);
@@ -198,7 +158,8 @@ struct RobotQuery::Implementation {
     }
     RobotResult result = detail::anyOfAsked(
         std::move(known), request, [&](std::size_t i, const ProbabilityRequest& of_one) {
-          return askUnion(i, waypoints, body, relative[i], of_one, far[i]);
+          const detail::ObstacleMotion motion(among, i, waypoints, body, relative[i]);
+          return motion.atWaypoints(of_one, far[i]);
         });
     addUp(far, result);
     return result;
@@ -281,25 +242,6 @@ struct RobotQuery::Implementation {
     return result;
   }
 
-  /// What the waypoints say, soon: at any time P is at least that.
-  ProbabilityResult atWaypoints(std::size_t index, const std::vector<Eigen::VectorXd>& waypoints,
-                                const std::vector<PlacedBody>& relative,
-                                const detail::Budget& budget,
-                                const ProbabilityRequest& request) const {
-    ProbabilityRequest soon = request;
-    soon.threshold.reset();
-    soon.relative_tolerance = std::max(kToleranceOfWaypoints, request.relative_tolerance);
-    budget.share(1, soon, budget.left().part(1.0 - kShareOfWaypoints));
-    if (request.on_progress) {
-      soon.on_progress = [&request](ProbabilityProgress progress) {
-        progress.interval.upper = 1.0;
-        return request.on_progress(progress);
-      };
-    }
-    FarBodies far;
-    return askUnion(index, waypoints, -1, relative, soon, far);
-  }
-
   /// At any time: what the bodies sweep between the waypoints, too.
   RobotResult ofAllTimes(const std::vector<Eigen::VectorXd>& waypoints,
                          const ProbabilityRequest& request) const {
@@ -309,18 +251,18 @@ struct RobotQuery::Implementation {
     RobotResult result = detail::anyOfAsked(
         std::vector<Bounds>(obstacles().size(), Bounds{0.0, 1.0}), request,
         [&](std::size_t i, const ProbabilityRequest& of_one) {
+          const detail::ObstacleMotion motion(among, i, waypoints, -1, relative[i]);
           detail::Budget budget(of_one);
           ProbabilityStatistics statistics;
           if (!known[i]) {
-            const ProbabilityResult soon = atWaypoints(i, waypoints, relative[i], budget, of_one);
+            const ProbabilityResult soon = motion.soonAtWaypoints(budget, of_one);
             known[i] = {soon.lower.value_or(0.0), 1.0};
             statistics = soon.statistics;
             budget.spend(statistics);
           }
           ProbabilityRequest rest = of_one;
           budget.share(1, rest);
-          answers[i] =
-              askSwept(i, sweptPath(i, waypoints, -1, BetweenWaypoints::swept), *known[i], rest);
+          answers[i] = motion.atAllTimes(*known[i], rest);
           ProbabilityResult& answer = answers[i].result;
           known[i] = {*answer.lower, *answer.upper};
           detail::addStatistics(statistics, answer.statistics);

@@ -31,9 +31,6 @@ constexpr double kShareOfCells = 0.6;
 /// Steps are halved in microseconds; the clock is looked at once in so many.
 constexpr std::size_t kStepsBetweenLooks = 1024;
 
-/// Of the memory limit: what the trees of all steps may take.
-constexpr double kShareOfTrees = 0.5;
-
 /// The largest standard deviation.
 double deviationOf(const GaussianDisplacement& displacement) {
   return displacement.standardDeviations().maxCoeff();
@@ -94,8 +91,8 @@ class SweptMotion {
   /// Within its share of what may be left out.
   bool isFar(const SweptBody& step) const { return step.far_upper <= most_far_ * step.weight; }
 
-  double bytesOf(const SweptBody& step) const {
-    return static_cast<double>(memoryOf({step}, geometries_) + sizeof(SweptBody));
+  std::size_t bytesOf(const SweptBody& step) const {
+    return treeMemory(*geometries_[step.body]) + sizeof(SweptBody);
   }
 
   /// To the steps that are to be halved, the longest first, unless it is far.
@@ -120,7 +117,7 @@ class SweptMotion {
 
   /// Halves the longest steps. \return  false if memory is full before all are short enough
   bool halveTo(double distance) {
-    const double most = kShareOfTrees * static_cast<double>(request_.max_memory);
+    const std::size_t most = mostTreeMemory(request_);
     for (std::size_t i = 0; !near_.empty() && near_.front().sweep.reach > distance; ++i) {
       if (i % kStepsBetweenLooks == 0 && budget_.exhausted()) return false;
       if (bytes_ + bytesOf(near_.front()) > most) return false;
@@ -153,6 +150,7 @@ class SweptMotion {
     if (steps.empty()) return none;
     ProbabilityRequest of_round = request_;
     budget_.share(1, of_round);
+    of_round.max_memory -= std::min(bytes_, mostTreeMemory(request_));
     if (answer_.reach > 0.0) {
       of_round.relative_tolerance *= kShareOfCells;
       of_round.absolute_tolerance =
@@ -236,7 +234,7 @@ class SweptMotion {
   Bounds known_;
   std::vector<SweptBody> near_;      ///< a heap by reach
   std::vector<SweptBody> shortest_;  ///< as short as steps get
-  double bytes_ = 0.0;               ///< of the trees of all steps
+  std::size_t bytes_ = 0;            ///< of the trees of all steps
   std::size_t far_ = 0;
   double far_upper_ = 0.0;
   SweptAnswer answer_;

@@ -28,7 +28,8 @@ ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,
                                    const PlacedObstacle& obstacle,
                                    const ProbabilityRequest& request);
 
-/// Bytes that such a query takes before its first cell, roughly.
-std::size_t memoryOf(const std::vector<SweptBody>& bodies, const PreparedGeometries& geometries);
+/// Bytes that one body more takes before the first cell, roughly; and what all may take.
+std::size_t treeMemory(const PreparedGeometry& body);
+std::size_t mostTreeMemory(const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

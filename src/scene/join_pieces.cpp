@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "scene/joined_top.h"
 #include "scene/leaf_order.h"
 
 namespace fcl_prob::detail {
@@ -12,13 +13,13 @@ namespace {
 
 class TreeJoiner {
  public:
-  explicit TreeJoiner(const std::vector<const PieceTree*>& trees) : trees_(trees) {
+  TreeJoiner(const std::vector<const PieceTree*>& trees, const std::vector<fcl::Transform3d>& poses)
+      : trees_(trees), top_(trees, poses) {
     for (const PieceTree* tree : trees) triangles_ += static_cast<int>(tree->triangles.size());
   }
 
   PieceTree run() {
-    std::vector<int> roots = partRoots();
-    if (!roots.empty()) addUpperNodes(roots, 0, roots.size());
+    addTop();
     const bool capped = std::all_of(trees_.begin(), trees_.end(),
                                     [](const PieceTree* tree) { return tree->caps.has_value(); });
     if (capped) joined_.caps.emplace();
@@ -28,30 +29,21 @@ class TreeJoiner {
   }
 
  private:
-  // Where the roots of the trees will be, behind one node less than there are roots.
-  std::vector<int> partRoots() const {
-    std::vector<int> roots;
-    int next = -1;
-    for (const PieceTree* tree : trees_) next += tree->isEmpty() ? 0 : 1;
+  void addTop() {
+    std::vector<int> first;  // node of each tree
+    int next = static_cast<int>(top_.nodes().size());
     for (const PieceTree* tree : trees_) {
-      if (!tree->isEmpty()) roots.push_back(next);
+      first.push_back(next);
       next += static_cast<int>(tree->nodes.size());
     }
-    return roots;
-  }
-
-  // Halves of the list, since neighbours in it (the links of an arm) are mostly neighbours in
-  // space. A node comes before its children.
-  int addUpperNodes(const std::vector<int>& roots, std::size_t first, std::size_t last) {
-    if (last - first == 1) return roots[first];
-    const std::size_t middle = (first + last) / 2;
-    const std::size_t node = joined_.nodes.size();
-    joined_.nodes.emplace_back();
-    const int left = addUpperNodes(roots, first, middle);
-    const int right = addUpperNodes(roots, middle, last);
-    joined_.nodes[node].left = left;
-    joined_.nodes[node].right = right;
-    return static_cast<int>(node);
+    const auto indexOf = [&first](const JoinedTop::Place& place) {
+      return place.tree == JoinedTop::Place::kTop ? place.node : first[place.tree] + place.node;
+    };
+    for (const JoinedTop::Node& node : top_.nodes()) {
+      joined_.nodes.emplace_back();
+      joined_.nodes.back().left = indexOf(node.left);
+      joined_.nodes.back().right = indexOf(node.right);
+    }
   }
 
   void append(const PieceTree& tree) {
@@ -121,14 +113,16 @@ class TreeJoiner {
   }
 
   const std::vector<const PieceTree*>& trees_;
+  JoinedTop top_;
   int triangles_ = 0;  ///< of all trees
   PieceTree joined_;
 };
 
 }  // namespace
 
-std::shared_ptr<const PieceTree> joinPieceTrees(const std::vector<const PieceTree*>& trees) {
-  return std::make_shared<const PieceTree>(TreeJoiner(trees).run());
+std::shared_ptr<const PieceTree> joinPieceTrees(const std::vector<const PieceTree*>& trees,
+                                                const std::vector<fcl::Transform3d>& poses) {
+  return std::make_shared<const PieceTree>(TreeJoiner(trees, poses).run());
 }
 
 }  // namespace fcl_prob::detail

@@ -142,6 +142,9 @@ struct PieceTree {
 std::shared_ptr<const PieceTree> buildPieceTree(const fcl::CollisionGeometryd& geometry);
 
 /// One tree of many, part by part in their order.
-std::shared_ptr<const PieceTree> joinPieceTrees(const std::vector<const PieceTree*>& trees);
+/// \param poses  about where they are, in one frame, where the same trees in a row are to be
+///               interwoven (joined_top.h); nothing but the time that queries take depends on it
+std::shared_ptr<const PieceTree> joinPieceTrees(const std::vector<const PieceTree*>& trees,
+                                                const std::vector<fcl::Transform3d>& poses = {});
 
 }  // namespace fcl_prob::detail
