@@ -23,14 +23,14 @@ constexpr double kToleranceOfSome = 0.3;
 constexpr double kToleranceOfWaypoints = 0.1;
 
 // Of the limits: what a first question takes of them.
-constexpr double kShareOfFirst = 0.125;
+constexpr double kShareOfSoon = 0.125;
 
 // A question of which only the lower end counts, P being at least that.
 ProbabilityRequest soon(double tolerance, const Budget& budget, const ProbabilityRequest& request) {
   ProbabilityRequest soon = request;
   soon.threshold.reset();
   soon.relative_tolerance = std::max(tolerance, request.relative_tolerance);
-  budget.share(1, soon, budget.left().part(1.0 - kShareOfFirst));
+  budget.share(1, soon, budget.left().part(1.0 - kShareOfSoon));
   if (!request.on_progress) return soon;
   soon.on_progress = [told = request.on_progress](ProbabilityProgress progress) {
     progress.interval.upper = 1.0;
