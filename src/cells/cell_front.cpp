@@ -179,7 +179,7 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair n
   const Eigen::Vector3d& n = section.normal;
   const double rounding = 64 * kEpsilon * (kReach + std::fabs(section.outer));
   section.outer += pair_.band->outwardAlong(n, nodes) + rounding;
-  section.inner -= pair_.band->inwardAlong(n) + rounding;
+  section.inner -= pair_.band->insideAlong(n, nodes) + rounding;
   section.relation =
       n.dot(cell_.lowestCorner(n)) - rounding > section.outer     ? CellSection::Relation::outside
       : n.dot(cell_.lowestCorner(-n)) + rounding <= section.inner ? CellSection::Relation::inside
@@ -327,11 +327,13 @@ double CellFront::eccentricity(const NodeBox& box) const {
   return off;
 }
 
-// What a band adds to the box may collide, but does not for certain.
+// What a band adds to the box may collide, but does not for certain; what sweeps add counts.
 bool CellFront::largerThanCell(const FrontPair& pair, const NodeBox& box, double ratio) const {
   for (int k = 0; k < cell_.rank; ++k) {
     double own = box.hi[k] - box.lo[k];
-    if (pair_.band) own -= 2.0 * outwardOfBand(pair_, Eigen::Vector3d::Unit(k), pair.nodes);
+    if (pair_.band && !pair_.band->isOfSweeps()) {
+      own -= 2.0 * outwardOfBand(pair_, Eigen::Vector3d::Unit(k), pair.nodes);
+    }
     if (own < ratio * (cell_.hi[k] - cell_.lo[k])) return false;
   }
   return true;

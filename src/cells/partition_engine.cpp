@@ -27,18 +27,9 @@ bool isAllBand(const OpenCell& open, const BandMargin& band);
 constexpr double kSmallCell = 0.7;
 constexpr double kThinnestLayer = 1.2;
 
-double thicknessAlong(const Eigen::Vector3d& m, const OpenCell& open, const BandMargin& band) {
-  if (!band.isOfSweeps()) return band.thicknessAlong(m);
-  double most = 0.0;
-  for (const FrontPair& pair : open.front) {
-    if (!pair.isLayer()) most = std::max(most, band.outwardAlong(m, pair.nodes));
-  }
-  return most;
-}
-
 bool isSmallBeside(const BandMargin& band, const OpenCell& open) {
   for (int k = 0; k < open.cell.rank; ++k) {
-    const double thickness = thicknessAlong(Eigen::Vector3d::Unit(k), open, band);
+    const double thickness = band.thicknessAlong(Eigen::Vector3d::Unit(k));
     if (open.cell.hi[k] - open.cell.lo[k] > kSmallCell * thickness) return false;
   }
   return true;
@@ -47,7 +38,7 @@ bool isSmallBeside(const BandMargin& band, const OpenCell& open) {
 bool isThinLayerOf(const BandMargin& band, const OpenCell& open) {
   if (!open.planeCovers()) return false;
   const double layer = open.plane.s - open.possible_from;
-  return layer <= kThinnestLayer * thicknessAlong(open.plane.m, open, band);
+  return layer <= kThinnestLayer * band.thicknessAlong(open.plane.m);
 }
 
 bool isAllBand(const OpenCell& open, const BandMargin& band) {
@@ -69,9 +60,6 @@ constexpr double kDeviationShare = 0.6;
 constexpr std::size_t kFirstLook = 4000;
 constexpr double kStalled = 0.97;
 
-// Sweeps can be made shorter, which helps more than cells once they leave this share of the width.
-constexpr double kShareOfSweeps = 0.5;
-
 // As long as no more cells were examined and pairs tested than these, one cell is divided at a
 // time: a few milliseconds, for which threads are not worth waking.
 constexpr std::size_t kCellsOneByOne = 300;
@@ -91,7 +79,7 @@ PartitionEngine::PartitionEngine(const PartitionScene& scene, const ProbabilityR
       request_(request),
       statistics_(statistics),
       obstacles_(scene.pair),
-      band_(scene.pair.band),
+      band_(scene.pair.band && scene.pair.band->isOfSweeps() ? nullptr : scene.pair.band),
       next_look_(kFirstLook),
       queue_(request, budget, statistics, claim_observer ? 1 : request.threads, makeWorker()) {
   Division root;
@@ -211,7 +199,6 @@ std::optional<ProbabilityStatus> PartitionEngine::satisfied() {
 // Whether cells have no more to tell than what is asked for, or nearly nothing.
 bool PartitionEngine::isOpenByBand(const Bounds& now) const {
   if (queue_.empty() || stalled_) return true;
-  if (band_->isOfSweeps() && left_by_band_ > kShareOfSweeps * now.width()) return true;
   const double open = now.width() - left_by_band_;
   if (asksForDecision(request_)) return !mayBeDecided(now, open, request_);
   return open <= request_.toleranceAt(now.upper);

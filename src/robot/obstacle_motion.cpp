@@ -121,9 +121,7 @@ SweptAnswer ObstacleMotion::swept(BetweenWaypoints between, const Bounds& known,
   const Obstacle& obstacle = among_.obstacles()[obstacle_];
   const SweptPath path(among_.robot(), among_.balls(), waypoints_, std::move(bodies), obstacle,
                        between);
-  const ObstacleState state = stateAt(obstacle, 0);
-  return sweptMotion(path, among_.geometries(),
-                     {among_.preparedObstacle(obstacle_), state.pose, state.displacement},
+  return sweptMotion(path, among_.sceneOf(obstacle_), stateAt(obstacle, 0),
                      mostFarOf(request, known.lower), known, request);
 }
 

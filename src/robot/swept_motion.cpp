@@ -25,8 +25,9 @@ constexpr double kLeastShrunk = 0.5;
 constexpr double kCoarse = 0.1;
 constexpr double kShareOfNext = 0.3;
 
-/// Of the tolerance: what the cells may leave open, the rest being that of the steps.
-constexpr double kShareOfCells = 0.6;
+/// Of the tolerance: what the cells of each of the two questions may leave open, the rest being
+/// that of the steps.
+constexpr double kShareOfCells = 0.3;
 
 /// Steps are halved in microseconds; the clock is looked at once in so many.
 constexpr std::size_t kStepsBetweenLooks = 1024;
@@ -50,13 +51,12 @@ double deviationOf(const GaussianMixture& displacement) {
 
 class SweptMotion {
  public:
-  SweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
-              const PlacedObstacle& obstacle, double most_far, const Bounds& known,
-              const ProbabilityRequest& request)
+  SweptMotion(const SweptPath& path, const ObstacleAmongBodies& scene, const ObstacleState& state,
+              double most_far, const Bounds& known, const ProbabilityRequest& request)
       : path_(path),
-        geometries_(geometries),
-        obstacle_(obstacle),
-        around_obstacle_(obstacle.prepared.around().placed(obstacle.pose)),
+        scene_(scene),
+        state_(state),
+        around_obstacle_(scene.obstacle.around().placed(state.pose)),
         most_far_(most_far),
         request_(request),
         budget_(request),
@@ -70,12 +70,15 @@ class SweptMotion {
     for (int round = 0; round < kMostRounds; ++round) {
       const bool has_room = halveTo(distance);
       if (const auto status = budget_.exhausted()) return finished(*status);
-      const ProbabilityResult answer = ask();
-      keep(answer);
-      if (const auto status = isEnough()) return finished(*status);
-      if (stops(answer.status)) return finished(answer.status);
-      if (const auto status = budget_.exhausted()) return finished(*status);
-      if (!(answer_.reach > 0.0)) return finished(ofAllSteps(answer.status));
+      const std::vector<SweptBody> steps = takeSteps();
+      ProbabilityStatus status = askSweeps(steps);
+      if (isEnough()) return finished(*isEnough());
+      const ProbabilityStatus of_middles = askMiddles(steps);
+      if (!stops(status)) status = of_middles;
+      if (isEnough()) return finished(*isEnough());
+      if (stops(status)) return finished(status);
+      if (const auto limit = budget_.exhausted()) return finished(*limit);
+      if (!(answer_.reach > 0.0)) return finished(ofAllSteps(status));
       if (!has_room) return finished(ProbabilityStatus::memory_limit);
       if (answer_.reach > distance) break;
       distance = answer_.reach * shrunk();
@@ -92,12 +95,12 @@ class SweptMotion {
   bool isFar(const SweptBody& step) const { return step.far_upper <= most_far_ * step.weight; }
 
   std::size_t bytesOf(const SweptBody& step) const {
-    return treeMemory(*geometries_[step.body]) + sizeof(SweptBody);
+    return treeMemory(*scene_.robot.geometries[step.body]) + sizeof(SweptBody);
   }
 
   /// To the steps that are to be halved, the longest first, unless it is far.
   void add(SweptBody step) {
-    step.far_upper = farContactUpper(step.sweep.around, around_obstacle_, obstacle_.displacement);
+    step.far_upper = farContactUpper(step.sweep.around, around_obstacle_, state_.displacement);
     if (isFar(step)) {
       far_ += path_.statesIn(step);
       far_upper_ = sumAbove(far_upper_, step.far_upper);
@@ -110,7 +113,7 @@ class SweptMotion {
 
   double firstDistance() const {
     const double deviation =
-        std::visit([](const auto& one) { return deviationOf(one); }, obstacle_.displacement);
+        std::visit([](const auto& one) { return deviationOf(one); }, state_.displacement);
     if (deviation > 0.0) return deviation;
     return near_.empty() ? 0.0 : kLeastShrunk * near_.front().sweep.reach;
   }
@@ -135,69 +138,95 @@ class SweptMotion {
     return true;
   }
 
-  ProbabilityResult ask() {
+  /// All that are not far, body by body along the motion.
+  std::vector<SweptBody> takeSteps() {
     std::vector<SweptBody> steps = shortest_;
     steps.insert(steps.end(), near_.begin(), near_.end());
+    std::sort(steps.begin(), steps.end(), [](const SweptBody& x, const SweptBody& y) {
+      return std::make_pair(x.body, x.first) < std::make_pair(y.body, y.first);
+    });
     answer_.steps = steps.size();
     answer_.reach = 0.0;
     for (const SweptBody& step : steps) answer_.reach = std::max(answer_.reach, step.sweep.reach);
     answer_.far = far_;
     answer_.far_upper = far_upper_;
-    ProbabilityResult none;
-    none.lower = 0.0;
-    none.upper = 0.0;
-    none.status = ProbabilityStatus::exact;
-    if (steps.empty()) return none;
-    ProbabilityRequest of_round = request_;
-    budget_.share(1, of_round);
-    of_round.max_memory -= std::min(bytes_, mostTreeMemory(request_));
-    if (answer_.reach > 0.0) {
-      of_round.relative_tolerance *= kShareOfCells;
-      of_round.absolute_tolerance =
-          std::max(kShareOfCells * request_.absolute_tolerance, expected_);
-      if (request_.threshold) of_round.relative_tolerance = 0.0;
-      if (!asked_) of_round.relative_tolerance = std::max(of_round.relative_tolerance, kCoarse);
-      // Steps that are too long may not tell it, however long they are asked.
-      of_round.threshold.reset();
-    }
-    watch(of_round);
-    return sweptProbability(steps, geometries_, obstacle_, of_round);
+    return steps;
   }
 
-  /// Ends a round that has decided the threshold, and makes its progress that of the motion.
-  void watch(ProbabilityRequest& of_round) const {
+  /// What bounds P from above; nothing where no step is longer than a point.
+  ProbabilityStatus askSweeps(const std::vector<SweptBody>& steps) {
+    if (!(answer_.reach > 0.0)) return ProbabilityStatus::converged;
+    ProbabilityRequest of_round = requestOfRound(2);
+    watch(of_round, [this](const Bounds& of_near) { return Bounds{0.0, withFar(of_near.upper)}; });
+    const PlacedObstacle obstacle{scene_.obstacle, state_.pose, state_.displacement};
+    const ProbabilityResult answer =
+        sweptProbability(steps, scene_.robot.geometries, obstacle, of_round);
+    keep(answer, {0.0, withFar(answer.upper.value_or(1.0))});
+    return answer.status;
+  }
+
+  /// What bounds P from below, or tells it, where no step is longer than a point.
+  ProbabilityStatus askMiddles(const std::vector<SweptBody>& steps) {
+    std::vector<PlacedBody> bodies;
+    for (const SweptBody& step : steps) bodies.push_back({step.body, step.sweep.middle});
+    const bool is_all = !(answer_.reach > 0.0);
+    const auto boundsOf = [this, is_all](const Bounds& of_near) {
+      return Bounds{of_near.lower, is_all ? withFar(of_near.upper) : 1.0};
+    };
+    ProbabilityRequest of_round = requestOfRound(1);
+    watch(of_round, boundsOf);
+    FarBodies left_out;
+    const ProbabilityResult answer =
+        placedProbability(scene_, state_, std::move(bodies), of_round, left_out);
+    keep(answer, boundsOf({answer.lower.value_or(0.0), answer.upper.value_or(1.0)}));
+    return answer.status;
+  }
+
+  /// \param parts  questions of the round that are left
+  ProbabilityRequest requestOfRound(std::size_t parts) const {
+    ProbabilityRequest of_round = request_;
+    budget_.share(parts, of_round);
+    of_round.max_memory -= std::min(bytes_, mostTreeMemory(request_));
+    if (!(answer_.reach > 0.0)) return of_round;
+    // Steps that are too long may not tell it, however long they are asked.
+    of_round.threshold.reset();
+    of_round.relative_tolerance *= kShareOfCells;
+    of_round.absolute_tolerance = std::max(kShareOfCells * request_.absolute_tolerance, expected_);
+    if (request_.threshold) of_round.relative_tolerance = 0.0;
+    if (is_first_) of_round.relative_tolerance = std::max(of_round.relative_tolerance, kCoarse);
+    return of_round;
+  }
+
+  /// Ends a question that has decided the threshold, and makes its progress that of the motion.
+  /// \param boundsOf  on P, of what is known of the question
+  template <typename BoundsOf>
+  void watch(ProbabilityRequest& of_round, const BoundsOf& boundsOf) const {
     if (!request_.on_progress && !request_.threshold) return;
-    of_round.on_progress = [this](ProbabilityProgress progress) {
-      const Bounds now = narrowed(progress.interval);
-      progress.interval = now;
+    of_round.on_progress = [this, boundsOf](ProbabilityProgress progress) {
+      progress.interval = agreed(known_, boundsOf(progress.interval));
       progress.seconds = budget_.seconds();
       if (request_.on_progress && !request_.on_progress(progress)) return false;
-      return !isDecided(decisionOf(now, request_));
+      return !isDecided(decisionOf(progress.interval, request_));
     };
   }
 
-  /// What is known, with what steps tell that are not far.
-  Bounds narrowed(const Bounds& of_near) const {
-    return agreed(known_, {of_near.lower, sumAbove(of_near.upper, far_upper_)});
-  }
+  double withFar(double upper) const { return std::min(1.0, sumAbove(upper, far_upper_)); }
 
   /// The best bounds of all rounds.
-  void keep(const ProbabilityResult& answer) {
+  void keep(const ProbabilityResult& answer, const Bounds& bounds) {
     budget_.spend(answer.statistics);
-    known_ = narrowed({answer.lower.value_or(0.0), answer.upper.value_or(1.0)});
+    known_ = agreed(known_, bounds);
     ProbabilityStatistics statistics = answer.statistics;
     addStatistics(answer_.result.statistics, statistics);
     answer_.result = answer;
     answer_.result.statistics = std::move(statistics);
-    asked_ = true;
   }
 
   std::optional<ProbabilityStatus> isEnough() const { return satisfied(known_, request_); }
 
   /// A limit that shorter steps do not move.
   static bool stops(ProbabilityStatus status) {
-    return !isAnswered(status) && status != ProbabilityStatus::band_limit &&
-           status != ProbabilityStatus::resolution_limit;
+    return !isAnswered(status) && status != ProbabilityStatus::resolution_limit;
   }
 
   /// What is decided without the steps that are far need not be so with them.
@@ -212,6 +241,7 @@ class SweptMotion {
     const double wanted = request_.toleranceAt(known_.upper);
     const double factor = std::clamp(0.7 * std::sqrt(wanted / width), kMostShrunk, kLeastShrunk);
     expected_ = kShareOfNext * factor * factor * width;
+    is_first_ = false;
     return factor;
   }
 
@@ -225,8 +255,8 @@ class SweptMotion {
   }
 
   const SweptPath& path_;
-  const PreparedGeometries& geometries_;
-  const PlacedObstacle& obstacle_;
+  const ObstacleAmongBodies& scene_;
+  const ObstacleState& state_;
   Ball around_obstacle_;
   double most_far_;
   const ProbabilityRequest& request_;
@@ -239,15 +269,15 @@ class SweptMotion {
   double far_upper_ = 0.0;
   SweptAnswer answer_;
   double expected_ = 0.0;  ///< a tolerance that the next round can use
-  bool asked_ = false;
+  bool is_first_ = true;   ///< round
 };
 
 }  // namespace
 
-SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
-                        const PlacedObstacle& obstacle, double most_far, const Bounds& known,
+SweptAnswer sweptMotion(const SweptPath& path, const ObstacleAmongBodies& scene,
+                        const ObstacleState& state, double most_far, const Bounds& known,
                         const ProbabilityRequest& request) {
-  return SweptMotion(path, geometries, obstacle, most_far, known, request).run();
+  return SweptMotion(path, scene, state, most_far, known, request).run();
 }
 
 }  // namespace fcl_prob::detail

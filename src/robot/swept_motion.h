@@ -3,6 +3,7 @@
 // The steps of a motion are halved until what they sweep says enough.
 #pragma once
 
+#include "robot/placed_query.h"
 #include "robot/swept_query.h"
 
 namespace fcl_prob::detail {
@@ -18,13 +19,15 @@ struct SweptAnswer {
 /// P(the motion, or one of its waypoints, touches one obstacle), whose error is the same all along.
 ///
 /// The steps of every body are halved until no point moves farther than some distance from the
-/// middle of its step, but for those that are too far from the obstacle to matter; one partition
-/// answers for all of them. Where the interval is too wide the distance is made smaller, as far as
-/// memory allows. Every answer holds, and so do the best bounds of all.
+/// middle of its step, but for those that are too far from the obstacle to matter. What they sweep
+/// bounds P from above, what is in their middles from below, one partition each. Where that is too
+/// wide the distance is made smaller, as far as memory allows. Every answer holds, and so do the
+/// best bounds of all.
+/// \param state     of the obstacle
 /// \param most_far  what may be left out
 /// \param known     what is certain before
-SweptAnswer sweptMotion(const SweptPath& path, const PreparedGeometries& geometries,
-                        const PlacedObstacle& obstacle, double most_far, const Bounds& known,
+SweptAnswer sweptMotion(const SweptPath& path, const ObstacleAmongBodies& scene,
+                        const ObstacleState& state, double most_far, const Bounds& known,
                         const ProbabilityRequest& request);
 
 }  // namespace fcl_prob::detail

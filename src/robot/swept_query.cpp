@@ -8,7 +8,6 @@
 #include "query/mixture_query.h"
 #include "query/partition.h"
 #include "query/plan_notes.h"
-#include "query/single_collide.h"
 #include "query/truncation.h"
 #include "robot/reversed.h"
 
@@ -27,53 +26,31 @@ class SweptBodies {
  public:
   SweptBodies(const std::vector<SweptBody>& bodies, const PreparedGeometries& geometries,
               const PlacedObstacle& obstacle, ContactMeaning contact)
-      : bodies_(bodies),
-        geometries_(geometries),
-        obstacle_(obstacle),
-        poses_(obstacle.prepared.poses(obstacle.pose)),
-        contact_(contact) {
+      : obstacle_(obstacle), poses_(obstacle.prepared.poses(obstacle.pose)), contact_(contact) {
     std::vector<const PieceTree*> trees;
+    std::vector<fcl::Transform3d> middles;
     for (const SweptBody& body : bodies) {
       const PreparedGeometry& geometry = *geometries[body.body];
       trees.push_back(&geometry.pieces());
+      middles.push_back(body.sweep.middle);
       const BodySweep& sweep = body.sweep;
       object_.parts.push_back(
           {sweep.middle, geometry.solid(contact), sweep.reach > 0.0 ? &sweep.motion : nullptr});
       reach_ = std::max(reach_, sweep.reach);
     }
-    tree_ = joinPieceTrees(trees);
+    tree_ = joinPieceTrees(trees, middles);
     object_.tree = tree_.get();
   }
 
   /// \param ball  null: the displacement is not truncated
   ProbabilityResult answer(const GaussianDisplacement& of_bodies, const ProbabilityRequest& request,
                            const BallTruncation* ball = nullptr) const {
-    ProbabilityResult result = inPartition(of_bodies, request, ball);
-    if (of_bodies.rank() > 0 || !(*result.lower < *result.upper)) return result;
-    // A partition of a single point may not tell what fcl::collide does.
-    const PreparedGeometries& others = obstacle_.prepared.geometries();
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      for (std::size_t j = 0; j < others.size(); ++j) {
-        ProbabilityResult one =
-            singleCollide(geometries_[bodies_[i].body]->geometry(), object_.parts[i].pose,
-                          others[j]->geometry(), poses_[j], of_bodies.mean(), request);
-        if (*one.lower > 0.0) return one;
-      }
-    }
-    return result;
-  }
-
- private:
-  ProbabilityResult inPartition(const GaussianDisplacement& of_bodies,
-                                const ProbabilityRequest& request,
-                                const BallTruncation* ball) const {
     PlacedGroup obstacle(obstacle_.prepared.group(), poses_, contact_);
     obstacle.boundBy(object_, of_bodies, reach_);
     return partitionProbability(object_, obstacle.object(), of_bodies, request, ball);
   }
 
-  const std::vector<SweptBody>& bodies_;
-  const PreparedGeometries& geometries_;
+ private:
   const PlacedObstacle& obstacle_;
   std::vector<fcl::Transform3d> poses_;  ///< of its bodies
   ContactMeaning contact_;

@@ -18,9 +18,10 @@ struct PlacedObstacle {
   const Displacement& displacement;  ///< of the obstacle
 };
 
-/// P(any of the bodies touches the obstacle at any time of its step). `upper` is that of all times,
-/// `lower` that of the middles of the steps. Tolerance, threshold and limits as in every query;
-/// status `band_limit` where the steps are too long for the tolerance.
+/// What bounds P(any of the bodies touches the obstacle at any time of its step) from above: the
+/// lower end is that of all that steps may fill, and of P only where none has a reach. Tolerance,
+/// threshold and limits as in every query.
+/// \param bodies      those of one index in the order of time
 /// \param geometries  of the robot's bodies
 /// \throws UnsupportedGeometry, OpenMesh
 ProbabilityResult sweptProbability(const std::vector<SweptBody>& bodies,

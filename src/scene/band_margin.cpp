@@ -19,7 +19,7 @@ double BandMargin::outwardAlong(const Eigen::Vector3d& m, NodePair nodes) const 
 
 void BandMargin::widen(double* data, int count, NodePair leaves) const {
   widenSlabs(data, count, [&](const Eigen::Vector3d& n) {
-    return SlabShift{outwardAlong(n, leaves), inwardAlong(n)};
+    return SlabShift{outwardAlong(n, leaves), insideAlong(n, leaves)};
   });
 }
 

@@ -15,8 +15,8 @@ namespace fcl_prob::detail {
 /// within V ⊕ ball(d_a + d_b), and it contains V ⊖ ball(d_a + d_b), whatever the movements: for y
 /// in the latter, v ↦ v - F(s(v)) maps that ball into itself, F being the displaced differences
 /// b - a - y and s a continuous choice of points of the two pieces whose difference is y + v
-/// (Brouwer). Both are exact along the normals of V's slabs. Sweeps are bands outwards whose width
-/// depends on the pair and on the direction.
+/// (Brouwer). Both are exact along the normals of V's slabs. Sweeps move the slabs outwards by what
+/// depends on the pair and on the direction; what lies within counts as V, which is larger then.
 class BandMargin {
  public:
   /// \param outward, inward  those of both shapes added up, metres
@@ -28,7 +28,7 @@ class BandMargin {
   BandMargin(const PartitionObject& a, const PartitionObject& b, const Eigen::Matrix3d& whitening)
       : outward_(0.0), inward_(0.0), metres_(whitening.transpose()), of_a_(a), of_b_(b) {}
 
-  /// Whether it is all of sweeps, which whoever asks can make shorter.
+  /// Whether it is all of sweeps: there is nothing between inside and outside then.
   bool isOfSweeps() const { return !of_a_.isEmpty() || !of_b_.isEmpty(); }
 
   /// By how much the C-obstacle of two nodes grows along a whitened direction (any length), rounded
@@ -38,10 +38,16 @@ class BandMargin {
   /// By how much it shrinks: sweeps do not make it smaller.
   double inwardAlong(const Eigen::Vector3d& m) const { return inward_ * lengthOf(m); }
 
+  /// How far the planes of what counts as inside are inwards of where two nodes have them: less
+  /// than nothing for sweeps.
+  double insideAlong(const Eigen::Vector3d& m, NodePair nodes) const {
+    return isOfSweeps() ? -outwardAlong(m, nodes) : inwardAlong(m);
+  }
+
   /// Moves the slabs of two leaves outwards, and adds to their margins what the inside shrinks by.
   void widen(double* data, int count, NodePair leaves) const;
 
-  /// Without sweeps: how thick what it leaves open is along a whitened direction.
+  /// How thick what it leaves open is along a whitened direction.
   double thicknessAlong(const Eigen::Vector3d& m) const {
     return (outward_ + inward_) * lengthOf(m);
   }

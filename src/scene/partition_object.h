@@ -21,9 +21,9 @@ struct PlacedPart {
   /// shape, whose C-obstacles are solid by themselves.
   const ClosedMesh* solid;
 
-  /// Where its points may be besides: what is free is so for all motions in the set, what collides
-  /// does so where the pose says. Null: nowhere else. No bands and no motion of the whole object
-  /// may then be asked for besides.
+  /// Where its points may be besides: what is free is so for all motions in the set. All that they
+  /// may fill counts as colliding, so that only the upper end of an interval is one of P. Null:
+  /// nowhere else. No bands and no motion of the whole object may then be asked for besides.
   const PointMotion* sweep = nullptr;
 };
 
