@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "base/decision.h"
@@ -73,8 +74,8 @@ class SweptMotion {
       const std::vector<SweptBody> steps = takeSteps();
       ProbabilityStatus status = askSweeps(steps);
       if (isEnough()) return finished(*isEnough());
-      const ProbabilityStatus of_middles = askMiddles(steps);
-      if (!stops(status)) status = of_middles;
+      const ProbabilityStatus of_ends = askEnds(steps);
+      if (!stops(status)) status = of_ends;
       if (isEnough()) return finished(*isEnough());
       if (stops(status)) return finished(status);
       if (const auto limit = budget_.exhausted()) return finished(*limit);
@@ -165,10 +166,21 @@ class SweptMotion {
     return answer.status;
   }
 
+  /// Where bodies are at the ends of their steps, of which most begin where others end.
+  std::vector<PlacedBody> endsOf(const std::vector<SweptBody>& steps) const {
+    std::vector<PlacedBody> ends;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const auto& [body, first, last] = std::tie(steps[i].body, steps[i].first, steps[i].last);
+      ends.push_back(path_.at(body, first));
+      const bool goes_on =
+          i + 1 < steps.size() && steps[i + 1].body == body && steps[i + 1].first <= last + 1.0;
+      if (!goes_on && last > first) ends.push_back(path_.at(body, last));
+    }
+    return ends;
+  }
+
   /// What bounds P from below, or tells it, where no step is longer than a point.
-  ProbabilityStatus askMiddles(const std::vector<SweptBody>& steps) {
-    std::vector<PlacedBody> bodies;
-    for (const SweptBody& step : steps) bodies.push_back({step.body, step.sweep.middle});
+  ProbabilityStatus askEnds(const std::vector<SweptBody>& steps) {
     const bool is_all = !(answer_.reach > 0.0);
     const auto boundsOf = [this, is_all](const Bounds& of_near) {
       return Bounds{of_near.lower, is_all ? withFar(of_near.upper) : 1.0};
@@ -177,7 +189,7 @@ class SweptMotion {
     watch(of_round, boundsOf);
     FarBodies left_out;
     const ProbabilityResult answer =
-        placedProbability(scene_, state_, std::move(bodies), of_round, left_out);
+        placedProbability(scene_, state_, endsOf(steps), of_round, left_out);
     keep(answer, boundsOf({answer.lower.value_or(0.0), answer.upper.value_or(1.0)}));
     return answer.status;
   }

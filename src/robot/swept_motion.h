@@ -20,12 +20,10 @@ struct SweptAnswer {
 ///
 /// The steps of every body are halved until no point moves farther than some distance from the
 /// middle of its step, but for those that are too far from the obstacle to matter. What they sweep
-/// bounds P from above, what is in their middles from below, one partition each. Where that is too
-/// wide the distance is made smaller, as far as memory allows. Every answer holds, and so do the
-/// best bounds of all.
-/// \param state     of the obstacle
-/// \param most_far  what may be left out
-/// \param known     what is certain before
+/// bounds P from above, where the bodies are at their ends from below, one partition each. Where
+/// that is too wide the distance is made smaller, as far as memory allows. Every answer holds, and
+/// so do the best bounds of all. \param state     of the obstacle \param most_far  what may be left
+/// out \param known     what is certain before
 SweptAnswer sweptMotion(const SweptPath& path, const ObstacleAmongBodies& scene,
                         const ObstacleState& state, double most_far, const Bounds& known,
                         const ProbabilityRequest& request);

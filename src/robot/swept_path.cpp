@@ -62,7 +62,7 @@ SweptBody SweptPath::between(std::size_t body, double first, double last) const 
                  waypoints_[from].cwiseAbs(), Eigen::VectorXd::Zero(waypoints_[from].size())};
   ObstacleShift obstacle{offsets_[from], Eigen::Vector3d::Zero(), 0.0,
                          obstacle_size_ + offsets_[from].norm()};
-  if (last > first) {
+  if (from + 1 < waypoints_.size()) {
     const double middle = 0.5 * (first + last) - static_cast<double>(from);
     const double half = 0.5 * (last - first);
     const Eigen::VectorXd change = waypoints_[from + 1] - waypoints_[from];
@@ -78,6 +78,10 @@ SweptBody SweptPath::between(std::size_t body, double first, double last) const 
   BodySweep sweep = sweepOf(robot_, body, pose, balls_[body], step);
   makeRelative(obstacle, sweep);
   return {body, first, last, std::move(sweep), 0.0, 1.0};
+}
+
+PlacedBody SweptPath::at(std::size_t body, double time) const {
+  return {body, between(body, time, time).sweep.middle};
 }
 
 /// Over many waypoints: along the line between the first and the last, and off it by what they are.

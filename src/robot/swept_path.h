@@ -46,6 +46,9 @@ class SweptPath {
   /// Two steps in place of one; nothing if they would be no shorter but for rounding.
   std::vector<SweptBody> halvesOf(const SweptBody& step) const;
 
+  /// Where a body is at some time.
+  PlacedBody at(std::size_t body, double time) const;
+
   /// Waypoints in a step, where nothing else counts; else 1.
   std::size_t statesIn(const SweptBody& step) const;
 
