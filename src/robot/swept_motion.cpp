@@ -181,15 +181,17 @@ class SweptMotion {
 
   /// What bounds P from below, or tells it, where no step is longer than a point.
   ProbabilityStatus askEnds(const std::vector<SweptBody>& steps) {
+    std::vector<PlacedBody> ends = endsOf(steps);
+    const double far = leaveOutUnlikely(scene_, state_, most_far_, ends);
     const bool is_all = !(answer_.reach > 0.0);
-    const auto boundsOf = [this, is_all](const Bounds& of_near) {
-      return Bounds{of_near.lower, is_all ? withFar(of_near.upper) : 1.0};
+    const auto boundsOf = [this, is_all, far](const Bounds& of_near) {
+      return Bounds{of_near.lower, is_all ? withFar(sumAbove(of_near.upper, far)) : 1.0};
     };
     ProbabilityRequest of_round = requestOfRound(1);
     watch(of_round, boundsOf);
     FarBodies left_out;
     const ProbabilityResult answer =
-        placedProbability(scene_, state_, endsOf(steps), of_round, left_out);
+        placedProbability(scene_, state_, std::move(ends), of_round, left_out);
     keep(answer, boundsOf({answer.lower.value_or(0.0), answer.upper.value_or(1.0)}));
     return answer.status;
   }

@@ -8,6 +8,7 @@
 
 #include "robot/body_sweep.h"
 #include "robot/moving_obstacle.h"
+#include "robot/prepared_robot.h"
 
 namespace fcl_prob::detail {
 
