@@ -38,6 +38,11 @@ constexpr int kClipRounds = 2;
 // The planes of a curved obstacle closer than this count as one.
 constexpr double kThinLayer = 1e-11;
 
+// A cell beyond a curved obstacle counts as filled by its sweep, up to the sweep's plane, where it
+// is no larger than this share of how far the sweep goes: what of it is not filled is of the order
+// of the way squared. Smaller ones only took longer.
+constexpr double kSmallBesideSweep = 0.7;
+
 // Depth of a plane that covers nothing of the cell.
 constexpr double kDeepest = 0.9999;
 
@@ -178,8 +183,14 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair n
   if (section.normal.isZero(0.0)) return section;
   const Eigen::Vector3d& n = section.normal;
   const double rounding = 64 * kEpsilon * (kReach + std::fabs(section.outer));
-  section.outer += pair_.band->outwardAlong(n, nodes) + rounding;
+  const double outward = pair_.band->outwardAlong(n, nodes);
+  const bool is_beyond = section.inner < n.dot(cell_.lowestCorner(n));
+  section.outer += outward + rounding;
   section.inner -= pair_.band->insideAlong(n, nodes) + rounding;
+  if (is_beyond && pair_.band->isOfSweeps() &&
+      cell_.largestWidth() <= kSmallBesideSweep * outward) {
+    section.inner = section.outer;
+  }
   section.relation =
       n.dot(cell_.lowestCorner(n)) - rounding > section.outer     ? CellSection::Relation::outside
       : n.dot(cell_.lowestCorner(-n)) + rounding <= section.inner ? CellSection::Relation::inside
