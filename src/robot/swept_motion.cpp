@@ -201,7 +201,12 @@ class SweptMotion {
     ProbabilityRequest of_round = request_;
     budget_.share(parts, of_round);
     of_round.max_memory -= std::min(bytes_, mostTreeMemory(request_));
-    if (!(answer_.reach > 0.0)) return of_round;
+    if (!(answer_.reach > 0.0)) {
+      // Steps and ends that are left out widen the interval, too.
+      of_round.absolute_tolerance *= 1.0 - 2.0 * kShareOfFar;
+      of_round.relative_tolerance *= 1.0 - 2.0 * kShareOfFar;
+      return of_round;
+    }
     // Steps that are too long may not tell it, however long they are asked.
     of_round.threshold.reset();
     of_round.relative_tolerance *= kShareOfCells;
