@@ -3,7 +3,9 @@
 // Motions of hundreds of waypoints, errors the same all along: taken together, or as what bodies
 // sweep where memory is short.
 #include "arm_motions.h"
+#include "robot/moving_obstacle.h"
 #include "robot/robot_among_obstacles.h"
+#include "robot/swept_motion.h"
 
 using namespace fcl_prob;
 using namespace fcl_prob_test;
@@ -12,6 +14,12 @@ namespace {
 
 constexpr int kDraws = 4'000;
 
+std::vector<Obstacle> aboveTheArm() {
+  std::vector<Obstacle> obstacles = ballAndBox();
+  obstacles[0].pose.translation().z() += 0.22;
+  return obstacles;
+}
+
 bool holds(const Bounds& bounds, double share) {
   const double error = 5.0 * std::sqrt(share * (1.0 - share) / kDraws) + 5.0 / kDraws;
   return bounds.lower <= share + error && bounds.upper >= share - error;
@@ -19,34 +27,44 @@ bool holds(const Bounds& bounds, double share) {
 
 }  // namespace
 
-TEST_CASE("hundreds of waypoints hold what is counted, with enough memory or not") {
-  const RobotQuery query(shippedArm(), ballAndBox());
+TEST_CASE("hundreds of waypoints hold what is counted, together or as what is swept") {
+  const RobotQuery query(shippedArm(), aboveTheArm());
   const auto waypoints = sweep(query.robot(), 150);
   const double share = counted(query, waypoints, kDraws, 3);
+  REQUIRE(share > 0.01);
+  REQUIRE(share < 0.9);
   const RobotResult together =
       query.motion(waypoints, ErrorsOverTime::persistent, withTolerance(0.05));
   CAPTURE(share, together.any.lower, together.any.upper, toString(together.status));
   CHECK(together.status == ProbabilityStatus::converged);
   CHECK(together.any.width() <= 0.05 * together.any.upper);
   CHECK(holds(together.any, share));
-  for (const std::size_t memory : {200'000, 1'000'000}) {
-    ProbabilityRequest request = withTolerance(0.05);
-    request.max_memory = memory;
-    const RobotResult little = query.motion(waypoints, ErrorsOverTime::persistent, request);
-    CAPTURE(memory, little.any.lower, little.any.upper, toString(little.status));
-    CHECK(overlap(little.any, together.any));
-    CHECK(holds(little.any, share));
-    CHECK(little.any.width() < 0.9);
+  const detail::RobotAmongObstacles among(query.robot(), aboveTheArm(), {}, nullptr);
+  const ProbabilityRequest request = withTolerance(0.05);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Obstacle& obstacle = among.obstacles()[i];
+    const detail::SweptPath path(among.robot(), among.balls(), waypoints, among.bodiesOf(i),
+                                 obstacle, BetweenWaypoints::ignored);
+    const ProbabilityResult swept =
+        detail::sweptMotion(path, among.sceneOf(i), detail::stateAt(obstacle, 0), 0.0, {0.0, 1.0},
+                            request)
+            .result;
+    const ProbabilityResult& part = together.parts[i];
+    CAPTURE(i, *swept.lower, *swept.upper, *part.lower, *part.upper, toString(swept.status));
+    CHECK(overlap({*swept.lower, *swept.upper}, {*part.lower, *part.upper}));
+    CHECK(swept.status == ProbabilityStatus::converged);
+    CHECK(*swept.upper - *swept.lower <= 0.05 * *swept.upper);
   }
 }
 
 TEST_CASE("a threshold for hundreds of waypoints is decided as their probability says") {
-  const RobotQuery query(shippedArm(), ballAndBox());
+  const RobotQuery query(shippedArm(), aboveTheArm());
   const auto waypoints = sweep(query.robot(), 150);
   const Bounds known = query.motion(waypoints, ErrorsOverTime::persistent, withTolerance(0.02)).any;
   for (const double factor : {0.5, 0.9, 1.1, 2.0}) {
     ProbabilityRequest request;
     request.threshold = factor * 0.5 * (known.lower + known.upper);
+    REQUIRE(*request.threshold < 1.0);
     const RobotResult result = query.motion(waypoints, ErrorsOverTime::persistent, request);
     CAPTURE(factor, known.lower, known.upper, result.any.lower, result.any.upper);
     CHECK(result.decision == (factor < 1.0 ? Decision::above : Decision::below));
