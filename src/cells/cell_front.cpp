@@ -38,11 +38,6 @@ constexpr int kClipRounds = 2;
 // The planes of a curved obstacle closer than this count as one.
 constexpr double kThinLayer = 1e-11;
 
-// A cell beyond a curved obstacle counts as filled by its sweep, up to the sweep's plane, where it
-// is no larger than this share of how far the sweep goes: what of it is not filled is of the order
-// of the way squared. Smaller ones only took longer.
-constexpr double kSmallBesideSweep = 0.7;
-
 // Depth of a plane that covers nothing of the cell.
 constexpr double kDeepest = 0.9999;
 
@@ -176,26 +171,39 @@ void CellFront::gatherSection(const FrontPair& pair) {
 // of a cell that is larger by the band all around is known to be V's.
 CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const {
   if (!pair_.band) return sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  if (pair_.band->isOfSweeps()) return sectionOfSweep(obstacle, nodes);
   Eigen::Vector3d grown;
   for (int k = 0; k < 3; ++k) grown[k] = pair_.band->inwardAlong(Eigen::Vector3d::Unit(k));
   const int rank = grown.isZero(0.0) ? cell_.rank : 3;
   CellSection section = sectionOf(obstacle, cell_.lo - grown, cell_.hi + grown, rank);
-  if (section.normal.isZero(0.0)) return section;
   const Eigen::Vector3d& n = section.normal;
+  moveSection(pair_.band->outwardAlong(n, nodes), -pair_.band->inwardAlong(n), section);
+  return section;
+}
+
+// Of V where it is moved farthest along the normal that it has without. (The lower end of what is
+// swept bounds nothing, so that this need not be a way that it goes.)
+CellSection CellFront::sectionOfSweep(const SupportObstacle& obstacle, NodePair nodes) const {
+  const CellSection still = sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  if (still.normal.isZero(0.0)) return still;
+  const Eigen::Vector3d way = pair_.band->wayAlong(still.normal, nodes);
+  CellSection section = sectionOf(obstacle, cell_.lo - way, cell_.hi - way, cell_.rank);
+  const Eigen::Vector3d& n = section.normal;
+  moveSection(pair_.band->outwardAlong(n, nodes), n.dot(way), section);
+  return section;
+}
+
+// Moves its planes outwards.
+void CellFront::moveSection(double outer, double inner, CellSection& section) const {
+  const Eigen::Vector3d& n = section.normal;
+  if (n.isZero(0.0)) return;
   const double rounding = 64 * kEpsilon * (kReach + std::fabs(section.outer));
-  const double outward = pair_.band->outwardAlong(n, nodes);
-  const bool is_beyond = section.inner < n.dot(cell_.lowestCorner(n));
-  section.outer += outward + rounding;
-  section.inner -= pair_.band->insideAlong(n, nodes) + rounding;
-  if (is_beyond && pair_.band->isOfSweeps() &&
-      cell_.largestWidth() <= kSmallBesideSweep * outward) {
-    section.inner = section.outer;
-  }
+  section.outer += outer + rounding;
+  section.inner = std::min(section.outer, section.inner + inner - rounding);
   section.relation =
       n.dot(cell_.lowestCorner(n)) - rounding > section.outer     ? CellSection::Relation::outside
       : n.dot(cell_.lowestCorner(-n)) + rounding <= section.inner ? CellSection::Relation::inside
                                                                   : CellSection::Relation::cut;
-  return section;
 }
 
 double CellFront::depthOf(const CellPlane& plane) const {

@@ -98,6 +98,8 @@ class CellFront {
   void gatherLeaf(const FrontPair& pair);
   void gatherSection(const FrontPair& pair);
   CellSection sectionOfPair(const SupportObstacle& obstacle, NodePair nodes) const;
+  CellSection sectionOfSweep(const SupportObstacle& obstacle, NodePair nodes) const;
+  void moveSection(double outer, double inner, CellSection& section) const;
   void setPlane(const CellCut& cut, CuttingPair& cutting) const;
   void coverAll(const FrontPair& by);
   void noteDepth(const CuttingPair& cutting);

@@ -9,6 +9,12 @@
 #include "scene/widen_slabs.h"
 
 namespace fcl_prob::detail {
+namespace {
+
+/// Of a direction's length, for a gradient that only steers.
+constexpr double kDifference = 1e-4;
+
+}  // namespace
 
 double BandMargin::outwardAlong(const Eigen::Vector3d& m, NodePair nodes) const {
   const double band = outward_ * lengthOf(m);
@@ -17,9 +23,22 @@ double BandMargin::outwardAlong(const Eigen::Vector3d& m, NodePair nodes) const 
   return (1.0 + 1e-12) * (band + of_a_.along(n, nodes.a) + of_b_.along(n, nodes.b));
 }
 
+// A support function has its farthest point for a gradient.
+Eigen::Vector3d BandMargin::wayAlong(const Eigen::Vector3d& m, NodePair nodes) const {
+  const double step = kDifference * m.norm();
+  Eigen::Vector3d way;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d aside = step * Eigen::Vector3d::Unit(k);
+    way[k] = (outwardAlong(m + aside, nodes) - outwardAlong(m - aside, nodes)) / (2.0 * step);
+  }
+  return way;
+}
+
 void BandMargin::widen(double* data, int count, NodePair leaves) const {
   widenSlabs(data, count, [&](const Eigen::Vector3d& n) {
-    return SlabShift{outwardAlong(n, leaves), insideAlong(n, leaves)};
+    // What sweeps may fill counts as V.
+    const double outward = outwardAlong(n, leaves);
+    return SlabShift{outward, isOfSweeps() ? -outward : inwardAlong(n)};
   });
 }
 

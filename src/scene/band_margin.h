@@ -38,11 +38,8 @@ class BandMargin {
   /// By how much it shrinks: sweeps do not make it smaller.
   double inwardAlong(const Eigen::Vector3d& m) const { return inward_ * lengthOf(m); }
 
-  /// How far the planes of what counts as inside are inwards of where two nodes have them: less
-  /// than nothing for sweeps.
-  double insideAlong(const Eigen::Vector3d& m, NodePair nodes) const {
-    return isOfSweeps() ? -outwardAlong(m, nodes) : inwardAlong(m);
-  }
+  /// A displacement that moves two nodes about as far along a whitened direction as any does.
+  Eigen::Vector3d wayAlong(const Eigen::Vector3d& m, NodePair nodes) const;
 
   /// Moves the slabs of two leaves outwards, and adds to their margins what the inside shrinks by.
   void widen(double* data, int count, NodePair leaves) const;
