@@ -38,6 +38,10 @@ constexpr int kClipRounds = 2;
 // The planes of a curved obstacle closer than this count as one.
 constexpr double kThinLayer = 1e-11;
 
+// A cell counts as filled by a sweep, up to its plane, where it is no larger than this share of how
+// far that goes: what of it is not filled is of the order of the way squared.
+constexpr double kSmallBesideSweep = 0.7;
+
 // Depth of a plane that covers nothing of the cell.
 constexpr double kDeepest = 0.9999;
 
@@ -189,7 +193,9 @@ CellSection CellFront::sectionOfSweep(const SupportObstacle& obstacle, NodePair 
   const Eigen::Vector3d way = pair_.band->wayAlong(still.normal, nodes);
   CellSection section = sectionOf(obstacle, cell_.lo - way, cell_.hi - way, cell_.rank);
   const Eigen::Vector3d& n = section.normal;
-  moveSection(pair_.band->outwardAlong(n, nodes), n.dot(way), section);
+  const double outward = pair_.band->outwardAlong(n, nodes);
+  const bool is_small = cell_.largestWidth() <= kSmallBesideSweep * outward;
+  moveSection(outward, is_small ? kInfinity : n.dot(way), section);
   return section;
 }
 
