@@ -9,6 +9,7 @@
 #include "base/budget.h"
 #include "base/ladder.h"
 #include "base/wings.h"
+#include "bounds/convex_bound.h"
 #include "fcl_prob/combined_bounds.h"
 #include "fcl_prob/parts_bounds.h"
 #include "query/partition.h"
@@ -19,6 +20,9 @@ namespace {
 
 /// Of the threshold: what may be left out of the sums that decide it.
 constexpr double kNegligible = 1e-6;
+
+/// Of the time limit, for a first sum of bounds that is seldom the answer.
+constexpr double kShareOfRootBounds = 0.1;
 
 constexpr const char* kCollided = "nothing is random, and cells cannot tell: as fcl::collide says";
 
@@ -47,6 +51,10 @@ class GroupsAnswer {
  private:
   bool isEstimate() const { return request_.method == ProbabilityMethod::estimate; }
 
+  // The sum over all pairs, of which each is bounded by its root volumes.
+  const char* whyNotFar() const;
+  Climbed sumRootBounds();
+
   // Sums and products of masses of pairs of convex members, which may decide a threshold.
   const char* whyNotByPairs() const;
   Climbed decideByPairs();
@@ -72,12 +80,49 @@ class GroupsAnswer {
 };
 
 const std::vector<Rung<GroupsAnswer>> GroupsAnswer::kLadder{
+    {"root volumes", [](const GroupsAnswer& q) { return q.whyNotFar(); },
+     &GroupsAnswer::sumRootBounds},
     {"pairs", [](const GroupsAnswer& q) { return q.whyNotByPairs(); },
      &GroupsAnswer::decideByPairs},
     {"partition", nullptr, &GroupsAnswer::divide, true},
     {"one fcl::collide", [](const GroupsAnswer& q) { return unless(q.isStillUnknown()); },
      &GroupsAnswer::collideAll, true},
 };
+
+const char* GroupsAnswer::whyNotFar() const {
+  if (isEstimate()) return "";
+  if (request_.gradient) return "a bound from above has no gradient";
+  if (request_.hasBand()) return "they are of shapes without bands";
+  return groups_.a.haveRootBodies() && groups_.b.haveRootBodies() ? nullptr
+                                                                  : "a member has no root volume";
+}
+
+Climbed GroupsAnswer::sumRootBounds() {
+  Budget limits(request_, kShareOfRootBounds);
+  // A larger sum ends no query.
+  const double useful = request_.threshold.value_or(request_.absolute_tolerance);
+  std::vector<Bounds> pairs;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < groups_.poses_a.size(); ++i) {
+    for (std::size_t j = 0; j < groups_.poses_b.size(); ++j) {
+      const double bound = convexPcd(groups_.a.members()[i]->rootBody(), groups_.poses_a[i],
+                                     groups_.b.members()[j]->rootBody(), groups_.poses_b[j],
+                                     displacement_, limits.interruption())
+                               .least;
+      sum += bound;
+      if (sum > useful) return {false, "the sum of their bounds decides nothing"};
+      if (limits.stopped()) return {false, "their share of the time was over"};
+      pairs.push_back({0.0, bound});
+    }
+  }
+  known_.narrow({0.0, anyOf(pairs).upper});
+  const auto status = known_.satisfied();
+  if (!status) return {false, "the sum of their bounds decides nothing"};
+  result_.method = ProbabilityMethod::interval;
+  known_.tell(result_);
+  result_.status = *status;
+  return {true, "far apart: stopped at the sum of the bounds of all pairs"};
+}
 
 // Convex members in one place, as the parts of a mesh are. Bounds of whole members are of contact,
 // not of contact within an ellipsoid.

@@ -62,6 +62,11 @@ class MemberGroup {
   bool isEmpty() const { return bounded_.empty() && unbounded_.empty(); }
   std::size_t leftOut() const { return members_.size() - bounded_.size() - unbounded_.size(); }
 
+  bool haveRootBodies() const {
+    return std::all_of(members_.begin(), members_.end(),
+                       [](const auto& member) { return member->hasRootBody(); });
+  }
+
   /// Of its members that are not left out.
   bool areConvex() const {
     return !anyUnbounded() && std::all_of(bounded_.begin(), bounded_.end(),
