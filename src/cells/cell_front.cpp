@@ -188,7 +188,7 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair n
 // Of V where it is moved farthest along the normal that it has without. (The lower end of what is
 // swept bounds nothing, so that this need not be a way that it goes.)
 CellSection CellFront::sectionOfSweep(const SupportObstacle& obstacle, NodePair nodes) const {
-  const CellSection still = sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
+  CellSection still = sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
   if (still.normal.isZero(0.0)) return still;
   const Eigen::Vector3d way = pair_.band->wayAlong(still.normal, nodes);
   CellSection section = sectionOf(obstacle, cell_.lo - way, cell_.hi - way, cell_.rank);
