@@ -185,12 +185,14 @@ CellSection CellFront::sectionOfPair(const SupportObstacle& obstacle, NodePair n
   return section;
 }
 
-// Of V where it is moved farthest along the normal that it has without. (The lower end of what is
-// swept bounds nothing, so that this need not be a way that it goes.)
+// V is moved as far as it goes along the normal that it has at rest, and its section taken there.
+// The upper plane is that of all ways. The lower one need not be that of a way that V goes: of what
+// is swept only the upper end of the interval counts.
 CellSection CellFront::sectionOfSweep(const SupportObstacle& obstacle, NodePair nodes) const {
   CellSection still = sectionOf(obstacle, cell_.lo, cell_.hi, cell_.rank);
   if (still.normal.isZero(0.0)) return still;
-  const Eigen::Vector3d way = pair_.band->wayAlong(still.normal, nodes);
+  Eigen::Vector3d way = pair_.band->wayAlong(still.normal, nodes);
+  way.tail(3 - cell_.rank).setZero();
   CellSection section = sectionOf(obstacle, cell_.lo - way, cell_.hi - way, cell_.rank);
   const Eigen::Vector3d& n = section.normal;
   const double outward = pair_.band->outwardAlong(n, nodes);
