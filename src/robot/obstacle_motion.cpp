@@ -46,14 +46,10 @@ ProbabilityResult ObstacleMotion::atWaypoints(const ProbabilityRequest& request,
   if (placed_.size() <= kMany || request.method == ProbabilityMethod::estimate) {
     return among_.ask(obstacle_, placed_, request, left_out);
   }
+  // Mostly by steps that are long.
+  if (asksForDecision(request)) return sweptWaypoints({0.0, 1.0}, request, left_out);
   Budget budget(request);
-  ProbabilityResult some = atSome(budget, request);
-  if (some.lower && isDecided(decisionOf({*some.lower, 1.0}, request))) {
-    some.upper = 1.0;
-    some.decision = decisionOf({*some.lower, 1.0}, request);
-    some.status = ProbabilityStatus::decided;
-    return some;
-  }
+  const ProbabilityResult some = atSome(budget, request);
   budget.spend(some.statistics);
   ProbabilityRequest rest = request;
   budget.share(1, rest);
@@ -91,11 +87,7 @@ ProbabilityResult ObstacleMotion::ofMany(const ProbabilityRequest& request, doub
       leaveOutUnlikely(among_.sceneOf(obstacle_), stateAt(among_.obstacles()[obstacle_], 0),
                        mostFarOf(request, least), bodies);
   const std::size_t memory = memoryOf(bodies);
-  if (memory > mostTreeMemory(request)) {
-    SweptAnswer answer = swept(BetweenWaypoints::ignored, {least, 1.0}, request);
-    left_out = {answer.far, answer.far_upper};
-    return std::move(answer.result);
-  }
+  if (memory > mostTreeMemory(request)) return sweptWaypoints({least, 1.0}, request, left_out);
   ProbabilityResult result = besidesFar(far, request, [&](const ProbabilityRequest& of_near) {
     ProbabilityRequest besides_trees = of_near;
     besides_trees.max_memory -= memory;
@@ -105,6 +97,14 @@ ProbabilityResult ObstacleMotion::ofMany(const ProbabilityRequest& request, doub
   left_out.count += placed_.size() - bodies.size();
   left_out.upper += far;
   return result;
+}
+
+ProbabilityResult ObstacleMotion::sweptWaypoints(const Bounds& known,
+                                                 const ProbabilityRequest& request,
+                                                 FarBodies& left_out) const {
+  SweptAnswer answer = swept(BetweenWaypoints::ignored, known, request);
+  left_out = {answer.far, answer.far_upper};
+  return std::move(answer.result);
 }
 
 SweptAnswer ObstacleMotion::atAllTimes(const Bounds& known,

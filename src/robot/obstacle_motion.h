@@ -22,8 +22,8 @@ class ObstacleMotion {
       : among_(among), obstacle_(obstacle), waypoints_(waypoints), body_(body), placed_(placed) {}
 
   /// At one of the waypoints. Of many bodies those that hardly matter beside the rest are left out;
-  /// the others are taken together, or, where memory does not allow that, as what they sweep over
-  /// many waypoints.
+  /// the others are taken together, or, for a decision and where memory does not allow that, as
+  /// what they sweep over many waypoints.
   ProbabilityResult atWaypoints(const ProbabilityRequest& request, FarBodies& left_out) const;
 
   /// The same to a tolerance that takes a small share of what the budget has left: P at any time is
@@ -38,6 +38,8 @@ class ObstacleMotion {
   std::size_t memoryOf(const std::vector<PlacedBody>& bodies) const;
   ProbabilityResult ofMany(const ProbabilityRequest& request, double least,
                            FarBodies& left_out) const;
+  ProbabilityResult sweptWaypoints(const Bounds& known, const ProbabilityRequest& request,
+                                   FarBodies& left_out) const;
   SweptAnswer swept(BetweenWaypoints between, const Bounds& known,
                     const ProbabilityRequest& request) const;
 
