@@ -54,7 +54,7 @@ ProbabilityResult ObstacleMotion::atWaypoints(const ProbabilityRequest& request,
   ProbabilityRequest rest = request;
   budget.share(1, rest);
   ProbabilityResult result = ofMany(rest, some.lower.value_or(0.0), left_out);
-  addStatistics(result.statistics, some.statistics);
+  addStatistics(some.statistics, result.statistics);
   return result;
 }
 
